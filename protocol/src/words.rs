@@ -283,6 +283,16 @@ macro_rules! text {
     };
 }
 
+/// A variant, if nothing comes with it.
+macro_rules! bare {
+    ($variant:path) => {
+        Some($variant)
+    };
+    ($($variant:tt)+) => {
+        None
+    };
+}
+
 /// Declares an enumeration of words. One with fields has a [kind](Event::kind): the same words without them.
 ///
 /// `in` says how JSON spells its names, where that is not as usual; attributes of the enumeration stand behind it.
@@ -379,6 +389,16 @@ macro_rules! words {
                     Self::$variant $(($(<$of>::SAMPLE),+))? $({ $($named: <$type>::SAMPLE),+ })?
                 ),+]
             };
+
+            /// This word where nothing comes with it: for interfaces of plain records.
+            #[must_use]
+            pub const fn bare(kind: $kind) -> Option<Self> {
+                match kind { $(
+                    $kind::$variant => $crate::words::bare!(
+                        Self::$variant $(, ($($of),+))? $(, { $($named),+ })?
+                    )
+                ),+ }
+            }
 
             /// The word, without what comes with it.
             #[must_use]
@@ -534,4 +554,4 @@ macro_rules! words {
     };
 }
 
-pub(crate) use {spelled, text, words};
+pub(crate) use {bare, spelled, text, words};

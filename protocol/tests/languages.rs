@@ -206,6 +206,15 @@ fn c_has_the_words() {
     let none = other("None", 0, "None is given.");
     write("Reason", about, vec![none], reasons.into_values().collect());
     assert_words("harness/c/src/codes.rs", "words", &text);
+    let plain = words("Event").words.iter();
+    let plain = plain.filter(|word| word.fields.is_empty()).map(|word| {
+        let (upper, meaning) = (upper(word.variant), word.meaning);
+        let event = format!("{{ return Event{{CROSSGUARD_EVENT_KIND_{upper}}}; }}");
+        let name = upper.to_lowercase();
+        format!("  /// {meaning}\n  static Event {name}() noexcept {event}\n")
+    });
+    let plain: String = plain.collect();
+    assert_words("harness/c/include/crossguard.hpp", "plain events", &plain);
 }
 
 /// Lines of at most 110 characters, behind this indentation.
@@ -323,10 +332,12 @@ fn python_has_the_words() {
         ),
         _ => class_of_python(word, ""),
     });
-    assert_python(
-        "outputs",
-        outputs.collect::<String>() + &union_of_python(words("Output")),
-    );
+    let acts = words("Output").words.iter().map(|word| word.variant);
+    let acts: Vec<_> = acts.filter(|it| !it.starts_with("Send")).collect();
+    let acts = format!("\n\nAct: TypeAlias = (\n    {}\n)\n", acts.join("\n    | "));
+    let about = "\"\"\"An output that is no message.\"\"\"\n";
+    let unions = union_of_python(words("Output")) + &acts + about;
+    assert_python("outputs", outputs.collect::<String>() + &unions);
     let types = ["State", "Role", "Urgency", "FallbackPolicy"];
     assert_python(
         "types",

@@ -370,15 +370,20 @@ public:
   static Event failed(const Maneuver &maneuver) noexcept {
     return of(CROSSGUARD_EVENT_KIND_MANEUVER_FAILED, maneuver);
   }
-  /// Only when the pedestrian has crossed and nobody is on the road.
+  // <plain events>
+  /// The pedestrian has crossed and nobody is on the road; the session may end. It takes the guards off the road.
   static Event task_completed() noexcept { return Event{CROSSGUARD_EVENT_KIND_TASK_COMPLETED}; }
-  /// Only when nobody is on the road and the body has finished its fallback.
+  /// The people that this robot guarded are off the road, and its body has finished its fallback. To be told only when both are so: it ends the robot's duty.
   static Event road_clear() noexcept { return Event{CROSSGUARD_EVENT_KIND_ROAD_CLEAR}; }
-  /// No robot nearby is known that has not answered the request.
+  /// The requester knows of no robot nearby that has not answered its request.
   static Event all_answered() noexcept { return Event{CROSSGUARD_EVENT_KIND_ALL_ANSWERED}; }
-  static Event leave() noexcept { return Event{CROSSGUARD_EVENT_KIND_LEAVE_REQUESTED}; }
+  /// The robot wants to leave whatever session it is in.
+  static Event leave_requested() noexcept { return Event{CROSSGUARD_EVENT_KIND_LEAVE_REQUESTED}; }
+  /// The leader's application wants to let the pedestrian cross.
   static Event open_corridor() noexcept { return Event{CROSSGUARD_EVENT_KIND_OPEN_CORRIDOR}; }
+  /// The leader's application wants to hold the pedestrian back again.
   static Event close_corridor() noexcept { return Event{CROSSGUARD_EVENT_KIND_CLOSE_CORRIDOR}; }
+  // </plain events>
   static Event available(Unavailability unavailability = CROSSGUARD_UNAVAILABILITY_NONE) noexcept {
     Event event{CROSSGUARD_EVENT_KIND_AVAILABILITY_CHANGED};
     event.plain_.unavailability = static_cast<std::uint8_t>(unavailability);
@@ -433,7 +438,7 @@ public:
     }
     return *this;
   }
-  /// Says no farewell; for one, tell `Event::leave()` and wait until the robot is idle.
+  /// Says no farewell; for one, tell `Event::leave_requested()` and wait until the robot is idle.
   ~Robot() { crossguard_robot_finish(&plain_); }
 
   /// Tells that time has passed: before every other call, and no later than `next_due()`.

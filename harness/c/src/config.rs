@@ -214,21 +214,45 @@ impl CrossguardEvent {
             EventKind::InPosition => Event::InPosition(id),
             EventKind::ManeuverCompleted => Event::ManeuverCompleted(id),
             EventKind::ManeuverFailed => Event::ManeuverFailed(id),
-            EventKind::TaskCompleted => Event::TaskCompleted,
-            EventKind::RoadClear => Event::RoadClear,
-            EventKind::AllAnswered => Event::AllAnswered,
-            EventKind::LeaveRequested => Event::LeaveRequested,
             EventKind::AvailabilityChanged => {
                 Event::AvailabilityChanged(availability(self.unavailability)?)
             }
-            EventKind::OpenCorridor => Event::OpenCorridor,
-            EventKind::CloseCorridor => Event::CloseCorridor,
             EventKind::IdentityChanged => {
                 let next = self.session.number;
                 let next = (next > 0).then(|| UniqueNumber::from_u32(next));
                 Event::IdentityChanged(StationId(self.station), next)
             }
             EventKind::EpochRenewed => Event::EpochRenewed(self.boot),
+            kind => Event::bare(kind)?,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::abi::CrossguardSession;
+    use crate::output::OPEN;
+
+    #[test]
+    fn every_event_has_its_code() {
+        for kind in EventKind::ALL {
+            let plain = CrossguardEvent {
+                kind: kind.code(),
+                urgency: 0,
+                followers: 1,
+                task: 1,
+                tasks: 1,
+                request: 0,
+                unavailability: 0,
+                station: 2,
+                session: CrossguardSession::default(),
+                place: 0,
+                boot: 1,
+                reserved: [0; 6],
+                parameters: OPEN,
+            };
+            assert_eq!(plain.to_protocol().map(|event| event.kind()), Some(kind));
+        }
     }
 }

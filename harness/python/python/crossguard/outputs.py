@@ -126,6 +126,22 @@ Output: TypeAlias = (
 """One output of the transition function."""
 
 
+Act: TypeAlias = (
+    StartManeuver
+    | StopManeuver
+    | FallBack
+    | CorridorOpened
+    | CorridorExtended
+    | CorridorClosed
+    | LockIdentity
+    | UnlockIdentity
+    | RenewEpoch
+    | Notify
+    | Ignored
+)
+"""An output that is no message."""
+
+
 # </words>
 
 
@@ -194,20 +210,5 @@ class Dropped(Variant):
     """What exactly."""
 
 
-Effect: TypeAlias = (
-    Send
-    | StartManeuver
-    | StopManeuver
-    | FallBack
-    | CorridorOpened
-    | CorridorExtended
-    | CorridorClosed
-    | LockIdentity
-    | UnlockIdentity
-    | RenewEpoch
-    | Notify
-    | Ignored
-    | Heard
-    | Dropped
-)
+Effect: TypeAlias = Send | Act | Heard | Dropped
 """An output of an endpoint."""
