@@ -1,7 +1,7 @@
 //! Time to encode and decode typical and largest messages: by the core, by rasn alone, and as the
 //! endpoint does. The ratios of core and rasn are printed at the end.
 
-#[path = "../tests/support/samples.rs"]
+#[path = "../tests/it/support/samples.rs"]
 #[allow(
     dead_code,
     missing_docs,

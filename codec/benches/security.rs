@@ -3,10 +3,10 @@
 //! The sign and verify operations of the curve alone stand beside, by both libraries, so that the share of everything
 //! else can be seen.
 
-#[path = "../tests/security/forge.rs"]
+#[path = "../tests/it/security/forge.rs"]
 #[allow(dead_code, unreachable_pub, reason = "shared with the tests")]
 mod forge;
-#[path = "../tests/security/pki.rs"]
+#[path = "../tests/it/security/pki.rs"]
 #[allow(dead_code, unreachable_pub, reason = "shared with the tests")]
 mod pki;
 

@@ -9,6 +9,10 @@
 //! checked where it is [encoded](encode) or [decoded](decode), or converted to the type of the
 //! [core](crate::core), which is what the endpoint has. RAM, RMCM and the basic container convert
 //! both ways.
+//!
+//! Encodings are rasn's as it is: the decoder takes every encoding of a value, as stations on the road
+//! send them (a DEFAULT spelled out, padding that is not zero, extension additions of a newer sender),
+//! and the encoder makes the canonical one.
 
 mod conversion;
 #[rustfmt::skip]
@@ -22,9 +26,82 @@ mod conversion;
 mod generated;
 mod view;
 
-pub use crate::uper::{Decoded, decode, encode};
+use rasn::error::DecodeErrorKind as Kind;
+
+use crate::error::{DecodeError, EncodeError, FieldPath};
+
 pub use generated::{
     crossguard_cam as cam, crossguard_cdd as cdd, crossguard_cdd211 as cdd211,
     crossguard_common as common, crossguard_cpm as cpm, crossguard_denm as denm,
     crossguard_ram as ram, crossguard_rmcm as rmcm, crossguard_vam as vam,
 };
+
+/// A decoded value, and whether its encoding was the canonical one.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Decoded<T> {
+    /// The value.
+    pub value: T,
+    /// Whether it encodes to the octets again. It does not where a sender spells out a DEFAULT, or knows
+    /// extension additions that this crate does not.
+    pub is_canonical: bool,
+}
+
+/// The canonical encoding of `value`, padded to whole octets.
+///
+/// # Errors
+/// When a number or size is not one of its type.
+pub fn encode<T: rasn::Encode>(value: &T) -> Result<Vec<u8>, EncodeError> {
+    rasn::uper::encode(value).map_err(|error| EncodeError::Other(error.kind.to_string()))
+}
+
+/// The value that `octets` encode.
+///
+/// # Errors
+/// Why they encode none, and which field says so.
+pub fn decode<T>(octets: &[u8]) -> Result<Decoded<T>, DecodeError>
+where
+    T: rasn::Decode + rasn::Encode,
+{
+    let value = rasn::uper::decode(octets).map_err(|error| malformed(&error))?;
+    let is_canonical = encode(&value).is_ok_and(|again| again == octets);
+    Ok(Decoded {
+        value,
+        is_canonical,
+    })
+}
+
+/// What is wrong with the octets, and in which field.
+fn malformed(error: &rasn::error::DecodeError) -> DecodeError {
+    let (mut kind, mut names) = (&*error.kind, Vec::new());
+    loop {
+        kind = match kind {
+            Kind::FieldError { name, nested } => {
+                names.push(*name);
+                &*nested.kind
+            }
+            Kind::ChoiceIndexExceedsPlatformWidth { present, .. } => &*present.kind,
+            _ => break,
+        };
+    }
+    let field = FieldPath::named(names);
+    let cause = match kind {
+        Kind::UnexpectedExtraData { length } if field.names().next().is_none() => {
+            return DecodeError::TrailingOctets { count: *length };
+        }
+        Kind::Incomplete { .. } | Kind::Eof => "truncated",
+        Kind::ValueConstraintNotSatisfied { .. } | Kind::IntegerOverflow { .. } => {
+            "value out of range"
+        }
+        Kind::SizeConstraintNotSatisfied { .. } => "size out of range",
+        Kind::EnumerationIndexNotFound { .. } | Kind::ChoiceIndexNotFound { .. } => {
+            "unknown alternative"
+        }
+        _ => "malformed extension",
+    };
+    let detail = kind.to_string();
+    DecodeError::Foreign {
+        field,
+        cause,
+        detail,
+    }
+}

@@ -61,20 +61,17 @@ pub enum DecodeError {
         /// How many octets.
         count: usize,
     },
-    /// The octets decode to a value whose encoding is another: a component that equals its DEFAULT
-    /// is spelled out.
-    #[error("not the canonical encoding of its value, which differs from bit {bit} on")]
-    NotCanonical {
-        /// The first bit that differs, counted without unknown extension additions.
-        bit: usize,
+    /// A message of another station is wrong in one field, as rasn says.
+    #[cfg(feature = "foreign")]
+    #[error("{field}: {detail}")]
+    Foreign {
+        /// The field.
+        field: FieldPath,
+        /// The name of the cause, for counters.
+        cause: &'static str,
+        /// What is wrong with it.
+        detail: String,
     },
-    /// The message breaks a rule that its encoding does not show.
-    #[error(transparent)]
-    Rule(#[from] BrokenRule),
-    /// The core takes the message and the reference does not, which differential tests exclude. Only
-    /// a conversion between the two says so.
-    #[error("core and reference disagree on the message")]
-    Disagreement,
 }
 
 impl DecodeError {
@@ -87,9 +84,8 @@ impl DecodeError {
             Self::MessageId { .. } => "unknown messageId",
             Self::ProtocolVersion { .. } => "unknown protocolVersion",
             Self::TrailingOctets { .. } => "trailing octets",
-            Self::NotCanonical { .. } => "not canonical",
-            Self::Rule(_) => "broken rule",
-            Self::Disagreement => "other",
+            #[cfg(feature = "foreign")]
+            Self::Foreign { cause, .. } => cause,
             Self::Malformed { fault, .. } => match fault {
                 Fault::Truncated => "truncated",
                 Fault::Value { .. } => "value out of range",
@@ -116,69 +112,13 @@ impl DecodeError {
     }
 }
 
-/// A rule that holds for a message beyond what its encoding shows. Fields are in the spelling of
-/// ASN.1.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
-#[non_exhaustive]
-pub enum BrokenRule {
-    /// A list is too long.
-    #[error("{field} has {found} items, {max} are allowed")]
-    TooMany {
-        /// The list.
-        field: &'static str,
-        /// How many items it has.
-        found: usize,
-        /// How many it may have.
-        max: usize,
-    },
-    /// A size or number is behind an extension marker.
-    #[error("the size or value of {field} is behind an extension marker, which is not supported")]
-    BeyondRoot {
-        /// The field.
-        field: &'static str,
-    },
-    /// A container without octets.
-    #[error("a container of {field} has no octets")]
-    NoOctets {
-        /// The list of containers.
-        field: &'static str,
-    },
-    /// A container of a CPM that may come once comes twice.
-    #[error("container {0} of the CPM comes twice, or the originator is two things")]
-    ContainerTwice(u8),
-    /// A container of a CPM that the standard defines is given as octets.
-    #[error("container {0} of the CPM has a type of its own")]
-    KnownContainer(u8),
-    /// A cluster is bounded by another shape than the dictionary allows.
-    #[error("clusterBoundingBoxShape is neither a rectangle nor a circle nor a polygon")]
-    ClusterShape,
-}
-
 /// Why a message cannot be encoded.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 #[non_exhaustive]
 pub enum EncodeError {
-    /// A number is not one of its type. Only with the feature `std`, as the next two. The conversions of [`si`](crate::si) never produce such a
-    /// number.
-    #[cfg(feature = "std")]
-    #[error("{number} is not a value of its type, which is {allowed}")]
-    Value {
-        /// The number.
-        number: i64,
-        /// The numbers of the type.
-        allowed: String,
-    },
-    /// A list has a size that is not one of its type.
-    #[cfg(feature = "std")]
-    #[error("{size} is not a size of its type, which is {allowed}")]
-    Size {
-        /// The size.
-        size: usize,
-        /// The sizes of the type.
-        allowed: String,
-    },
-    /// Another reason of rasn.
-    #[cfg(feature = "std")]
+    /// A number or a size is not one of its type, as rasn says of a message of another station. The
+    /// conversions of [`si`](crate::si) never produce such a number.
+    #[cfg(feature = "foreign")]
     #[error("not encodable: {0}")]
     Other(String),
     /// The header is not the one of this message.
@@ -193,9 +133,6 @@ pub enum EncodeError {
         /// The configured value.
         expected: u8,
     },
-    /// The message breaks a rule that its encoding does not show.
-    #[error(transparent)]
-    Rule(#[from] BrokenRule),
     /// A field is one that no receiver takes: a list is too long, or its size or value is behind an
     /// extension marker. Or the buffer ends too early.
     #[error("{field}: {fault}")]
@@ -318,11 +255,11 @@ enum Way {
     /// Names that nobody has read yet, so that hostile input costs no allocation.
     OfCore(core::Path, &'static [Field]),
     /// Names that rasn gave, outermost first.
-    #[cfg(feature = "std")]
+    #[cfg(feature = "foreign")]
     Named(Vec<&'static str>),
 }
 
-#[cfg(feature = "std")]
+#[cfg(feature = "foreign")]
 impl Default for FieldPath {
     fn default() -> Self {
         Self(Way::Named(Vec::new()))
@@ -335,17 +272,19 @@ impl FieldPath {
     }
 
     /// The field to which rasn gives these names, each with its type, as `Type.field`.
-    #[cfg(feature = "std")]
-    pub(crate) fn named(qualified_names: impl Iterator<Item = &'static str>) -> Self {
-        let names = qualified_names.map(|name| name.rsplit('.').next().unwrap_or(name));
-        Self(Way::Named(names.collect()))
+    #[cfg(feature = "foreign")]
+    pub(crate) fn named(mut names: Vec<&'static str>) -> Self {
+        for name in &mut names {
+            *name = name.rsplit('.').next().unwrap_or(name);
+        }
+        Self(Way::Named(names))
     }
 
     /// The names of the fields, outermost first.
     pub fn names(&self) -> impl Iterator<Item = &'static str> {
         let (of_core, named): (_, &[&'static str]) = match &self.0 {
             Way::OfCore(path, fields) => (Some(path.names(fields)), &[]),
-            #[cfg(feature = "std")]
+            #[cfg(feature = "foreign")]
             Way::Named(names) => (None, names),
         };
         of_core.into_iter().flatten().chain(named.iter().copied())

@@ -9,22 +9,21 @@
 //! | [`CPM`] | TS 103 324 v2.1.1 | v2.4.1 or v2.1.1 |
 //!
 //! Their headers do not tell one dictionary from another: [`Identifiers::dictionary`] says which one
-//! the stations on the channel use. As with RAM and RMCM exactly the canonical encodings are accepted,
-//! unknown extension additions are skipped and counted, and everything else is an error with its
-//! field. Sizes and values behind an extension marker are refused, so that what a message takes is
-//! bounded. The extension containers of a CAM (two-wheelers, paths, lanes and the like, which release 2
+//! the stations on the channel use. They are read as rasn reads them: in every encoding of a value,
+//! also one that spells out a DEFAULT or has extension additions that this crate does not know, which
+//! [`Received::is_canonical`] tells. A value outside of its range is an error with its field. The extension containers of a CAM (two-wheelers, paths, lanes and the like, which release 2
 //! adds) are kept as the octets that they are on the wire, and not looked into. What release 2 adds to
-//! a DENM behind its extension markers is skipped and counted like any unknown addition. Causes of
+//! a DENM behind its extension markers is skipped like any unknown addition. Causes of
 //! events are named after release 2, which has 0 to 128; others, which only release 1 can tell, are numbers.
 
 mod cause;
 mod cpm;
 mod event;
 mod road_user;
-mod rules;
 
 use serde::{Deserialize, Serialize};
 
+use crate::asn1;
 use crate::asn1::cam::CAM;
 use crate::asn1::cdd211::VAM211;
 use crate::asn1::denm::DENM;
@@ -38,12 +37,10 @@ use crate::identifiers::{Dictionary, Identifiers};
 use crate::message::sealed::Sealed;
 use crate::message::{Pdu, Received, decode, encode, header_of};
 use crate::size::MESSAGE_LEN_MAX;
-use crate::{asn1, uper};
 
 pub use cause::Cause;
 pub use cpm::{CPM, CpmContainer};
 pub use event::Event;
-pub use road_user::{Identity, Kind, RoadUser};
 
 /// `protocolVersion` and `messageId` of CAM.
 const CAM_HEADER: (u8, u8) = (2, 2);
@@ -76,7 +73,7 @@ pub enum ItsMessage {
 }
 
 impl ItsMessage {
-    /// The message whose canonical encoding `octets` are; its header says which it is.
+    /// The message that `octets` encode; its header says which it is.
     ///
     /// # Errors
     /// Why the octets are not such a message, and which field says so.
@@ -86,9 +83,7 @@ impl ItsMessage {
             octets: &[u8],
             wrap: impl FnOnce(Box<M>) -> ItsMessage,
         ) -> Result<Received<ItsMessage>, DecodeError> {
-            let Received { message, extended } = decode::<M>(identifiers, octets)?;
-            let message = wrap(Box::new(message));
-            Ok(Received { message, extended })
+            Ok(decode::<M>(identifiers, octets)?.map(Box::new).map(wrap))
         }
         let found = header_of(octets)?.message_id.0;
         match (found, identifiers.dictionary) {
@@ -171,6 +166,17 @@ const fn core_header(header: &asn1::cdd::ItsPduHeader) -> ItsPduHeader {
     }
 }
 
+impl<M> Received<M> {
+    /// What rasn has decoded.
+    fn of_another(decoded: asn1::Decoded<M>) -> Self {
+        Self {
+            message: decoded.value,
+            extended: 0,
+            is_canonical: decoded.is_canonical,
+        }
+    }
+}
+
 /// Copies an encoding to where the caller wants it.
 fn put(octets: &[u8], buffer: &mut [u8]) -> Result<usize, EncodeError> {
     let Some(buffer) = buffer.get_mut(..octets.len()) else {
@@ -183,33 +189,16 @@ fn put(octets: &[u8], buffer: &mut [u8]) -> Result<usize, EncodeError> {
     Ok(octets.len())
 }
 
-/// The canonical encoding of a value, if a receiver takes it: what rasn would put behind an extension
-/// marker is refused.
-fn receivable<T: rasn::Encode + rasn::Decode>(value: &T) -> Result<Vec<u8>, EncodeError> {
-    let octets = uper::encode(value)?;
-    match uper::decode::<T>(&octets) {
-        Ok(_) => Ok(octets),
-        Err(DecodeError::Malformed { field, fault, .. }) => {
-            Err(EncodeError::Malformed { field, fault })
-        }
-        Err(error) => Err(EncodeError::Other(error.to_string())),
-    }
-}
-
 /// The codec of messages that are one rasn type.
 macro_rules! by_rasn {
-    ($message:ident, $name:literal, $header:expr $(, $check:expr)?) => {
+    ($message:ident, $name:literal, $header:expr) => {
         impl Sealed for $message {
             fn write(&self, buffer: &mut [u8]) -> Result<usize, EncodeError> {
-                $($check(self)?;)?
-                put(&receivable(self)?, buffer)
+                put(&asn1::encode(self)?, buffer)
             }
 
             fn read(_: &Identifiers, octets: &[u8]) -> Result<Received<Self>, DecodeError> {
-                let uper::Decoded { value, extended } = uper::decode::<Self>(octets)?;
-                $($check(&value)?;)?
-                let message = value;
-                Ok(Received { message, extended })
+                Ok(Received::of_another(asn1::decode(octets)?))
             }
         }
 
@@ -226,7 +215,7 @@ macro_rules! by_rasn {
     };
 }
 
-by_rasn!(CAM, "CAM", CAM_HEADER, rules::check_cam);
+by_rasn!(CAM, "CAM", CAM_HEADER);
 by_rasn!(DENM, "DENM", DENM_HEADER);
-by_rasn!(VAM, "VAM", VAM_HEADER, rules::check_vam);
-by_rasn!(VAM211, "VAM", VAM_HEADER, rules::check_vam211);
+by_rasn!(VAM, "VAM", VAM_HEADER);
+by_rasn!(VAM211, "VAM", VAM_HEADER);

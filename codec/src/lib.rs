@@ -13,12 +13,13 @@
 //! - `asn1/*.asn` in this crate are the messages, as ASN.1 modules that any compiler takes.
 //! - [`core`] has the types of RAM and RMCM that follow from them and their codec, bit by bit and
 //!   without heap, with its laws; it decides what is a message.
-//! - [`encode`] and [`decode`] are strict: exactly the canonical unaligned PER encodings of valid
-//!   messages are accepted, extension additions of newer senders are skipped, and everything else is
-//!   an error that names the field. [`encode_into`] writes to a buffer of the caller's.
+//! - [`encode`] and [`decode`] are strict with them: exactly the canonical unaligned PER encodings of
+//!   valid messages are accepted, extension additions of newer senders are skipped, and everything else
+//!   is an error that names the field. [`encode_into`] writes to a buffer of the caller's.
 //! - [`asn1`] has the types that rasn makes of the modules: the reference that the core is compared
 //!   with, and what the core does not have.
-//! - [`its`] has the messages of other stations: CAM, DENM, VAM and CPM.
+//! - [`its`] has the messages of other stations: CAM, DENM, VAM and CPM. These are read in every
+//!   encoding that their senders choose, and [`Received::is_canonical`] tells.
 //! - [`si`] converts physical quantities, and saturates.
 //! - [`ram_from`], [`view_of_ram`], [`rmcm_from_commands`], [`rmcm_from_answer`] and [`views_of_rmcm`]
 //!   map to and from the protocol's view; [`view`] has its laws. [`Heard`] is all that a message says.
@@ -57,14 +58,15 @@
 //! # Features
 //!
 //! - `std`, on by default. Without it the crate is `no_std` and needs no heap: RAM, RMCM, their mapping
-//!   and [`geonet`] remain; `asn1`, `its`, `encode` and what else needs a vector do not.
+//!   and [`geonet`] remain; `encode` and what else needs a vector do not.
+//! - `foreign`, on by default, brings `asn1` and `its`, and with them rasn; it needs `std`.
 //! - `security` brings signatures, and with them elliptic curves; it needs `std`.
 //! - `laws` and `golden` are for proofs and tests; no part of the stable interface.
 
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
-#[cfg(feature = "std")]
+#[cfg(feature = "foreign")]
 pub mod asn1;
 mod containers;
 pub mod core;
@@ -76,18 +78,18 @@ pub mod geonet;
 pub mod golden;
 mod heard;
 mod identifiers;
-#[cfg(feature = "std")]
+#[cfg(feature = "foreign")]
 pub mod its;
 mod message;
 mod part;
+#[cfg(feature = "std")]
+mod road_user;
 #[cfg(feature = "security")]
 pub mod security;
 mod service;
 pub mod si;
 mod size;
 mod state;
-#[cfg(feature = "std")]
-mod uper;
 pub mod view;
 mod wire;
 
@@ -95,13 +97,15 @@ pub use crate::core::Fault;
 pub use crate::core::cdd::{PATH_HISTORY_MAX, PATH_PREDICTION_MAX};
 pub use containers::position_of;
 pub use distance::distance;
-pub use error::{BrokenRule, DecodeError, EncodeError, FieldPath, ViewError};
+pub use error::{DecodeError, EncodeError, FieldPath, ViewError};
 pub use heard::{Heard, Unheard};
 pub use identifiers::{Dictionary, IdentifierClash, Identifiers, MessageIdentifiers};
 #[cfg(feature = "std")]
 pub use message::encode;
 pub use message::{Message, Pdu, Received, decode, encode_into};
 pub use part::{Part, SSP_VERSION};
+#[cfg(feature = "std")]
+pub use road_user::{Identity, Kind, RoadUser};
 pub use service::Service;
 pub use size::{MESSAGE_LEN_MAX, RAM_LEN_MAX, RMCM_LEN_MAX};
 pub use state::{
@@ -117,6 +121,6 @@ pub use view::{
 };
 
 /// The Rust in the README compiles.
-#[cfg(all(doctest, feature = "std"))]
+#[cfg(all(doctest, feature = "foreign"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -46,7 +46,11 @@ macro_rules! by_the_core {
             fn read(_: &Identifiers, octets: &[u8]) -> Result<Received<Self>, DecodeError> {
                 let decoded = core::decode(octets);
                 let (message, extended) = decoded.map_err(DecodeError::of_core::<Self>)?;
-                Ok(Received { message, extended })
+                Ok(Received {
+                    message,
+                    extended,
+                    is_canonical: true,
+                })
             }
         }
     };
@@ -86,8 +90,23 @@ pub struct Received<M> {
     /// What this crate knows of it.
     pub message: M,
     /// How many SEQUENCEs of it had extension additions that this crate does not know. They were
-    /// skipped; their sender speaks a newer version of the message.
+    /// skipped; their sender speaks a newer version of the message. Not counted in a message of another
+    /// station than robots.
     pub extended: usize,
+    /// Whether the octets are the canonical encoding. Those of a RAM or RMCM are, but for additions;
+    /// other stations may spell out a DEFAULT, or know additions that this crate does not.
+    pub is_canonical: bool,
+}
+
+impl<M> Received<M> {
+    /// The same with another message.
+    pub(crate) fn map<N>(self, wrap: impl FnOnce(M) -> N) -> Received<N> {
+        Received {
+            message: wrap(self.message),
+            extended: self.extended,
+            is_canonical: self.is_canonical,
+        }
+    }
 }
 
 /// The canonical encoding of `message`.
@@ -132,10 +151,10 @@ pub fn encode_into<M: Pdu>(
     message.write(buffer)
 }
 
-/// The message whose canonical encoding `octets` are.
+/// The message that `octets` encode.
 ///
-/// Exactly the canonical encodings are accepted, with or without extension additions that this crate
-/// does not know. No input makes it panic. A RAM or an RMCM takes no heap, neither when it is accepted
+/// Of a RAM and an RMCM exactly the canonical encodings are accepted, with or without extension additions
+/// that this crate does not know; of other messages every encoding. No input makes it panic. A RAM or an RMCM takes no heap, neither when it is accepted
 /// nor when it is refused; what another message allocates is bounded by [`MESSAGE_LEN_MAX`].
 ///
 /// # Errors
@@ -222,17 +241,9 @@ impl Message {
     pub fn decode(identifiers: &Identifiers, octets: &[u8]) -> Result<Received<Self>, DecodeError> {
         let found = header_of(octets)?.message_id.0;
         if found == identifiers.ram.message_id {
-            let Received { message, extended } = decode(identifiers, octets)?;
-            Ok(Received {
-                message: Self::Ram(message),
-                extended,
-            })
+            Ok(decode(identifiers, octets)?.map(Self::Ram))
         } else if found == identifiers.rmcm.message_id {
-            let Received { message, extended } = decode(identifiers, octets)?;
-            Ok(Received {
-                message: Self::Rmcm(message),
-                extended,
-            })
+            Ok(decode(identifiers, octets)?.map(Self::Rmcm))
         } else {
             Err(DecodeError::MessageId {
                 found,

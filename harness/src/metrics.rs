@@ -6,7 +6,7 @@ use std::net::SocketAddr;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use crossguard_codec::its::Kind;
+use crossguard_codec::Kind;
 use crossguard_endpoint::counters::CauseName;
 use crossguard_protocol::{Role, State};
 

@@ -25,15 +25,15 @@ const GENERATED: [Generated; 13] = [
     },
     Generated {
         path: "codec/src/asn1/generated.rs",
-        by: "cargo test -p crossguard-codec --test generated",
+        by: "cargo test -p crossguard-codec --test it generated",
     },
     Generated {
         path: "codec/tests/golden/messages.json",
-        by: "cargo test -p crossguard-codec --test golden_messages",
+        by: "cargo test -p crossguard-codec --test it golden_messages",
     },
     Generated {
         path: "codec/tests/golden/security.json",
-        by: "cargo test -p crossguard-codec --features security --test security vectors",
+        by: "cargo test -p crossguard-codec --features security --test it security::vectors",
     },
     Generated {
         path: "codec/wireshark/crossguard.lua: the types",

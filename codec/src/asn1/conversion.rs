@@ -5,7 +5,6 @@
 use super::{cdd, ram, rmcm};
 use crate::core;
 use crate::error::{DecodeError, EncodeError};
-use crate::uper;
 
 macro_rules! conversion {
     ($module:ident::$name:ident) => {
@@ -16,8 +15,7 @@ macro_rules! conversion {
                 let mut buffer = [0; core::max_octets::<core::$module::$name>()];
                 let length = core::encode(value, &mut buffer);
                 let length = length.map_err(DecodeError::of_core::<core::$module::$name>)?;
-                let decoded = uper::decode(&buffer[..length]);
-                Ok(decoded.map_err(|_| DecodeError::Disagreement)?.value)
+                Ok(super::decode(&buffer[..length])?.value)
             }
         }
 
@@ -26,7 +24,7 @@ macro_rules! conversion {
             type Error = EncodeError;
 
             fn try_from(value: &$module::$name) -> Result<Self, EncodeError> {
-                let octets = uper::encode(value)?;
+                let octets = super::encode(value)?;
                 let (value, _) = core::decode(&octets).map_err(EncodeError::of_core::<Self>)?;
                 Ok(value)
             }

@@ -71,8 +71,8 @@ pub(super) mod bits {
     use serde::de::Error as _;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-    /// No bit string of these modules is longer.
-    const LENGTH_MAX: usize = 1024;
+    /// No message has a longer one.
+    const LENGTH_MAX: usize = 8 * crate::size::MESSAGE_LEN_MAX;
 
     #[derive(Serialize, Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -127,20 +127,19 @@ pub(super) mod octets {
     }
 }
 
-/// An integer without bounds of its own, as far as the modules use it.
+/// An integer without bounds of its own: a number, or as text what no number of 64 bits is.
 pub(super) mod integer {
     use rasn::types::Integer;
-    use serde::ser::Error as _;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     pub(in crate::asn1) fn serialize<S: Serializer>(
         integer: &Integer,
         serializer: S,
     ) -> Result<S::Ok, S::Error> {
-        let number = i64::try_from(integer);
-        number
-            .map_err(|_| S::Error::custom("the integer is too large"))?
-            .serialize(serializer)
+        match i64::try_from(integer) {
+            Ok(number) => number.serialize(serializer),
+            Err(_) => integer.to_string().serialize(serializer),
+        }
     }
 
     pub(in crate::asn1) fn deserialize<'de, D: Deserializer<'de>>(

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CPM_HEADER, core_header, put, receivable};
+use super::{CPM_HEADER, core_header, put};
 use crate::asn1::cdd211::PerceivedObjectContainer211;
 use crate::asn1::cpm::{
     CollectivePerceptionMessage, CpmContainerData, CpmContainerId, CpmPayload, ManagementContainer,
@@ -12,12 +12,11 @@ use crate::asn1::cpm::{
 };
 use crate::asn1::{self, cdd};
 use crate::core::cdd::ItsPduHeader;
-use crate::error::{BrokenRule, DecodeError, EncodeError};
+use crate::error::{DecodeError, EncodeError};
 use crate::identifiers::{Dictionary, Identifiers};
 use crate::message::sealed::Sealed;
 use crate::message::{Pdu, Received};
 use crate::size::MESSAGE_LEN_MAX;
-use crate::uper;
 
 /// A collective perception message.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -68,68 +67,34 @@ impl CPM {
                 _ => None,
             })
     }
-
-    /// Checks the limits that its encoding does not show: its containers come at most once each, one of
-    /// them at most says what the sender is (TS 103 324, `ConstraintWrappedCpmContainers`), and one that
-    /// no standard had defined has octets.
-    fn check(&self) -> Result<(), BrokenRule> {
-        let (mut seen, mut originators) = (0_u32, 0);
-        for container in &self.cpm_containers {
-            let id = match container {
-                CpmContainer::OriginatingVehicleContainer(_)
-                | CpmContainer::OriginatingRsuContainer(_) => {
-                    originators += 1;
-                    1
-                }
-                CpmContainer::SensorInformationContainer(_) => 3,
-                CpmContainer::PerceptionRegionContainer(_) => 4,
-                CpmContainer::PerceivedObjectContainer(_)
-                | CpmContainer::PerceivedObjectContainer211(_) => 5,
-                CpmContainer::Unknown { id, .. } if id.0 < 6 => {
-                    return Err(BrokenRule::KnownContainer(id.0));
-                }
-                CpmContainer::Unknown { data, .. } if data.0.is_empty() => {
-                    return Err(BrokenRule::NoOctets {
-                        field: "cpmContainers",
-                    });
-                }
-                CpmContainer::Unknown { .. } => continue,
-            };
-            if originators > 1 || seen & 1 << id != 0 {
-                return Err(BrokenRule::ContainerTwice(id));
-            }
-            seen |= 1 << id;
-        }
-        Ok(())
-    }
 }
 
 impl CpmContainer {
     fn wrap(&self) -> Result<WrappedCpmContainer, EncodeError> {
         let (id, octets) = match self {
-            Self::OriginatingVehicleContainer(container) => (1, receivable(container)?),
-            Self::OriginatingRsuContainer(container) => (2, receivable(container)?),
-            Self::SensorInformationContainer(container) => (3, receivable(container)?),
-            Self::PerceptionRegionContainer(container) => (4, receivable(container)?),
-            Self::PerceivedObjectContainer(container) => (5, receivable(container)?),
-            Self::PerceivedObjectContainer211(container) => (5, receivable(container)?),
+            Self::OriginatingVehicleContainer(container) => (1, asn1::encode(container)?),
+            Self::OriginatingRsuContainer(container) => (2, asn1::encode(container)?),
+            Self::SensorInformationContainer(container) => (3, asn1::encode(container)?),
+            Self::PerceptionRegionContainer(container) => (4, asn1::encode(container)?),
+            Self::PerceivedObjectContainer(container) => (5, asn1::encode(container)?),
+            Self::PerceivedObjectContainer211(container) => (5, asn1::encode(container)?),
             Self::Unknown { id, data } => (id.0, data.0.to_vec()),
         };
         let data = CpmContainerData(octets.into());
         Ok(WrappedCpmContainer::new(CpmContainerId(id), data))
     }
 
-    /// The container, and how many parts of it had unknown extension additions.
+    /// The container, and whether its encoding was canonical.
     fn unwrap(
         dictionary: Dictionary,
         wrapped: WrappedCpmContainer,
-    ) -> Result<(Self, usize), DecodeError> {
+    ) -> Result<(Self, bool), DecodeError> {
         fn of<C: rasn::Decode + rasn::Encode>(
             octets: &[u8],
             wrap: impl FnOnce(C) -> CpmContainer,
-        ) -> Result<(CpmContainer, usize), DecodeError> {
-            let uper::Decoded { value, extended } = uper::decode(octets)?;
-            Ok((wrap(value), extended))
+        ) -> Result<(CpmContainer, bool), DecodeError> {
+            let decoded = asn1::decode(octets)?;
+            Ok((wrap(decoded.value), decoded.is_canonical))
         }
         let octets = &wrapped.container_data.0;
         match (wrapped.container_id.0, dictionary) {
@@ -141,7 +106,7 @@ impl CpmContainer {
             (5, Dictionary::V2_1_1) => of(octets, Self::PerceivedObjectContainer211),
             _ => {
                 let (id, data) = (wrapped.container_id, wrapped.container_data);
-                Ok((Self::Unknown { id, data }, 0))
+                Ok((Self::Unknown { id, data }, true))
             }
         }
     }
@@ -149,7 +114,6 @@ impl CpmContainer {
 
 impl Sealed for CPM {
     fn write(&self, buffer: &mut [u8]) -> Result<usize, EncodeError> {
-        self.check()?;
         let containers: Result<Vec<_>, _> =
             self.cpm_containers.iter().map(CpmContainer::wrap).collect();
         let payload = CpmPayload::new(
@@ -157,19 +121,17 @@ impl Sealed for CPM {
             WrappedCpmContainers(containers?),
         );
         let message = CollectivePerceptionMessage::new(self.header.clone(), payload);
-        put(&receivable(&message)?, buffer)
+        put(&asn1::encode(&message)?, buffer)
     }
 
     fn read(identifiers: &Identifiers, octets: &[u8]) -> Result<Received<Self>, DecodeError> {
-        let decoded = uper::decode::<CollectivePerceptionMessage>(octets)?;
-        let uper::Decoded {
-            value: asn1::cpm::CollectivePerceptionMessage { header, payload },
-            mut extended,
-        } = decoded;
+        let decoded = asn1::decode::<CollectivePerceptionMessage>(octets)?;
+        let mut is_canonical = decoded.is_canonical;
+        let CollectivePerceptionMessage { header, payload } = decoded.value;
         let mut cpm_containers = Vec::with_capacity(payload.cpm_containers.0.len());
         for wrapped in payload.cpm_containers.0 {
-            let (container, more) = CpmContainer::unwrap(identifiers.dictionary, wrapped)?;
-            extended += more;
+            let (container, is_so) = CpmContainer::unwrap(identifiers.dictionary, wrapped)?;
+            is_canonical &= is_so;
             cpm_containers.push(container);
         }
         let message = Self {
@@ -177,8 +139,11 @@ impl Sealed for CPM {
             management_container: payload.management_container,
             cpm_containers,
         };
-        message.check()?;
-        Ok(Received { message, extended })
+        Ok(Received {
+            message,
+            extended: 0,
+            is_canonical,
+        })
     }
 }
 

@@ -117,6 +117,8 @@ pub enum Cause {
     NoUse(Service),
     /// A datagram is not a message.
     Undecodable(&'static str),
+    /// A message of another station is not encoded canonically: it is read all the same, and counted.
+    NotCanonical,
     /// A message contradicts itself.
     Contradictory(&'static str),
     /// The transition function ignored an input.
@@ -158,7 +160,7 @@ impl Cause {
             Self::Discarded(_) => Layer::Packet,
             Self::Rejected(_) => Layer::Security,
             Self::NoUse(_) => Layer::Service,
-            Self::Undecodable(_) => Layer::Syntax,
+            Self::Undecodable(_) | Self::NotCanonical => Layer::Syntax,
             Self::Contradictory(_) => Layer::Semantics,
             Self::Ignored(_) => Layer::Protocol,
             Self::Unplaced => Layer::Perception,
@@ -194,6 +196,7 @@ impl Display for Reason {
             | Cause::Rejected(why)
             | Cause::Undecodable(why)
             | Cause::Contradictory(why) => why,
+            Cause::NotCanonical => "not canonical, but read",
             Cause::NoUse(service) => return write!(f, "no use for {}", service.name()),
             Cause::Ignored(Ignored::NotEngaged(..)) => "not engaged",
             Cause::Ignored(why) => return why.fmt(f),

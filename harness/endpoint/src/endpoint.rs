@@ -5,12 +5,12 @@
 
 mod act;
 mod answers;
+#[cfg_attr(not(feature = "foreign"), path = "endpoint/no_others.rs")]
+mod others;
+#[cfg_attr(not(feature = "security"), path = "endpoint/no_pseudonyms.rs")]
+mod pseudonyms;
 mod turn;
 
-use std::collections::BTreeSet;
-
-use crossguard_codec::geonet::{EgoPosition, Envelope};
-use crossguard_codec::security::{HashedId8, TrustedTime};
 use crossguard_codec::{Identifiers, RobotState, Service, TaskParameters};
 use crossguard_protocol::{
     Config, Event, Identity, Input, Outputs, Robot, StateMachine, StationId, TaskType, Timer,
@@ -18,15 +18,16 @@ use crossguard_protocol::{
 
 pub use self::act::Act;
 use self::answers::Answers;
+use self::others::Others;
+use self::pseudonyms::Pseudonyms;
 use self::turn::Turn;
 use crate::cause::Cause;
 use crate::counters::Counters;
-use crate::exchange::{Arrived, Exchange, Host as _, Moment};
-use crate::ras::cam::{CamGeneration, cam};
+use crate::exchange::{Arrived, Exchange, Moment};
 use crate::ras::clustering::PerceivedVru;
 use crate::ras::generation::{INTERVAL_MIN_MS, Limits, Trigger};
 use crate::ras::surroundings::{Awareness, Surroundings};
-use crate::station::{LocalDynamicMap, Neighbours, Pseudonyms, Security};
+use crate::station::{LocalDynamicMap, Neighbours};
 
 /// An input of an endpoint.
 #[derive(Clone, Copy, Debug)]
@@ -114,8 +115,7 @@ pub struct Endpoint<P = Robot> {
     exchange: Exchange<P>,
     around: Around,
     pseudonyms: Pseudonyms,
-    /// When CAM are sent, if they are.
-    cam: Option<CamGeneration>,
+    others: Others,
     /// Shortest interval that congestion control allows, in ms.
     congestion_ms: u64,
 }
@@ -147,7 +147,7 @@ impl<P: StateMachine> Endpoint<P> {
             },
             exchange: Exchange::new(protocol, config, identifiers, now_ms),
             pseudonyms: Pseudonyms::default(),
-            cam: None,
+            others: Others::default(),
             congestion_ms: INTERVAL_MIN_MS,
         }
     }
@@ -156,7 +156,7 @@ impl<P: StateMachine> Endpoint<P> {
     /// forgotten.
     #[must_use]
     pub fn with_awareness(mut self, awareness: Awareness) -> Self {
-        self.cam = awareness.cam.then(CamGeneration::default);
+        self.others = Others::new(&awareness);
         self.around.surroundings = Surroundings::new(awareness, cluster_seed(self.robot()));
         self
     }
@@ -170,30 +170,6 @@ impl<P: StateMachine> Endpoint<P> {
     /// dropped, or none are.
     pub const fn keep_time(&mut self, error_ms: Option<u32>) {
         self.exchange.stack_mut().keep_time(error_ms);
-    }
-
-    /// The same with security.
-    #[must_use]
-    pub fn with_security(mut self, security: Security) -> Self {
-        self.pseudonyms = Pseudonyms::new(security.secret, security.pseudonym_period_ms);
-        *self.exchange.stack_mut().envelope_mut() = security.envelope;
-        self
-    }
-
-    /// The time that packets are verified by, and whether the clock is trusted. `None` without security.
-    #[must_use]
-    pub const fn trusted_time(&self) -> Option<&TrustedTime> {
-        match self.exchange.stack().envelope() {
-            Envelope::Secured(secured) => Some(secured.station().verifier().time()),
-            _ => None,
-        }
-    }
-
-    /// Trusts none of these certificates from now on, instead of the ones that were revoked before.
-    pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
-        if let Envelope::Secured(secured) = self.exchange.stack_mut().envelope_mut() {
-            secured.set_revoked(revoked);
-        }
     }
 
     /// The protocol state.
@@ -248,7 +224,7 @@ impl<P: StateMachine> Endpoint<P> {
         let by_protocol = by_protocol.map(|due| elapsed_to_ms + u64::from(due.0));
         let by_generation = elapsed_to_ms + INTERVAL_MIN_MS;
         match robot.next_ram() {
-            Some(_) if self.cam.is_none() => by_protocol.unwrap_or(by_generation),
+            Some(_) if !self.others.are_told() => by_protocol.unwrap_or(by_generation),
             _ => by_protocol.map_or(by_generation, |due| due.min(by_generation)),
         }
     }
@@ -266,11 +242,7 @@ impl<P: StateMachine> Endpoint<P> {
             turn.elapse(moment.now_ms);
             exchange.elapse(&mut turn, moment);
         }
-        if let Envelope::Secured(secured) = exchange.stack_mut().envelope_mut() {
-            let ego = EgoPosition::of(state, moment.timestamp_its);
-            secured.look_at_clock(&ego, moment.now_ms);
-        }
-        renew_pseudonym(&mut self.pseudonyms, exchange, &mut turn, moment);
+        self.pseudonyms.renew(exchange, &mut turn, moment);
         match stimulus {
             Stimulus::Datagram { packet, arrived_ms } => {
                 let arrived = Arrived {
@@ -280,13 +252,7 @@ impl<P: StateMachine> Endpoint<P> {
                 exchange.receive(&mut turn, moment, arrived);
             }
             Stimulus::Event(event) => {
-                let event = match (event, exchange.stack().envelope()) {
-                    (Event::EpochRenewed(boot), Envelope::Secured(_)) => {
-                        let station = exchange.robot().station();
-                        Event::EpochRenewed(self.pseudonyms.epoch(station, boot))
-                    }
-                    (event, _) => event,
-                };
+                let event = self.pseudonyms.disguise(exchange, event);
                 let outputs = exchange.event(&mut turn, moment, event);
                 turn.answer(event, &outputs);
             }
@@ -302,7 +268,7 @@ impl<P: StateMachine> Endpoint<P> {
             Stimulus::Timer(timer) => exchange.expire(&mut turn, moment, timer),
             Stimulus::Time => {}
         }
-        send_cluster_vams(exchange, &mut turn, moment);
+        self.others.tell_of_people(exchange, &mut turn, moment);
         // Who protects somebody is not silent.
         if exchange.robot().identity() != Identity::Unlocked || turn.announces_people() {
             self.pseudonyms.break_silence();
@@ -315,68 +281,10 @@ impl<P: StateMachine> Endpoint<P> {
             max_ms: turn.ram_interval_max_ms(),
         };
         exchange.generate(&mut turn, moment, limits);
-        if let Some(generation) = &mut self.cam {
-            send_cam(generation, exchange, &mut turn, moment, self.congestion_ms);
-        }
+        // After a RAM, so that robots know it is one of theirs.
+        self.others
+            .tell_of_robot(exchange, &mut turn, moment, self.congestion_ms);
         turn.into_effects()
-    }
-}
-
-/// Changes the pseudonym when that is due and no session knows the robot by its old one.
-fn renew_pseudonym<P: StateMachine>(
-    pseudonyms: &mut Pseudonyms,
-    exchange: &mut Exchange<P>,
-    turn: &mut Turn<'_>,
-    moment: Moment,
-) {
-    if exchange.robot().identity() != Identity::Unlocked {
-        return;
-    }
-    let lock_ms = u64::from(exchange.config().settings().t_lock.0);
-    let ego = EgoPosition::of(turn.state(), moment.timestamp_its);
-    let (identifiers, robot) = (*exchange.identifiers(), exchange.robot().clone());
-    let envelope = exchange.stack_mut().envelope_mut();
-    if let Some(taken) = pseudonyms.renew(envelope, &identifiers, &ego, &robot, lock_ms) {
-        let numbers = (Some(taken.next), taken.sequence_number);
-        exchange.change_identity(turn, moment, taken.station, numbers);
-        turn.renew_clusters(moment.now_ms, taken.clusters);
-        pseudonyms.fall_silent(taken.station, moment.now_ms);
-    }
-}
-
-/// Sends the cluster VAM that are due.
-fn send_cluster_vams<P: StateMachine>(
-    exchange: &mut Exchange<P>,
-    turn: &mut Turn<'_>,
-    moment: Moment,
-) {
-    let station = exchange.robot().station().0;
-    for vam in turn.cluster_vams(exchange.identifiers(), moment, station) {
-        match vam {
-            Ok(vam) => {
-                exchange.transmit(turn, moment, (Service::Vam, Trigger::Interval), &vam);
-            }
-            Err(error) => turn.not_sent(&error),
-        }
-    }
-}
-
-/// Sends a CAM if one is due: after a RAM, so that robots know it is one of theirs.
-fn send_cam<P: StateMachine>(
-    generation: &mut CamGeneration,
-    exchange: &mut Exchange<P>,
-    turn: &mut Turn<'_>,
-    moment: Moment,
-    congestion_ms: u64,
-) {
-    let Some(due) = generation.poll(moment.now_ms, congestion_ms, turn.state()) else {
-        return;
-    };
-    let (ids, station) = (exchange.identifiers(), exchange.robot().station().0);
-    let time = moment.timestamp_its;
-    match cam(ids, station, turn.state(), time, due.low_frequency) {
-        Ok(octets) => exchange.transmit(turn, moment, (Service::Cam, due.trigger), &octets),
-        Err(error) => turn.not_sent(&error),
     }
 }
 

@@ -16,7 +16,8 @@
 //! - [`station`] has the map, pseudonyms, and what a listener makes of packets.
 //! - [`cause`] names why something is dropped, [`counters`] counts it.
 //!
-//! Without the feature `std` there are [`exchange`], [`cause`] and the generation rules.
+//! Without the feature `std` there are [`exchange`], [`cause`] and the generation rules. Without `foreign`, messages
+//! of other stations than robots are neither read nor sent; without `security`, nothing is signed or verified.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 pub mod cause;
@@ -34,6 +35,6 @@ pub use endpoint::{Act, Effect, Endpoint, Stimulus};
 pub use exchange::Moment;
 
 /// The Rust in the README compiles.
-#[cfg(all(doctest, feature = "std"))]
+#[cfg(all(doctest, feature = "foreign", feature = "security"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

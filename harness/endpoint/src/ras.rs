@@ -22,18 +22,18 @@
 
 #[cfg(feature = "std")]
 pub mod area;
-#[cfg(feature = "std")]
+#[cfg(feature = "foreign")]
 pub mod cam;
 #[cfg(feature = "std")]
 pub mod clustering;
 pub mod congestion;
 #[cfg(feature = "std")]
 pub mod containers;
-#[cfg(feature = "std")]
+#[cfg(feature = "foreign")]
 pub mod etsi;
 pub mod generation;
 pub mod motion;
 #[cfg(feature = "std")]
 pub mod surroundings;
-#[cfg(feature = "std")]
+#[cfg(feature = "foreign")]
 pub mod vam;

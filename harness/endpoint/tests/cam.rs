@@ -1,7 +1,6 @@
 //! CAM of a robot, as another robot hears them: its RAM comes first.
 
-use crossguard_codec::its::{Identity, Kind};
-use crossguard_codec::{Identifiers, Position, RobotState, Service};
+use crossguard_codec::{Identifiers, Identity, Kind, Position, RobotState, Service};
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Robot, Settings, StationId};

@@ -14,6 +14,7 @@ use crossguard_endpoint::ras::etsi::NotMade;
 use crossguard_endpoint::ras::generation::{Generation, Limits, Status, Trigger};
 use crossguard_endpoint::ras::motion::{Plane, Point, distance_m};
 use crossguard_endpoint::ras::surroundings::{Awareness, Surroundings, Told, Unplaced};
+use crossguard_endpoint::ras::vam::vam_of;
 use crossguard_protocol::{Availability, Coordination, Ram, StationId, TaskSet, TaskType};
 
 use super::behaviour::Behaviour;
@@ -141,16 +142,12 @@ impl<'a> Robot<'a> {
         if let Some(trigger) = self.ram_trigger(now_ms, congestion_ms) {
             messages.push(self.ram(now_ms, trigger)?);
         }
-        let position = self.state.position;
-        let vams = self.surroundings.cluster_vams(
-            &Identifiers::default(),
-            now_ms,
-            now_ms,
-            self.station,
-            &position,
-        );
-        for (told, octets) in vams {
-            let octets = octets?.len();
+        for told in self.surroundings.due_cluster_vams(now_ms) {
+            let Some(plane) = self.surroundings.plane() else {
+                continue;
+            };
+            let (ids, position) = (Identifiers::default(), &self.state.position);
+            let octets = vam_of(&ids, self.station, position, now_ms, &told, plane)?.len();
             messages.push(match told {
                 Told::Cluster(cluster) => self.cluster_vam(&cluster, octets),
                 Told::Ended(ended) => self.breakup_vam(ended.id, octets),

@@ -23,6 +23,9 @@ pub struct Decoded {
     /// How many parts had extension additions that this version does not know.
     #[serde(skip_serializing_if = "is_zero")]
     pub extended: usize,
+    /// Whether the message is encoded canonically; told where it is not.
+    #[serde(skip_serializing_if = "is_true")]
+    pub canonical: bool,
     /// The standard that the message is of.
     pub standard: &'static str,
     /// The headers of the packet, if it was one.
@@ -44,6 +47,14 @@ pub struct Decoded {
 )]
 const fn is_zero(n: &usize) -> bool {
     *n == 0
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde calls it with a reference"
+)]
+const fn is_true(is_so: &bool) -> bool {
+    *is_so
 }
 
 /// Why octets cannot be read.
@@ -98,6 +109,7 @@ impl Decoded {
         Ok(Self {
             octets: octets.len(),
             extended: received.extended,
+            canonical: received.is_canonical,
             standard: received.message.standard(),
             packet,
             signature: signatures.of(identifiers, octets, None),

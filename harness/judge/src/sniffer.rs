@@ -4,9 +4,9 @@
 
 use crossguard_codec::geonet::{BasicHeader, LongPositionVector};
 use crossguard_codec::geonet::{Headers, NextHeader, Transport};
-use crossguard_codec::its::{Event, Identity, ItsMessage, RoadUser};
+use crossguard_codec::its::{Event, ItsMessage};
 use crossguard_codec::security::Time64;
-use crossguard_codec::{Identifiers, Service};
+use crossguard_codec::{Identifiers, Identity, RoadUser, Service};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::counters::Counters;
 use crossguard_endpoint::station::LocalDynamicMap;
@@ -128,6 +128,9 @@ impl Sniffer {
         }
         let message = ItsMessage::decode(&self.identifiers, octets);
         let message = message.map_err(|error| (Cause::from(&error), error.to_string()))?;
+        if !message.is_canonical {
+            self.counters.count(Cause::NotCanonical);
+        }
         let message = message.message;
         if let Some(service) = service_of(&message) {
             seen.kind = service.name();

@@ -2,8 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use crossguard_codec::its::{Identity, Kind};
-use crossguard_codec::{Position, distance};
+use crossguard_codec::{Identity, Kind, Position, distance};
 use crossguard_endpoint::station::LocalDynamicMap;
 use crossguard_protocol::Decimetres;
 use serde::{Deserialize, Serialize};
@@ -107,7 +106,7 @@ impl Display for OfKind {
 
 #[cfg(test)]
 mod tests {
-    use crossguard_codec::its::RoadUser;
+    use crossguard_codec::RoadUser;
 
     use super::*;
 

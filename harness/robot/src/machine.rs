@@ -11,7 +11,7 @@
 //! [`runtime`](crate::runtime) drives it by a real clock and a socket, the simulator of `crossguard-judge` in
 //! virtual time; both do what the effects say.
 
-use crossguard_codec::its::Identity;
+use crossguard_codec::Identity;
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Event, Notice, Phase, Robot, StateMachine};
 

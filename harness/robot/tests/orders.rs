@@ -2,9 +2,8 @@
 
 #![allow(clippy::large_stack_arrays, reason = "a pair of machines, in a test")]
 
-use crossguard_codec::its::Identity;
 use crossguard_codec::{
-    Identifiers, MapPlace, PublicSignal, SignalMeans, SignalsShown, TaskParameters,
+    Identifiers, Identity, MapPlace, PublicSignal, SignalMeans, SignalsShown, TaskParameters,
 };
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Event, Phase, Robot, StationId, TaskType};

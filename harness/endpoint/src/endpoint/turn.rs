@@ -4,21 +4,20 @@ use std::fmt::Display;
 
 use crossguard_codec::core::ram::RAM;
 use crossguard_codec::geonet::{Address, EgoPosition, Indication, PACKET_LEN_MAX, Signer};
-use crossguard_codec::{Heard, Identifiers, RobotState, Service, TaskParameters};
+use crossguard_codec::{Heard, RobotState, Service, TaskParameters};
 use crossguard_protocol::{Event, Input, Output, Outputs, Robot, StationId};
 
 use super::act::{Act, act};
-use super::{Around, Effect};
+use super::{Around, Effect, others};
 use crate::cause::Cause;
 use crate::exchange::{Arrived, Host, Moment, Outgoing};
 use crate::ras::clustering::PerceivedVru;
 use crate::ras::containers;
-use crate::ras::etsi::NotMade;
 use crate::ras::surroundings::Told;
 
 /// What one call of [`Endpoint::handle`](super::Endpoint::handle) works with.
 pub(super) struct Turn<'a> {
-    around: &'a mut Around,
+    pub(super) around: &'a mut Around,
     state: &'a RobotState,
     /// The packet that is being made.
     packet: Vec<u8>,
@@ -75,21 +74,8 @@ impl<'a> Turn<'a> {
         self.around.surroundings.ram_interval_max_ms()
     }
 
-    /// The cluster VAM that are due.
-    pub(super) fn cluster_vams(
-        &mut self,
-        identifiers: &Identifiers,
-        moment: Moment,
-        station: u32,
-    ) -> Vec<Result<Vec<u8>, NotMade>> {
-        let (now_ms, now_its) = (moment.now_ms, moment.timestamp_its);
-        let (surroundings, position) = (&mut self.around.surroundings, &self.state.position);
-        let vams = surroundings.cluster_vams(identifiers, now_ms, now_its, station, position);
-        vams.into_iter().map(|(_, vam)| vam).collect()
-    }
-
     /// A message was understood, from any sender.
-    fn understood(
+    pub(super) fn understood(
         &mut self,
         moment: Moment,
         (kind, from): (Service, StationId),
@@ -179,21 +165,7 @@ impl Host for Turn<'_> {
         indication: &Indication<'_>,
         arrived: Arrived<'_>,
     ) {
-        let (service, octets) = (indication.service, indication.message);
-        let ego = EgoPosition::of(self.state, moment.timestamp_its);
-        let neighbours = &mut self.around.neighbours;
-        match neighbours.observe(me.station(), indication, &ego, moment.now_ms) {
-            Ok(message) => {
-                // An event is nobody for the map, and changes nothing that the robot does.
-                if let Some(event) = message.event() {
-                    return self.dropped(Cause::NoUse(service), &event, arrived.octets);
-                }
-                let from = StationId(message.header().station_id.0);
-                let message = Arrived { octets, ..arrived };
-                self.understood(moment, (service, from), message);
-            }
-            Err(unobserved) => self.dropped((&unobserved).into(), &unobserved, arrived.octets),
-        }
+        others::hear(self, moment, me, indication, arrived);
     }
 
     fn complete(&mut self, ram: &mut RAM) {

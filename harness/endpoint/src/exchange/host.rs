@@ -83,6 +83,6 @@ pub trait Host {
     /// Something was dropped: a datagram with these octets, or a message that cannot be sent.
     fn dropped(&mut self, cause: Cause, detail: &dyn Display, octets: &[u8]);
 
-    /// An input was ignored.
+    /// An input was ignored, or a message was read that is not encoded canonically.
     fn ignored(&mut self, cause: Cause);
 }

@@ -196,9 +196,9 @@ fn slow_container(slow: Option<RobotLowFrequencyContainer>) -> BasicVehicleConta
 
 #[cfg(test)]
 mod tests {
-    use crossguard_codec::its::{ItsMessage, Kind};
+    use crossguard_codec::its::ItsMessage;
     use crossguard_codec::{
-        Dimensions, Lights, Measurement, PastPosition, SlowState, distance, golden,
+        Dimensions, Kind, Lights, Measurement, PastPosition, SlowState, distance, golden,
     };
     use crossguard_protocol::Decimetres;
 

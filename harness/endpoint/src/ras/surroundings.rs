@@ -5,7 +5,7 @@
 //! ```text
 //!  sensor ──► perceive ─┐
 //!                       ├─► clusters ──► next ──► RAM
-//!  other robots' RAM ───┘           └──► cluster_vams
+//!  other robots' RAM ───┘           └──► due_cluster_vams
 //!             (hear)
 //! ```
 //!
@@ -15,14 +15,12 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use crossguard_codec::{Identifiers, Position};
+use crossguard_codec::Position;
 
 use super::clustering::{CONTINUITY_MS, Cluster, Clustering, Ended, PerceivedVru, Settings};
 use super::containers::Announced;
-use super::etsi::NotMade;
 use super::generation::{INTERVAL_MAX_MS, INTERVAL_MIN_MS};
 use super::motion::{Plane, distance_m};
-use super::vam::{breakup_vam, cluster_vam};
 
 /// How far a robot goes before its plane follows it, in metres: so far it is exact.
 const PLANE_M: f64 = 1_000.0;
@@ -220,41 +218,31 @@ impl Surroundings {
         Some(cluster)
     }
 
-    /// The cluster VAM that are due at `now_ms` from `station` at `position`, each with what it says;
-    /// `timestamp_its` is the time of the position. The first one that breaks a cluster up is due at once, the
+    /// What the cluster VAM say that are due at `now_ms`. The first one that breaks a cluster up is due at once, the
     /// others every interval.
-    pub fn cluster_vams(
-        &mut self,
-        ids: &Identifiers,
-        now_ms: u64,
-        timestamp_its: u64,
-        station: u32,
-        position: &Position,
-    ) -> Vec<(Told, Result<Vec<u8>, NotMade>)> {
-        let (Some(plane), Some(interval_ms)) = (self.plane, self.cluster_vam_interval_ms) else {
+    pub fn due_cluster_vams(&mut self, now_ms: u64) -> Vec<Told> {
+        let (Some(_), Some(interval_ms)) = (self.plane, self.cluster_vam_interval_ms) else {
             return Vec::new();
         };
         let is_early = |last| now_ms.saturating_sub(last) < interval_ms;
         let is_early = self.last_cluster_vam_ms.is_some_and(is_early);
-        let mut vams = Vec::new();
+        let mut due = Vec::new();
         for (ended, left) in &mut self.breakups {
             if !is_early || *left == BREAKUP_REPEAT {
                 *left -= 1;
-                let vam = breakup_vam(ids, station, position, timestamp_its, *ended);
-                vams.push((Told::Ended(*ended), vam));
+                due.push(Told::Ended(*ended));
             }
         }
         self.breakups.retain(|(_, left)| *left > 0);
-        if is_early || (self.clustering.count() == 0 && vams.is_empty()) {
-            return vams;
+        if is_early || (self.clustering.count() == 0 && due.is_empty()) {
+            return due;
         }
         self.last_cluster_vam_ms = Some(now_ms);
         for cluster in self.clustering.clusters() {
             self.told.entry(cluster.id).or_default();
-            let vam = cluster_vam(ids, station, position, timestamp_its, &cluster, &plane);
-            vams.push((Told::Cluster(cluster), vam));
+            due.push(Told::Cluster(cluster));
         }
-        vams
+        due
     }
 }
 
@@ -332,11 +320,11 @@ mod tests {
             let near = [person(1, [5.0, 0.0])];
             let people: &[PerceivedVru] = if now_ms < 1_000 { &near } else { &[] };
             around.perceive(now_ms, &at(0.0), people).unwrap();
-            let vams = around.cluster_vams(&Identifiers::default(), now_ms, now_ms, 7, &at(0.0));
-            sent.extend(vams.iter().map(|(told, vam)| {
-                assert!(vam.is_ok());
-                (now_ms, matches!(told, Told::Cluster(_)))
-            }));
+            let due = around.due_cluster_vams(now_ms);
+            sent.extend(
+                due.iter()
+                    .map(|told| (now_ms, matches!(told, Told::Cluster(_)))),
+            );
         }
         // Who is no longer perceived is forgotten a second after the last time, at 900 ms.
         let (is_there, is_over) = (true, false);

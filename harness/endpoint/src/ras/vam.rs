@@ -24,6 +24,7 @@ use super::clustering::{BreakupReason, Cluster, Ended};
 use super::containers;
 use super::etsi::{NotMade, awareness, header};
 use super::motion::Plane;
+use super::surroundings::Told;
 
 /// `stationType` of a pedestrian.
 const PEDESTRIAN: u8 = 1;
@@ -53,13 +54,28 @@ macro_rules! high_frequency {
         )
     }};
 }
-/// The octets of the VAM by which `station`, a robot at `position` on `plane`, announces a cluster to
-/// devices that do not understand RAM, on the dictionary that `ids` say. Its motion is that of the cluster.
-/// `now_ms` is the time of the position in `TimestampIts`.
+
+/// The octets of the VAM by which `station`, a robot at `position` on `plane`, tells devices that do not understand
+/// RAM of a cluster, on the dictionary that `ids` say. `now_ms` is the time of the position in `TimestampIts`.
 ///
 /// # Errors
 /// When the message cannot be encoded.
-pub fn cluster_vam(
+pub fn vam_of(
+    ids: &Identifiers,
+    station: u32,
+    position: &Position,
+    now_ms: u64,
+    told: &Told,
+    plane: &Plane,
+) -> Result<Vec<u8>, NotMade> {
+    match told {
+        Told::Cluster(cluster) => cluster_vam(ids, station, position, now_ms, cluster, plane),
+        Told::Ended(ended) => breakup_vam(ids, station, position, now_ms, *ended),
+    }
+}
+
+/// The VAM that announces a cluster. Its motion is that of the cluster.
+fn cluster_vam(
     ids: &Identifiers,
     station: u32,
     position: &Position,
@@ -79,13 +95,9 @@ pub fn cluster_vam(
     })
 }
 
-/// The octets of the VAM by which `station`, a robot at `position`, says that a cluster is over, on the dictionary
-/// that `ids` say: with the id of the cluster, nobody in it, and `ClusterBreakupInfo` with `now_ms`, a
-/// `TimestampIts`, as its time.
-///
-/// # Errors
-/// When the message cannot be encoded.
-pub fn breakup_vam(
+/// The VAM that says that a cluster is over: with the id of the cluster, nobody in it, and `ClusterBreakupInfo` with
+/// the time.
+fn breakup_vam(
     ids: &Identifiers,
     station: u32,
     position: &Position,

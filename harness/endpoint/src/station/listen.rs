@@ -1,12 +1,14 @@
 //! What any receiver can say of packets and messages, without verifying them: for sniffers, captures and charts.
 
-use crossguard_codec::geonet::{BasicHeader, Discarded, GeonetError, Headers, NextHeader};
+use crossguard_codec::geonet::{
+    BasicHeader, Discarded, EgoPosition, GeonetError, Headers, Indication, NextHeader,
+};
 use crossguard_codec::its::ItsMessage;
-use crossguard_codec::security::SignedMessage;
-use crossguard_codec::{DecodeError, Heard, Identifiers, Position, Service, Unheard};
+use crossguard_codec::{DecodeError, Heard, Identifiers, Position, Received, Service, Unheard};
 use crossguard_protocol::StationId;
 
 use super::namesakes::NotAdmitted;
+use super::neighbours::Neighbours;
 use crate::cause::Cause;
 
 /// The service that a message is of.
@@ -56,6 +58,40 @@ impl From<&Unobserved> for Cause {
     }
 }
 
+impl Neighbours {
+    /// Puts the road users of the message of another station than `me` on the map, and returns the message.
+    ///
+    /// # Errors
+    /// Why the octets are not the message of this service, or of another station.
+    pub(crate) fn observe(
+        &mut self,
+        me: StationId,
+        indication: &Indication<'_>,
+        ego: &EgoPosition,
+        now_ms: u64,
+    ) -> Result<Received<ItsMessage>, Unobserved> {
+        let service = indication.service;
+        let received = ItsMessage::decode(&self.identifiers, indication.message)?;
+        let message = &received.message;
+        let found = service_of(message);
+        if found != Some(service) {
+            return Err(Unobserved::OtherService { service, found });
+        }
+        if message.header().station_id.0 == me.0 {
+            return Err(Unobserved::OwnStation(me));
+        }
+        if let Some(signer) = indication.signer {
+            let from = StationId(message.header().station_id.0);
+            let as_whom = (signer, indication.source.address);
+            self.namesakes.admit(from, as_whom, now_ms)?;
+        }
+        for user in message.road_users(ego.timestamp_its) {
+            self.map.observe(user, now_ms);
+        }
+        Ok(received)
+    }
+}
+
 /// The headers of a packet and the message in it, for any receiver; also of one with a security
 /// envelope, whose content is not verified then. For listeners.
 ///
@@ -65,13 +101,22 @@ pub fn peek(packet: &[u8]) -> Result<(Headers, &[u8]), Discarded> {
     let (basic, rest) = BasicHeader::decode(packet)?;
     let plain = match basic.next {
         NextHeader::Common => rest,
-        NextHeader::Secured => {
-            SignedMessage::decode(rest)
-                .map_err(|_| Discarded::Headers(GeonetError::Secured))?
-                .payload
-        }
+        NextHeader::Secured => signed(rest).ok_or(Discarded::Headers(GeonetError::Secured))?,
     };
     Ok(Headers::decode_behind(basic, plain)?)
+}
+
+/// What is signed in a security envelope.
+#[cfg(feature = "security")]
+fn signed(envelope: &[u8]) -> Option<&[u8]> {
+    let signed = crossguard_codec::security::SignedMessage::decode(envelope);
+    Some(signed.ok()?.payload)
+}
+
+/// Nothing is known of security envelopes.
+#[cfg(not(feature = "security"))]
+const fn signed(_: &[u8]) -> Option<&[u8]> {
+    None
 }
 
 /// The message in a packet, as [`peek`] has it; or the octets, where they are no packet.

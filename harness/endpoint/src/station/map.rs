@@ -6,9 +6,8 @@
 
 use std::collections::BTreeMap;
 
-use crossguard_codec::Position;
 use crossguard_codec::distance;
-use crossguard_codec::its::{Identity, Kind, RoadUser};
+use crossguard_codec::{Identity, Kind, Position, RoadUser};
 use crossguard_protocol::Decimetres;
 
 /// How many of one kind are remembered.

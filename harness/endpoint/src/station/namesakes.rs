@@ -99,6 +99,7 @@ impl Namesakes {
     ///
     /// # Errors
     /// Why not.
+    #[cfg(any(feature = "foreign", test))]
     pub(super) fn admit(
         &mut self,
         station: StationId,

@@ -1,22 +1,19 @@
 //! Who is around a robot, and who goes by which station id.
 
-use crossguard_codec::Heard;
-use crossguard_codec::Identifiers;
-use crossguard_codec::geonet::{Address, EgoPosition, Indication, Signer};
-use crossguard_codec::its::{ItsMessage, RoadUser};
+use crossguard_codec::geonet::{Address, EgoPosition, Signer};
 use crossguard_codec::si::rebuild_timestamp;
+use crossguard_codec::{Heard, Identifiers, RoadUser};
 use crossguard_protocol::StationId;
 
-use super::listen::{Unobserved, service_of};
 use super::map::LocalDynamicMap;
 use super::namesakes::Namesakes;
 
 /// The stations around one robot.
 #[derive(Clone, Debug)]
 pub(crate) struct Neighbours {
-    identifiers: Identifiers,
-    namesakes: Namesakes,
-    map: LocalDynamicMap,
+    pub(super) identifiers: Identifiers,
+    pub(super) namesakes: Namesakes,
+    pub(super) map: LocalDynamicMap,
 }
 
 impl Neighbours {
@@ -53,36 +50,5 @@ impl Neighbours {
         for user in RoadUser::of_robot(heard.from.0, station_type, state, around, measured) {
             self.map.observe(user, now_ms);
         }
-    }
-
-    /// Puts the road users of the message of another station than `me` on the map, and returns the message.
-    ///
-    /// # Errors
-    /// Why the octets are not the message of this service, or of another station.
-    pub(crate) fn observe(
-        &mut self,
-        me: StationId,
-        indication: &Indication<'_>,
-        ego: &EgoPosition,
-        now_ms: u64,
-    ) -> Result<ItsMessage, Unobserved> {
-        let service = indication.service;
-        let message = ItsMessage::decode(&self.identifiers, indication.message)?.message;
-        let found = service_of(&message);
-        if found != Some(service) {
-            return Err(Unobserved::OtherService { service, found });
-        }
-        if message.header().station_id.0 == me.0 {
-            return Err(Unobserved::OwnStation(me));
-        }
-        if let Some(signer) = indication.signer {
-            let from = StationId(message.header().station_id.0);
-            let as_whom = (signer, indication.source.address);
-            self.namesakes.admit(from, as_whom, now_ms)?;
-        }
-        for user in message.road_users(ego.timestamp_its) {
-            self.map.observe(user, now_ms);
-        }
-        Ok(message)
     }
 }

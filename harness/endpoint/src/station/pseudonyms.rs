@@ -128,7 +128,7 @@ impl Pseudonyms {
 
     /// Takes another ticket if that is due, or if the ticket is over within `lock_ms`, as long as a session may take.
     /// The caller changes all that goes with it at once, and calls this only while the identity is not locked.
-    pub(crate) fn renew(
+    pub(crate) fn take(
         &mut self,
         envelope: &mut Envelope,
         identifiers: &Identifiers,

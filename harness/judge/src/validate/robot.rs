@@ -273,7 +273,13 @@ impl Follow {
         self.settle_sending()?;
         let missing = counters.of(&Cause::LogFull.into());
         // What these count has no record of its own.
-        let silent = [Cause::LogFull, Cause::OutputFull, Cause::InboxFull].map(CauseName::from);
+        let silent = [
+            Cause::LogFull,
+            Cause::OutputFull,
+            Cause::InboxFull,
+            Cause::NotCanonical,
+        ];
+        let silent = silent.map(CauseName::from);
         let causes = counters.iter().chain(self.counted.iter());
         let causes = causes.map(|(cause, _)| cause);
         for cause in causes.filter(|cause| !silent.contains(cause)) {

@@ -1,0 +1,131 @@
+//! Every golden vector of a message or packet with one bit flipped, or cut short: it is refused with its
+//! cause, or it is the encoding of the value that it decodes to, or is said not to be; but for reserved bits of packets. Those of the
+//! security envelope are in `security/golden.rs`.
+
+use std::error::Error;
+
+use crate::support::{canonical, from_hex, without_reserved_bits};
+use crossguard_codec::geonet::Headers;
+use crossguard_codec::{DecodeError, Dictionary, Identifiers};
+use serde_json::Value;
+
+struct Vector {
+    name: String,
+    octets: Vec<u8>,
+    identifiers: Identifiers,
+    is_packet: bool,
+}
+
+/// All vectors of `golden/`.
+fn vectors() -> Vec<Vector> {
+    let lines = [
+        include_str!("../golden/its.txt"),
+        include_str!("../golden/vam.txt"),
+        include_str!("../golden/packets.txt"),
+    ];
+    let lines = lines.iter().flat_map(|text| text.lines());
+    let of_others = lines
+        .filter(|line| !line.starts_with('#'))
+        .filter_map(|line| line.split_once(": "))
+        .map(|(name, hex)| (name.to_owned(), from_hex(hex)));
+    let of_robots: Vec<Value> =
+        serde_json::from_str(include_str!("../golden/messages.json")).unwrap();
+    let of_robots = of_robots.into_iter().map(|golden| {
+        let text = |key: &str| golden[key].as_str().unwrap().to_owned();
+        (text("name"), from_hex(&text("octets")))
+    });
+    let vector = |(name, octets): (String, Vec<u8>)| Vector {
+        is_packet: name.starts_with('G'),
+        identifiers: Identifiers {
+            dictionary: if name.starts_with('W') {
+                Dictionary::V2_1_1
+            } else {
+                Dictionary::V2_4_1
+            },
+            ..Identifiers::default()
+        },
+        name,
+        octets,
+    };
+    of_others.chain(of_robots).map(vector).collect()
+}
+
+fn check(vector: &Vector, octets: &[u8]) -> Result<(), Box<dyn Error>> {
+    let message = if vector.is_packet {
+        let (headers, message) = Headers::decode(octets)?;
+        let encoded = headers.encode(message.len()).unwrap();
+        assert_eq!(
+            [encoded.as_ref(), message].concat(),
+            without_reserved_bits(octets)
+        );
+        message
+    } else {
+        octets
+    };
+    Ok(canonical(&vector.identifiers, message)?)
+}
+
+#[test]
+fn all_vectors_are_there_and_whole() {
+    let all = vectors();
+    for vector in &all {
+        check(vector, &vector.octets).expect(&vector.name);
+    }
+    // CAM 4, DENM 1, CPM 2, VAM 11 and 4 on the older dictionary; packets 2 and the messages in them;
+    // RAM and RMCM 11.
+    assert_eq!(all.len(), 4 + 1 + 2 + 11 + 4 + 2 + 2 + 11);
+    for name in ["D1", "G1", "G2", "leads", "commands"] {
+        assert!(all.iter().any(|vector| vector.name == name), "{name}");
+    }
+}
+
+#[test]
+fn every_flipped_bit_is_refused_or_comes_back() {
+    for vector in vectors() {
+        let (mut accepted, mut refused) = (0, 0);
+        for bit in 0..vector.octets.len() * 8 {
+            let mut flipped = vector.octets.clone();
+            flipped[bit / 8] ^= 0x80 >> (bit % 8);
+            match check(&vector, &flipped) {
+                Ok(()) => accepted += 1,
+                Err(error) => {
+                    assert!(!error.to_string().is_empty());
+                    refused += 1;
+                }
+            }
+        }
+        // Most bits are part of a number; those of the header say what it is.
+        let name = vector.name;
+        assert!(
+            accepted > 100 && refused > 15,
+            "{name}: {accepted} {refused}"
+        );
+    }
+}
+
+#[test]
+fn every_truncation_is_refused() {
+    for vector in vectors() {
+        let name = &vector.name;
+        for length in 0..vector.octets.len() {
+            let error = check(&vector, &vector.octets[..length]).expect_err(name);
+            let is_truncation = match error.downcast_ref::<DecodeError>() {
+                None => vector.is_packet,
+                Some(error) => ["too short", "truncated"].contains(&error.cause()),
+            };
+            assert!(is_truncation, "{name} {length}: {error}");
+        }
+    }
+}
+
+#[test]
+fn an_octet_behind_it_is_refused() {
+    for vector in vectors() {
+        let longer = [&vector.octets[..], &[0]].concat();
+        let error = check(&vector, &longer).expect_err(&vector.name);
+        if !vector.is_packet {
+            let expected = DecodeError::TrailingOctets { count: 1 };
+            assert_eq!(error.downcast_ref(), Some(&expected), "{}", vector.name);
+        }
+    }
+}

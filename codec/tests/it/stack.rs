@@ -1,0 +1,246 @@
+//! Whole packets: golden ones, what is discarded and why, and hostile octets.
+
+use crate::support::{from_hex, without_reserved_bits};
+use crossguard_codec::geonet::*;
+use crossguard_codec::{Identifiers, MESSAGE_LEN_MAX, Service};
+use proptest::prelude::*;
+
+const VECTORS: &str = include_str!("../golden/packets.txt");
+
+fn vector(name: &str) -> Vec<u8> {
+    let line = VECTORS
+        .lines()
+        .find_map(|line| line.strip_prefix(name)?.strip_prefix(": "));
+    from_hex(line.expect("a vector of this name"))
+}
+
+/// The station of the vectors.
+fn address() -> Address {
+    Address {
+        link_layer: [2, 0, 0, 0, 0, 1],
+        ..Address::of_station(1, 5)
+    }
+}
+
+fn stack_of(address: Address) -> Stack {
+    Stack::new(Identifiers::default(), address, Envelope::Off)
+}
+
+fn listener() -> Stack {
+    stack_of(Address::of_station(77, 12))
+}
+
+fn ego() -> EgoPosition {
+    EgoPosition {
+        timestamp_its: 694_694_401_000,
+        coordinates: Some((487_654_321, 91_234_567)),
+        is_accurate: true,
+        speed: 1_389,
+        heading: 900,
+    }
+}
+
+fn area() -> Area {
+    Area {
+        shape: Shape::Circle,
+        latitude: 487_654_321,
+        longitude: 91_234_567,
+        distance_a: 100,
+        distance_b: 0,
+        angle: 0,
+    }
+}
+
+fn sixty_seconds() -> Lifetime {
+    Lifetime {
+        multiplier: 6,
+        base: LifetimeBase::TenSeconds,
+    }
+}
+
+fn send(stack: &mut Stack, request: &Request, message: &[u8]) -> Vec<u8> {
+    let mut packet = [0; PACKET_LEN_MAX];
+    let length = stack.send(&ego(), request, message, &mut packet).unwrap();
+    packet[..length].to_vec()
+}
+
+fn to_the_area(stack: &mut Stack) -> Vec<u8> {
+    let request = Request {
+        destination: Destination::Area {
+            area: area(),
+            hop_limit: 10,
+        },
+        lifetime: sixty_seconds(),
+        ..Service::Denm.request(&Identifiers::default())
+    };
+    send(stack, &request, &vector("DENM"))
+}
+
+#[test]
+fn the_golden_packets_are_made_bit_for_bit() {
+    let mut stack = stack_of(address());
+    let request = Request {
+        lifetime: sixty_seconds(),
+        ..Service::Cam.request(&Identifiers::default())
+    };
+    assert_eq!(send(&mut stack, &request, &vector("CAM")), vector("G1"));
+    stack.change_address(address(), 7);
+    assert_eq!(to_the_area(&mut stack), vector("G2"));
+}
+
+#[test]
+fn the_golden_packets_are_understood() {
+    for (name, service, message) in [("G1", Service::Cam, "CAM"), ("G2", Service::Denm, "DENM")] {
+        let packet = vector(name);
+        let indication = listener().receive(&ego(), &packet).map(|indication| {
+            assert_eq!(indication.source, ego().vector(address()));
+            assert_eq!(indication.signer, None);
+            (indication.service, indication.message.to_vec())
+        });
+        assert_eq!(indication, Ok((service, vector(message))));
+    }
+}
+
+#[test]
+fn a_geo_broadcast_is_taken_once() {
+    let (mut sender, mut receiver) = (stack_of(address()), listener());
+    let (first, second) = (to_the_area(&mut sender), to_the_area(&mut sender));
+    assert!(receiver.receive(&ego(), &first).is_ok());
+    assert!(receiver.receive(&ego(), &second).is_ok());
+    for (packet, sequence_number) in [(first, 0), (second, 1)] {
+        let again = receiver.receive(&ego(), &packet);
+        assert_eq!(again, Err(Discarded::Duplicate { sequence_number }));
+    }
+}
+
+#[test]
+fn a_geo_broadcast_is_for_those_in_its_area() {
+    let packet = to_the_area(&mut stack_of(address()));
+    for coordinates in [Some((487_664_321, 91_234_567)), None] {
+        let elsewhere = EgoPosition {
+            coordinates,
+            ..ego()
+        };
+        let heard = listener().receive(&elsewhere, &packet);
+        assert_eq!(heard, Err(Discarded::Elsewhere));
+    }
+}
+
+/// Hazard: a packet that was held up somewhere, as by a router, speaks of a street as it was.
+#[test]
+fn what_was_sent_longer_ago_than_it_lives_is_discarded_by_a_clock_that_is_right() {
+    let packet = vector("G1");
+    let lifetime_ms = sixty_seconds().milliseconds();
+    let heard = |error_ms, later_ms: i64| {
+        let mut receiver = listener();
+        receiver.keep_time(error_ms);
+        let now = EgoPosition {
+            timestamp_its: ego().timestamp_its.saturating_add_signed(later_ms),
+            ..ego()
+        };
+        receiver.receive(&now, &packet).map(|it| it.service)
+    };
+    let age_ms = lifetime_ms + 21;
+    let outlived = Discarded::Outlived {
+        age_ms,
+        lifetime_ms,
+    };
+    assert_eq!(heard(Some(20), i64::from(age_ms)), Err(outlived));
+    assert_eq!(outlived.cause(), "lifetime over");
+    // The clock may be wrong by so much.
+    assert_eq!(heard(Some(20), i64::from(age_ms) - 1), Ok(Service::Cam));
+    // Of a clock that is not known to be right nothing follows, and a time stamp from the future is not old.
+    assert_eq!(heard(None, 3_600_000), Ok(Service::Cam));
+    assert_eq!(heard(Some(20), -3_600_000), Ok(Service::Cam));
+}
+
+#[test]
+fn what_is_not_for_the_station_is_discarded_by_name() {
+    let mut octets = vector("G1");
+    let own = stack_of(address()).receive(&ego(), &octets).unwrap_err();
+    assert_eq!((own, own.cause()), (Discarded::OwnPacket, "own packet"));
+    // Port 2003.
+    octets[41] = 0xd3;
+    let at_no_service = listener().receive(&ego(), &octets);
+    assert_eq!(at_no_service, Err(Discarded::UnknownPort(2_003)));
+}
+
+#[test]
+fn a_secured_packet_is_not_understood_while_security_is_off() {
+    let mut octets = vector("G1");
+    octets[0] = 0x12;
+    let secured = listener().receive(&ego(), &octets);
+    let off = Discarded::Envelope(EnvelopeError::SecurityIsOff);
+    assert_eq!(secured, Err(off));
+}
+
+#[test]
+fn a_message_that_is_too_long_is_refused() {
+    let request = Service::Ram.request(&Identifiers::default());
+    let mut packet = [0; PACKET_LEN_MAX];
+    let mut stack = listener();
+    let mut send = |length, room: usize| {
+        let message = vec![0; length];
+        stack.send(&ego(), &request, &message, &mut packet[..room])
+    };
+    let length = MESSAGE_LEN_MAX;
+    assert_eq!(send(length, PACKET_LEN_MAX), Ok(length + 44));
+    assert_eq!(send(length, length), Err(SendError::NoRoom));
+    let length = length + 1;
+    let too_long = send(length, PACKET_LEN_MAX);
+    assert_eq!(too_long, Err(SendError::TooLong { length }));
+    let flood = [0x11; PACKET_LEN_MAX + 1];
+    let too_long = listener().receive(&ego(), &flood).unwrap_err();
+    assert_eq!(too_long.cause(), "too long");
+}
+
+#[test]
+fn packets_are_made_and_taken_without_heap() {
+    let request = Service::Cam.request(&Identifiers::default());
+    let (mut sender, mut receiver) = (stack_of(address()), listener());
+    let (message, mut packet) = (vector("CAM"), [0; PACKET_LEN_MAX]);
+    let used = allocation_counter::measure(|| {
+        let length = sender
+            .send(&ego(), &request, &message, &mut packet)
+            .unwrap();
+        let heard = receiver.receive(&ego(), &packet[..length]).unwrap();
+        assert_eq!(*heard.message, *message);
+    });
+    assert_eq!(used.count_total, 0);
+}
+
+/// What is accepted comes out of its own headers again; what is not has a cause.
+fn check(octets: &[u8]) {
+    match listener().receive(&ego(), octets) {
+        Ok(indication) => {
+            let headers = indication.headers.encode(indication.message.len()).unwrap();
+            let again = [headers.as_ref(), indication.message].concat();
+            assert_eq!(again, without_reserved_bits(octets));
+        }
+        Err(discarded) => assert!(!discarded.cause().is_empty()),
+    }
+}
+
+#[test]
+fn every_flipped_bit_and_every_truncation_is_understood_or_discarded() {
+    for octets in [vector("G1"), vector("G2")] {
+        for bit in 0..octets.len() * 8 {
+            let mut flipped = octets.clone();
+            flipped[bit / 8] ^= 0x80 >> (bit % 8);
+            check(&flipped);
+        }
+        for length in 0..octets.len() {
+            let truncated = listener().receive(&ego(), &octets[..length]);
+            assert!(matches!(truncated, Err(Discarded::Headers(_))), "{length}");
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn any_octets_are_understood_or_discarded(octets in prop::collection::vec(any::<u8>(), 0..1_600)) {
+        check(&octets);
+        let behind_a_good_start = [&vector("G1")[..4], &octets].concat();
+        check(&behind_a_good_start);
+    }
+}

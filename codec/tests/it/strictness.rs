@@ -1,0 +1,174 @@
+//! Of RAM and RMCM exactly the canonical encodings are accepted; everything else is refused with its cause.
+
+use std::collections::BTreeSet;
+
+use crate::support::{from_bits, samples, to_bits};
+use crossguard_codec::{
+    DecodeError, Fault, Identifiers, MESSAGE_LEN_MAX, Message, core, decode, encode,
+};
+
+fn identifiers() -> Identifiers {
+    Identifiers::default()
+}
+
+fn rams() -> Vec<Vec<u8>> {
+    let rams = [
+        samples::typical_ram(&identifiers()),
+        samples::largest_ram(&identifiers()),
+    ];
+    rams.iter()
+        .map(|ram| encode(&identifiers(), ram).unwrap())
+        .collect()
+}
+
+fn flip(octets: &[u8], bit: usize) -> Vec<u8> {
+    let mut flipped = octets.to_vec();
+    flipped[bit / 8] ^= 0x80 >> (bit % 8);
+    flipped
+}
+
+#[test]
+fn what_is_wrong_is_named_with_its_field() {
+    let octets = &rams()[0];
+    let errors = (0..octets.len() * 8).filter_map(|bit| {
+        let error = decode::<core::ram::RAM>(&identifiers(), &flip(octets, bit)).err()?;
+        Some(error.to_string())
+    });
+    let errors: BTreeSet<String> = errors
+        .map(|error| error.split(" (").next().unwrap().into())
+        .collect();
+    let status = "ram.ram_parameters.robot_status_container";
+    let expected = [
+        "ram.ram_parameters.basic_container.reference_position.longitude: \
+         2238718215 is not within -1800000000..1800000001"
+            .to_owned(),
+        format!("{status}.robot_category: its alternative is unknown"),
+        format!("{status}.battery_status.state_of_charge: 115 is not within 0..101"),
+        format!("{status}.help_status: its alternative is unknown"),
+    ];
+    for error in expected {
+        assert!(
+            errors.contains(&error),
+            "{error}\nis not among\n{errors:#?}"
+        );
+    }
+}
+
+#[test]
+fn a_number_is_refused_from_the_first_one_beyond_its_range() {
+    let bits = to_bits(&rams()[0]);
+    // Behind header, generation time, extension and presence bits, and the station type.
+    let (start, width) = (64 + 5 + 1 + 8, 31);
+    let with_latitude = |number: i32| {
+        let offset = u32::try_from(number + 900_000_000).unwrap();
+        let (before, after) = (&bits[..start], &bits[start + width..]);
+        decode::<core::ram::RAM>(
+            &identifiers(),
+            &from_bits(&format!("{before}{offset:031b}{after}")),
+        )
+    };
+    assert!(with_latitude(900_000_001).is_ok());
+    let error = with_latitude(900_000_002).unwrap_err();
+    let DecodeError::Malformed { field, bit, fault } = error else {
+        panic!("{error}");
+    };
+    assert_eq!((field.names().last(), bit), (Some("latitude"), start));
+    let (min, max) = (-900_000_000, 900_000_001);
+    assert_eq!(
+        fault,
+        Fault::Value {
+            number: 900_000_002,
+            min,
+            max
+        }
+    );
+}
+
+#[test]
+fn a_component_that_spells_out_its_default_is_refused() {
+    // The altitude of a target is "unavailable" by default. With 8000 m it is spelled out ...
+    let mut parameters = samples::parameters();
+    parameters.target = Some(crossguard_codec::Target::Position {
+        latitude: 48.0,
+        longitude: 9.0,
+        altitude: Some(8_000.0),
+    });
+    let commands = [(samples::command(), parameters)];
+    let position = samples::position();
+    let rmcm = crossguard_codec::rmcm_from_commands(&identifiers(), &position, &commands, 0);
+    let octets = encode(&identifiers(), &rmcm.unwrap()).unwrap();
+    // ... as 800000, and the next number is 800001, unavailable.
+    let bits = to_bits(&octets);
+    let (altitude, unavailable) = (format!("{:020b}", 900_000), format!("{:020b}", 900_001));
+    assert_eq!(bits.matches(&altitude).count(), 1);
+    let octets = from_bits(&bits.replace(&altitude, &unavailable));
+    let error = decode::<core::rmcm::RMCM>(&identifiers(), &octets).unwrap_err();
+    let DecodeError::Malformed { field, fault, .. } = error else {
+        panic!("{error}");
+    };
+    assert_eq!(fault, Fault::DefaultSpelledOut);
+    assert_eq!(field.names().last(), Some("altitude"));
+}
+
+#[test]
+fn the_header_is_read_before_anything_else() {
+    let octets = &rams()[0];
+    for length in 0..6 {
+        let error = decode::<core::ram::RAM>(&identifiers(), &octets[..length]).unwrap_err();
+        assert_eq!(error, DecodeError::TooShort { length });
+    }
+    let error = decode::<core::rmcm::RMCM>(&identifiers(), octets).unwrap_err();
+    assert_eq!(
+        error,
+        DecodeError::MessageId {
+            found: 240,
+            expected: "RMCM"
+        }
+    );
+    let mut newer = octets.clone();
+    newer[0] = 2;
+    let error = decode::<core::ram::RAM>(&identifiers(), &newer).unwrap_err();
+    assert_eq!(
+        error,
+        DecodeError::ProtocolVersion {
+            message: "RAM",
+            found: 2,
+            known: 1
+        }
+    );
+    let mut of_another = octets.clone();
+    of_another[1] = 16;
+    let error = Message::decode(&identifiers(), &of_another).unwrap_err();
+    let expected = "RAM or RMCM";
+    assert_eq!(
+        error,
+        DecodeError::MessageId {
+            found: 16,
+            expected
+        }
+    );
+}
+
+#[test]
+fn what_no_packet_carries_is_refused_unread() {
+    let length = MESSAGE_LEN_MAX + 1;
+    let octets = vec![0; length];
+    let error = decode::<core::ram::RAM>(&identifiers(), &octets).unwrap_err();
+    assert_eq!(
+        error,
+        DecodeError::TooLong {
+            length,
+            max: MESSAGE_LEN_MAX
+        }
+    );
+}
+
+#[test]
+fn identifiers_are_those_of_the_configuration() {
+    let mut other = identifiers();
+    other.ram.message_id = 200;
+    let octets = encode(&other, &samples::typical_ram(&other)).unwrap();
+    assert_eq!(octets[1], 200);
+    assert!(decode::<core::ram::RAM>(&other, &octets).is_ok());
+    assert!(decode::<core::ram::RAM>(&identifiers(), &octets).is_err());
+}

@@ -1,0 +1,359 @@
+//! Arbitrary values of the generated types: a `rasn::Decoder` that makes its values up.
+//!
+//! Every value that it makes is valid by its ASN.1 type, with sizes and numbers before extension
+//! markers only. Rules beyond the types are [`lawful`]'s.
+
+use crossguard_codec::asn1::cdd::Shape;
+use crossguard_codec::asn1::ram::RAM;
+use crossguard_codec::{Identifiers, PATH_HISTORY_MAX, PATH_PREDICTION_MAX, Pdu};
+use rasn::de::Error as _;
+use rasn::error::DecodeError;
+use rasn::types::{self, Constraints, Constructed, DecodeChoice, Enumerated, Tag, TagTree};
+use rasn::{Codec, Decode};
+
+use super::reference::Reference;
+
+type Result<T> = std::result::Result<T, DecodeError>;
+
+/// A message that `seed` stands for, with the header that `identifiers` give it.
+pub fn message<M: Reference>(identifiers: &Identifiers, seed: u64) -> M {
+    with_header(M::Message::expected_header(identifiers), seed)
+}
+
+/// The same of another station than a robot.
+pub fn foreign<M: Decode + Pdu>(seed: u64) -> M {
+    with_header(M::expected_header(&Identifiers::default()), seed)
+}
+
+fn with_header<M: Decode>((protocol_version, message_id): (u8, u8), seed: u64) -> M {
+    // The first two numbers of a message are those of its header.
+    let forced = vec![message_id.into(), protocol_version.into()];
+    M::decode(&mut Imagination { seed, forced }).expect("every type is supported")
+}
+
+/// A value of any type that `seed` stands for.
+pub fn any<T: Decode>(seed: u64) -> T {
+    let forced = Vec::new();
+    T::decode(&mut Imagination { seed, forced }).expect("every type is supported")
+}
+
+/// The RAM that `seed` stands for, cut down to what the rules allow.
+pub fn ram(identifiers: &Identifiers, seed: u64) -> RAM {
+    lawful(message(identifiers, seed))
+}
+
+/// Cuts a RAM down to what the rules allow.
+pub fn lawful(mut ram: RAM) -> RAM {
+    let parameters = &mut ram.ram.ram_parameters;
+    if let Some(prediction) = &mut parameters.vru_motion_prediction_container {
+        if let Some(points) = &mut prediction.path_history {
+            points.0.truncate(PATH_HISTORY_MAX);
+        }
+        if let Some(points) = &mut prediction.path_prediction {
+            points.0.truncate(PATH_PREDICTION_MAX);
+        }
+    }
+    if let Some(cluster) = &mut parameters.vru_cluster_information_container {
+        let shape = &mut cluster.vru_cluster_information.cluster_bounding_box_shape;
+        if matches!(
+            shape,
+            Some(Shape::elliptical(_) | Shape::radial(_) | Shape::radialShapes(_))
+        ) {
+            *shape = None;
+        }
+    }
+    ram
+}
+
+struct Imagination {
+    seed: u64,
+    /// Numbers that come first, the next one last.
+    forced: Vec<i128>,
+}
+
+impl Imagination {
+    /// The next number of the `SplitMix64` generator.
+    fn next(&mut self) -> u64 {
+        self.seed = self.seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.seed;
+        z = (z ^ z >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ z >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ z >> 31
+    }
+
+    fn flip(&mut self) -> bool {
+        self.next() & 1 == 1
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        usize::try_from(self.next() % count as u64).unwrap()
+    }
+
+    /// Often the smallest or the largest one.
+    fn within(&mut self, min: i128, max: i128) -> i128 {
+        match self.next() % 8 {
+            0 => min,
+            1 => max,
+            _ => min + i128::from(self.next()) % (max - min + 1),
+        }
+    }
+
+    fn size(&mut self, constraints: &Constraints) -> usize {
+        let size = constraints
+            .size()
+            .expect("lists and strings have sizes")
+            .constraint;
+        let (min, max) = (*size.as_start().unwrap(), *size.as_end().unwrap());
+        usize::try_from(self.within(min as i128, max as i128)).unwrap()
+    }
+
+    /// A text of some of these characters.
+    fn text(&mut self, constraints: &Constraints, characters: &[char]) -> String {
+        let size = self.size(constraints);
+        (0..size)
+            .map(|_| characters[self.below(characters.len())])
+            .collect()
+    }
+
+    #[expect(clippy::unused_self, reason = "as methods of the trait")]
+    fn unused<T>(&self) -> Result<T> {
+        Err(DecodeError::custom(
+            "no module uses such a type",
+            Codec::Uper,
+        ))
+    }
+}
+
+macro_rules! unused {
+    ($($method:ident($($argument:ty),*) -> $type:ty;)*) => {$(
+        fn $method(&mut self, _: Tag, $(_: $argument),*) -> Result<$type> {
+            self.unused()
+        }
+    )*};
+}
+
+impl rasn::Decoder for Imagination {
+    type Ok = ();
+    type Error = DecodeError;
+    type AnyDecoder<const R: usize, const E: usize> = Self;
+
+    fn codec(&self) -> Codec {
+        Codec::Uper
+    }
+
+    fn decode_null(&mut self, _: Tag) -> Result<()> {
+        Ok(())
+    }
+
+    fn decode_bool(&mut self, _: Tag) -> Result<bool> {
+        Ok(self.flip())
+    }
+
+    fn decode_integer<I: types::IntegerType>(
+        &mut self,
+        _: Tag,
+        constraints: &Constraints,
+    ) -> Result<I> {
+        let bounds = constraints
+            .value()
+            .expect("integers have bounds")
+            .constraint;
+        let (min, max) = (*bounds.as_start().unwrap(), *bounds.as_end().unwrap());
+        let number = self.forced.pop().unwrap_or_else(|| self.within(min, max));
+        I::try_from(number).or_else(|_| self.unused())
+    }
+
+    fn decode_enumerated<E: Enumerated>(&mut self, _: Tag) -> Result<E> {
+        Ok(E::VARIANTS[self.below(E::VARIANTS.len())])
+    }
+
+    fn decode_bit_string(&mut self, _: Tag, constraints: &Constraints) -> Result<types::BitString> {
+        let size = self.size(constraints);
+        Ok((0..size).map(|_| self.flip()).collect())
+    }
+
+    fn decode_ia5_string(&mut self, _: Tag, constraints: &Constraints) -> Result<types::Ia5String> {
+        // DEL belongs to it as well, which pycrate 0.8.1 does not know.
+        let text = self.text(constraints, &['\0', ' ', '0', 'A', 'z', '~']);
+        Ok(types::Ia5String::from_iso646_bytes(text.as_bytes()).unwrap())
+    }
+
+    fn decode_numeric_string(
+        &mut self,
+        _: Tag,
+        constraints: &Constraints,
+    ) -> Result<types::NumericString> {
+        let text = self.text(constraints, &[' ', '0', '1', '5', '9']);
+        Ok(types::NumericString::from_bytes(text.as_bytes()).unwrap())
+    }
+
+    fn decode_utf8_string(
+        &mut self,
+        _: Tag,
+        constraints: &Constraints,
+    ) -> Result<types::Utf8String> {
+        Ok(self.text(constraints, &['a', 'Z', 'é', '語', '🚧']))
+    }
+
+    fn decode_sequence<const RC: usize, const EC: usize, D, DF, F>(
+        &mut self,
+        _: Tag,
+        _: Option<DF>,
+        decode_fn: F,
+    ) -> Result<D>
+    where
+        D: Constructed<RC, EC>,
+        DF: FnOnce() -> D,
+        F: FnOnce(&mut Self) -> Result<D>,
+    {
+        decode_fn(self)
+    }
+
+    fn decode_sequence_of<D: Decode>(
+        &mut self,
+        _: Tag,
+        constraints: &Constraints,
+    ) -> Result<Vec<D>> {
+        (0..self.size(constraints))
+            .map(|_| D::decode(self))
+            .collect()
+    }
+
+    fn decode_choice<D: DecodeChoice>(&mut self, _: &Constraints) -> Result<D> {
+        let alternatives: Vec<_> = D::VARIANTS
+            .iter()
+            .chain(D::EXTENDED_VARIANTS.unwrap_or(&[]))
+            .collect();
+        match alternatives[self.below(alternatives.len())] {
+            TagTree::Leaf(tag) => D::from_tag(self, *tag),
+            TagTree::Choice(_) => self.unused(),
+        }
+    }
+
+    fn decode_explicit_prefix<D: Decode>(&mut self, tag: Tag) -> Result<D> {
+        if D::IS_CHOICE {
+            D::decode(self)
+        } else {
+            D::decode_with_tag(self, tag)
+        }
+    }
+
+    fn decode_optional_with_explicit_prefix<D: Decode>(&mut self, tag: Tag) -> Result<Option<D>> {
+        self.decode_optional_with_tag(tag)
+    }
+
+    fn decode_optional<D: Decode>(&mut self) -> Result<Option<D>> {
+        self.decode_optional_with_tag(D::TAG)
+    }
+
+    fn decode_optional_with_tag<D: Decode>(&mut self, tag: Tag) -> Result<Option<D>> {
+        let is_present = self.flip();
+        is_present
+            .then(|| D::decode_with_tag(self, tag))
+            .transpose()
+    }
+
+    fn decode_optional_with_constraints<D: Decode>(
+        &mut self,
+        constraints: &Constraints,
+    ) -> Result<Option<D>> {
+        self.decode_optional_with_tag_and_constraints(D::TAG, constraints)
+    }
+
+    fn decode_optional_with_tag_and_constraints<D: Decode>(
+        &mut self,
+        tag: Tag,
+        constraints: &Constraints,
+    ) -> Result<Option<D>> {
+        let is_present = self.flip();
+        is_present
+            .then(|| D::decode_with_tag_and_constraints(self, tag, constraints))
+            .transpose()
+    }
+
+    unused! {
+        decode_any() -> types::Any;
+        decode_object_identifier() -> types::ObjectIdentifier;
+        decode_visible_string(&Constraints) -> types::VisibleString;
+        decode_general_string(&Constraints) -> types::GeneralString;
+        decode_graphic_string(&Constraints) -> types::GraphicString;
+        decode_printable_string(&Constraints) -> types::PrintableString;
+        decode_teletex_string(&Constraints) -> types::TeletexString;
+        decode_bmp_string(&Constraints) -> types::BmpString;
+        decode_utc_time() -> types::UtcTime;
+        decode_generalized_time() -> types::GeneralizedTime;
+        decode_date() -> types::Date;
+    }
+
+    fn decode_real<R: types::RealType>(&mut self, _: Tag, _: &Constraints) -> Result<R> {
+        self.unused()
+    }
+
+    fn decode_octet_string<'b, T>(&'b mut self, _: Tag, constraints: &Constraints) -> Result<T>
+    where
+        T: From<&'b [u8]> + From<Vec<u8>>,
+    {
+        let size = match constraints.size() {
+            Some(_) => self.size(constraints),
+            None => 1 + self.below(200),
+        };
+        let octets: Vec<u8> = (0..size).map(|_| self.next().to_be_bytes()[0]).collect();
+        Ok(T::from(octets))
+    }
+
+    fn decode_set_of<D: Decode + Eq + std::hash::Hash>(
+        &mut self,
+        _: Tag,
+        _: &Constraints,
+    ) -> Result<types::SetOf<D>> {
+        self.unused()
+    }
+
+    fn decode_set<const RC: usize, const EC: usize, FIELDS, SET, D, F>(
+        &mut self,
+        _: Tag,
+        _: D,
+        _: F,
+    ) -> Result<SET>
+    where
+        SET: Decode + Constructed<RC, EC>,
+        FIELDS: Decode,
+        D: Fn(&mut Self, usize, Tag) -> Result<FIELDS>,
+        F: FnOnce(Vec<FIELDS>) -> Result<SET>,
+    {
+        self.unused()
+    }
+
+    fn decode_extension_addition_with_explicit_tag_and_constraints<D: Decode>(
+        &mut self,
+        tag: Tag,
+        constraints: &Constraints,
+    ) -> Result<Option<D>> {
+        self.decode_extension_addition_with_tag_and_constraints(tag, constraints)
+    }
+
+    fn decode_extension_addition_with_tag_and_constraints<D: Decode>(
+        &mut self,
+        _: Tag,
+        constraints: &Constraints,
+    ) -> Result<Option<D>> {
+        if self.flip() {
+            return Ok(None);
+        }
+        // rasn does not give the constraints that the type of the addition has itself.
+        if constraints.size().is_none() && constraints.value().is_none() {
+            D::decode(self).map(Some)
+        } else {
+            D::decode_with_constraints(self, constraints).map(Some)
+        }
+    }
+
+    fn decode_extension_addition_group<const RC: usize, const EC: usize, D>(
+        &mut self,
+    ) -> Result<Option<D>>
+    where
+        D: Decode + Constructed<RC, EC>,
+    {
+        self.unused()
+    }
+}

@@ -1,0 +1,108 @@
+//! Other stations than robots: what they say goes onto the map, and CAM and cluster VAM go to them.
+
+use crossguard_codec::Service;
+use crossguard_codec::geonet::{EgoPosition, Indication};
+use crossguard_protocol::{Robot, StateMachine, StationId};
+
+use super::turn::Turn;
+use crate::cause::Cause;
+use crate::exchange::{Arrived, Exchange, Host as _, Moment};
+use crate::ras::cam::{CamGeneration, cam};
+use crate::ras::generation::Trigger;
+use crate::ras::surroundings::Awareness;
+use crate::ras::vam::vam_of;
+
+/// What a robot says to other stations.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Others {
+    /// When CAM are sent, if they are.
+    cam: Option<CamGeneration>,
+}
+
+impl Others {
+    pub(super) fn new(awareness: &Awareness) -> Self {
+        Self {
+            cam: awareness.cam.then(CamGeneration::default),
+        }
+    }
+
+    /// Whether they are told where the robot is.
+    pub(super) const fn are_told(&self) -> bool {
+        self.cam.is_some()
+    }
+
+    /// Sends the cluster VAM that are due.
+    #[expect(clippy::unused_self, reason = "its counterpart tells nobody")]
+    pub(super) fn tell_of_people<P: StateMachine>(
+        &self,
+        exchange: &mut Exchange<P>,
+        turn: &mut Turn<'_>,
+        moment: Moment,
+    ) {
+        let surroundings = &mut turn.around.surroundings;
+        let due = surroundings.due_cluster_vams(moment.now_ms);
+        let Some(plane) = surroundings.plane().copied() else {
+            return;
+        };
+        let (ids, station) = (*exchange.identifiers(), exchange.robot().station().0);
+        for told in due {
+            let (position, time) = (&turn.state().position, moment.timestamp_its);
+            match vam_of(&ids, station, position, time, &told, &plane) {
+                Ok(vam) => {
+                    exchange.transmit(turn, moment, (Service::Vam, Trigger::Interval), &vam);
+                }
+                Err(error) => turn.not_sent(&error),
+            }
+        }
+    }
+
+    /// Sends a CAM if one is due.
+    pub(super) fn tell_of_robot<P: StateMachine>(
+        &mut self,
+        exchange: &mut Exchange<P>,
+        turn: &mut Turn<'_>,
+        moment: Moment,
+        congestion_ms: u64,
+    ) {
+        let Some(generation) = &mut self.cam else {
+            return;
+        };
+        let Some(due) = generation.poll(moment.now_ms, congestion_ms, turn.state()) else {
+            return;
+        };
+        let (ids, station) = (exchange.identifiers(), exchange.robot().station().0);
+        let time = moment.timestamp_its;
+        match cam(ids, station, turn.state(), time, due.low_frequency) {
+            Ok(octets) => exchange.transmit(turn, moment, (Service::Cam, due.trigger), &octets),
+            Err(error) => turn.not_sent(&error),
+        }
+    }
+}
+
+/// Puts on the map what another station tells to the robot `me`.
+pub(super) fn hear(
+    turn: &mut Turn<'_>,
+    moment: Moment,
+    me: &Robot,
+    indication: &Indication<'_>,
+    arrived: Arrived<'_>,
+) {
+    let (service, octets) = (indication.service, indication.message);
+    let ego = EgoPosition::of(turn.state(), moment.timestamp_its);
+    let neighbours = &mut turn.around.neighbours;
+    match neighbours.observe(me.station(), indication, &ego, moment.now_ms) {
+        Ok(received) => {
+            if !received.is_canonical {
+                turn.ignored(Cause::NotCanonical);
+            }
+            let message = received.message;
+            // An event is nobody for the map, and changes nothing that the robot does.
+            if let Some(event) = message.event() {
+                return turn.dropped(Cause::NoUse(service), &event, arrived.octets);
+            }
+            let from = StationId(message.header().station_id.0);
+            turn.understood(moment, (service, from), Arrived { octets, ..arrived });
+        }
+        Err(unobserved) => turn.dropped((&unobserved).into(), &unobserved, arrived.octets),
+    }
+}

@@ -1,0 +1,76 @@
+//! Security of an endpoint: whom it believes, and the pseudonyms that it goes by.
+
+use std::collections::BTreeSet;
+
+use crossguard_codec::geonet::{EgoPosition, Envelope};
+use crossguard_codec::security::{HashedId8, TrustedTime};
+use crossguard_protocol::{Event, Identity, StateMachine};
+
+use super::Endpoint;
+use super::turn::Turn;
+use crate::exchange::{Exchange, Host as _, Moment};
+pub(super) use crate::station::Pseudonyms;
+use crate::station::Security;
+
+impl<P: StateMachine> Endpoint<P> {
+    /// The same with security.
+    #[must_use]
+    pub fn with_security(mut self, security: Security) -> Self {
+        self.pseudonyms = Pseudonyms::new(security.secret, security.pseudonym_period_ms);
+        *self.exchange.stack_mut().envelope_mut() = security.envelope;
+        self
+    }
+
+    /// The time that packets are verified by, and whether the clock is trusted. `None` without security.
+    #[must_use]
+    pub const fn trusted_time(&self) -> Option<&TrustedTime> {
+        match self.exchange.stack().envelope() {
+            Envelope::Secured(secured) => Some(secured.station().verifier().time()),
+            _ => None,
+        }
+    }
+
+    /// Trusts none of these certificates from now on, instead of the ones that were revoked before.
+    pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
+        if let Envelope::Secured(secured) = self.exchange.stack_mut().envelope_mut() {
+            secured.set_revoked(revoked);
+        }
+    }
+}
+
+impl Pseudonyms {
+    /// Looks at the clock, and changes the pseudonym when that is due and no session knows the robot by its old one.
+    pub(super) fn renew<P: StateMachine>(
+        &mut self,
+        exchange: &mut Exchange<P>,
+        turn: &mut Turn<'_>,
+        moment: Moment,
+    ) {
+        let ego = EgoPosition::of(turn.state(), moment.timestamp_its);
+        if let Envelope::Secured(secured) = exchange.stack_mut().envelope_mut() {
+            secured.look_at_clock(&ego, moment.now_ms);
+        }
+        if exchange.robot().identity() != Identity::Unlocked {
+            return;
+        }
+        let lock_ms = u64::from(exchange.config().settings().t_lock.0);
+        let (identifiers, robot) = (*exchange.identifiers(), exchange.robot().clone());
+        let envelope = exchange.stack_mut().envelope_mut();
+        if let Some(taken) = self.take(envelope, &identifiers, &ego, &robot, lock_ms) {
+            let numbers = (Some(taken.next), taken.sequence_number);
+            exchange.change_identity(turn, moment, taken.station, numbers);
+            turn.renew_clusters(moment.now_ms, taken.clusters);
+            self.fall_silent(taken.station, moment.now_ms);
+        }
+    }
+
+    /// The event as the protocol is to have it: another boot counter stands for one that was persisted.
+    pub(super) fn disguise<P: StateMachine>(&self, exchange: &Exchange<P>, event: Event) -> Event {
+        match (event, exchange.stack().envelope()) {
+            (Event::EpochRenewed(boot), Envelope::Secured(_)) => {
+                Event::EpochRenewed(self.epoch(exchange.robot().station(), boot))
+            }
+            (event, _) => event,
+        }
+    }
+}
