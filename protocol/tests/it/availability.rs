@@ -38,14 +38,10 @@ fn an_unavailable_robot_neither_asks_nor_offers() {
 #[test]
 fn an_offer_is_withdrawn_by_name() {
     for reason in EVERY_REASON {
-        let mut street = Street::new(&[ARI, GO2]);
-        street.tell(ARI, Event::PedestrianDetected(escort(1)));
+        let mut street = Street::asking(&[ARI, GO2], 1);
         let session = street.session_of(ARI);
         street.tell(GO2, unavailable(reason));
-        assert_eq!(
-            street[GO2].farewell(),
-            Some(Farewell::Left(session, FIRST_OFFER))
-        );
+        assert_eq!(street[GO2].farewell(), Some(left(session)));
         street.pass(1_000);
         assert_eq!(street[ARI].role(), Role::Requester, "the offer is gone");
     }
@@ -55,7 +51,7 @@ fn an_offer_is_withdrawn_by_name() {
 fn a_follower_that_executes_fails_and_ends_it_as_its_body_can() {
     for reason in EVERY_REASON {
         let mut street = Street::executing(TaskType::MOVE);
-        let maneuver = street.following(GO2).executing().unwrap();
+        let maneuver = street.executes(GO2);
         street.tell(GO2, unavailable(reason));
         let end = if reason.can_fall_back() {
             Output::FallBack(maneuver, FallbackPolicy::EscortToKerb)
@@ -100,8 +96,7 @@ fn a_follower_that_executes_nothing_leaves() {
 fn a_requester_or_leader_ends_its_session() {
     let reason = Unavailability::EmergencyStop;
     for established in [false, true] {
-        let mut street = Street::new(&[ARI, GO2]);
-        street.tell(ARI, Event::PedestrianDetected(escort(1)));
+        let mut street = Street::asking(&[ARI, GO2], 1);
         if established {
             street.pass(400);
         }

@@ -46,21 +46,15 @@ fn an_older_command_changes_nothing() {
     let mut street = Street::executing(TaskType::INITIAL_POS);
     let older = command(&street, 0, TaskType::INITIAL_POS);
     street.tell(ARI, order(GO2, TaskType::MOVE));
-    assert_eq!(
-        street.following(GO2).executing().unwrap().task,
-        TaskType::MOVE
-    );
+    assert_eq!(street.executes(GO2).task, TaskType::MOVE);
     assert_ignored(&street.hears_rmcm(GO2, older), Ignored::OldCommand);
-    assert_eq!(
-        street.following(GO2).executing().unwrap().task,
-        TaskType::MOVE
-    );
+    assert_eq!(street.executes(GO2).task, TaskType::MOVE);
 }
 
 #[test]
 fn a_newer_command_supersedes_the_one_that_runs() {
     let mut street = Street::executing(TaskType::BLOCK);
-    let running = street.following(GO2).executing().unwrap();
+    let running = street.executes(GO2);
     street.tell(ARI, order(GO2, TaskType::MOVE));
     let id = street.maneuver(GO2, 1);
     let start = Output::StartManeuver(Maneuver {
@@ -175,10 +169,7 @@ fn a_task_that_the_follower_cannot_do_is_rejected() {
     assert_eq!(street[ARI].state(), State::RoleEstablished);
     // The next command has a number of its own.
     street.tell(ARI, order(GO2, TaskType::MOVE));
-    assert_eq!(
-        street.following(GO2).executing().unwrap().id.request,
-        RequestId(1)
-    );
+    assert_eq!(street.executes(GO2).id.request, RequestId(1));
 }
 
 #[test]
@@ -211,10 +202,7 @@ fn a_rejected_command_is_rejected_again_even_when_it_could_be_done_by_then() {
 fn a_rejected_command_leaves_the_running_one_alone() {
     let mut street = Street::executing(TaskType::BLOCK);
     street.tell(ARI, order(GO2, TaskType::new(9).unwrap()));
-    assert_eq!(
-        street.following(GO2).executing().unwrap().task,
-        TaskType::BLOCK
-    );
+    assert_eq!(street.executes(GO2).task, TaskType::BLOCK);
     assert_eq!(street[ARI].state(), State::ManeuverExecuting);
     let id = street.maneuver(GO2, 0);
     street.tell(GO2, Event::ManeuverCompleted(id));
@@ -223,8 +211,7 @@ fn a_rejected_command_leaves_the_running_one_alone() {
 
 #[test]
 fn a_command_overtakes_neither_the_confirmation_nor_the_role() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     street.part(ARI, GO2);
     street.pass(300);
     // The leader has confirmed, but has not heard that the follower took its role.
@@ -264,10 +251,7 @@ fn request_numbers_wrap_without_confusion() {
     let mut street = Street::with_roles_and_settings(&[ARI, GO2], settings);
     for expected in [254, 255, 0, 1] {
         street.tell(ARI, order(GO2, TaskType::BLOCK));
-        assert_eq!(
-            street.following(GO2).executing().unwrap().id.request,
-            RequestId(expected)
-        );
+        assert_eq!(street.executes(GO2).id.request, RequestId(expected));
     }
     let older = street.hears_rmcm(GO2, command(&street, 255, TaskType::BLOCK));
     assert_ignored(&older, Ignored::OldCommand);
@@ -279,10 +263,7 @@ fn a_session_is_renewed_before_half_the_request_numbers_are_used() {
     let first = street.session_of(ARI);
     for request in 0..RequestId::MAX_PER_SESSION {
         street.tell(ARI, order(GO2, TaskType::BLOCK));
-        assert_eq!(
-            street.following(GO2).executing().unwrap().id.request,
-            RequestId(request)
-        );
+        assert_eq!(street.executes(GO2).id.request, RequestId(request));
         street.forget();
     }
     street.tell(ARI, order(GO2, TaskType::BLOCK));
@@ -295,10 +276,7 @@ fn a_session_is_renewed_before_half_the_request_numbers_are_used() {
     street.pass(500);
     assert_eq!(street.roles([ARI, GO2]), [Role::Leader, Role::Follower]);
     street.tell(ARI, order(GO2, TaskType::BLOCK));
-    assert_eq!(
-        street.following(GO2).executing().unwrap().id.request,
-        RequestId(0)
-    );
+    assert_eq!(street.executes(GO2).id.request, RequestId(0));
 }
 
 #[test]

@@ -134,10 +134,7 @@ fn no_command_takes_a_guard_off_the_road() {
         assert_ignored(&outputs, Ignored::RoadOccupied);
         street.tell(ARI, Event::CloseCorridor);
     }
-    assert_eq!(
-        street.following(GO2).executing().unwrap().task,
-        TaskType::MOVE
-    );
+    assert_eq!(street.executes(GO2).task, TaskType::MOVE);
     street.tell(ARI, Event::RoadClear);
     assert_eq!(street.corridor(ARI), Corridor::Clear);
     assert_eq!(

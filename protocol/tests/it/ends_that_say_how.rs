@@ -20,7 +20,7 @@ fn assert_holds(street: &Street, maneuver: Maneuver) {
 #[test]
 fn a_completed_crossing_frees_the_follower() {
     let mut street = crossing();
-    let maneuver = street.following(GO2).executing().unwrap();
+    let maneuver = street.executes(GO2);
     street.tell(ARI, Event::TaskCompleted);
     let stop = StopReason::Released(ReleaseReason::TaskCompleted);
     assert!(street.has_put_out(GO2, Output::StopManeuver(maneuver, stop)));
@@ -39,13 +39,10 @@ fn every_other_end_of_a_session_is_an_abort() {
         Event::AvailabilityChanged(stop),
     ] {
         let mut street = crossing();
-        let maneuver = street.following(GO2).executing().unwrap();
+        let maneuver = street.executes(GO2);
         let session = street.session_of(ARI);
         street.tell(ARI, event);
-        assert_eq!(
-            street[ARI].farewell(),
-            Some(Farewell::Ended(session.number, Ending::Aborted))
-        );
+        assert_eq!(street[ARI].farewell(), Some(aborted(session)));
         assert_holds(&street, maneuver);
         assert!(street.was_told(GO2, Notice::Released(session, ReleaseReason::SessionEnded)));
         assert_eq!(street[ARI].duty(), Some(Duty::Crossing(session)), "{event}");
@@ -55,7 +52,7 @@ fn every_other_end_of_a_session_is_an_abort() {
 #[test]
 fn a_leader_that_reboots_does_not_stop_its_follower() {
     let mut street = crossing();
-    let maneuver = street.following(GO2).executing().unwrap();
+    let maneuver = street.executes(GO2);
     street.reboot(ARI);
     street.pass(100);
     assert_eq!(
@@ -69,7 +66,7 @@ fn a_leader_that_reboots_does_not_stop_its_follower() {
 #[test]
 fn a_leader_that_gives_its_follower_up_does_not_stop_it() {
     let mut street = crossing();
-    let maneuver = street.following(GO2).executing().unwrap();
+    let maneuver = street.executes(GO2);
     street.cut(GO2, ARI);
     street.pass(1_900 + 7_000);
     assert_eq!(street[ARI].role(), Role::None);
@@ -82,7 +79,7 @@ fn a_session_that_is_renewed_does_not_stop_its_follower() {
     for _ in 0..RequestId::MAX_PER_SESSION {
         street.tell(ARI, order(GO2, TaskType::BLOCK));
     }
-    let maneuver = street.following(GO2).executing().unwrap();
+    let maneuver = street.executes(GO2);
     street.forget();
     street.tell(ARI, order(GO2, TaskType::BLOCK));
     assert_eq!(street[ARI].role(), Role::Requester);
@@ -97,7 +94,7 @@ fn the_limit_of_the_identity_lock_does_not_stop_a_follower() {
     };
     let mut street = Street::with_roles_and_settings(&[ARI, GO2], settings);
     street.tell(ARI, order(GO2, TaskType::BLOCK));
-    let maneuver = street.following(GO2).executing().unwrap();
+    let maneuver = street.executes(GO2);
     street.pass(79_000);
     assert_eq!(street.roles([ARI, GO2]), [Role::None, Role::None]);
     assert_holds(&street, maneuver);
@@ -106,7 +103,7 @@ fn the_limit_of_the_identity_lock_does_not_stop_a_follower() {
 #[test]
 fn contact_that_is_lost_does_not_stop_a_follower() {
     let mut street = crossing();
-    let maneuver = street.following(GO2).executing().unwrap();
+    let maneuver = street.executes(GO2);
     street.remove(ARI);
     street.pass(7_000);
     assert_holds(&street, maneuver);
@@ -115,7 +112,7 @@ fn contact_that_is_lost_does_not_stop_a_follower() {
 #[test]
 fn a_follower_that_leaves_falls_back_as_well() {
     let mut street = crossing();
-    let maneuver = street.following(GO2).executing().unwrap();
+    let maneuver = street.executes(GO2);
     street.tell(GO2, Event::LeaveRequested);
     assert_holds(&street, maneuver);
 }
@@ -124,7 +121,7 @@ fn a_follower_that_leaves_falls_back_as_well() {
 fn an_end_that_is_asked_for_later_counts_as_aborted() {
     // The follower is deaf while its leader says that the crossing is completed.
     let mut street = crossing();
-    let maneuver = street.following(GO2).executing().unwrap();
+    let maneuver = street.executes(GO2);
     street.cut(ARI, GO2);
     street.tell(ARI, Event::TaskCompleted);
     street.pass(1_500);

@@ -18,7 +18,7 @@ fn the_follower_falls_back_after_t_safety_by_the_policy_of_its_task() {
         (TaskType::BLOCK, FallbackPolicy::HoldUntilClear),
     ] {
         let mut street = alone(task);
-        let maneuver = street.following(GO2).executing().unwrap();
+        let maneuver = street.executes(GO2);
         street.pass(1_999);
         assert_eq!(street[GO2].state(), State::ManeuverExecuting);
         street.pass(1);
@@ -48,10 +48,7 @@ fn the_leader_learns_of_the_fallback_and_may_command_again_once_the_road_is_clea
     assert_eq!(street.following(GO2).executing(), None);
     street.tell(GO2, Event::RoadClear);
     street.tell(ARI, order(GO2, TaskType::MOVE));
-    assert_eq!(
-        street.following(GO2).executing().unwrap().id.request,
-        RequestId(2)
-    );
+    assert_eq!(street.executes(GO2).id.request, RequestId(2));
 }
 
 #[test]
@@ -115,10 +112,7 @@ fn without_contact_the_follower_leaves_after_t_leave() {
     assert_eq!(street[GO2].role(), Role::Follower);
     street.pass(1);
     assert_eq!(street[GO2].role(), Role::None);
-    assert_eq!(
-        street[GO2].farewell(),
-        Some(Farewell::Left(session, FIRST_OFFER))
-    );
+    assert_eq!(street[GO2].farewell(), Some(left(session)));
     assert!(street.was_told(GO2, Notice::Released(session, ReleaseReason::ContactLost)));
 }
 

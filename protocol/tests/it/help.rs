@@ -19,8 +19,7 @@ fn confirmed(street: &Street) -> Vec<StationId> {
 
 /// `ARI` has asked for `followers` robots and heard these offers, in this order.
 fn select_among(followers: u8, offers: &[(StationId, &[TaskType], u16)]) -> Vec<StationId> {
-    let mut street = Street::new(&[ARI]);
-    street.tell(ARI, Event::PedestrianDetected(escort(followers)));
+    let mut street = Street::asking(&[ARI], followers);
     let session = street.session_of(ARI);
     for &(station, tasks, distance) in offers {
         let ram = offer_from(station, session, tasks);
@@ -80,8 +79,7 @@ fn the_reservation_ends_after_t_offer() {
 
 #[test]
 fn too_few_offers_do_not_make_a_team() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(2)));
+    let mut street = Street::asking(&[ARI, GO2], 2);
     street.pass(9_000);
     assert_eq!(street[ARI].role(), Role::Requester);
     street.pass(1_000);
@@ -90,8 +88,7 @@ fn too_few_offers_do_not_make_a_team() {
 
 #[test]
 fn the_requester_gathers_offers_before_it_selects() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     street.pass(299);
     assert_eq!(street[ARI].role(), Role::Requester);
     street.pass(1);
@@ -159,8 +156,7 @@ fn a_better_offer_displaces_the_worst_of_a_full_list() {
 
 #[test]
 fn a_helper_that_moved_is_ranked_by_its_new_distance() {
-    let mut street = Street::new(&[ARI]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI], 1);
     let session = street.session_of(ARI);
     let hears = |street: &mut Street, station, echo, distance| {
         let ram = offer(station, session, FIRST_OFFER, BOTH, echo);
@@ -177,8 +173,7 @@ fn a_helper_that_moved_is_ranked_by_its_new_distance() {
 
 #[test]
 fn a_helper_that_is_not_listed_becomes_free() {
-    let mut street = Street::new(&[ARI, GO2, SPOT]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2, SPOT], 1);
     assert_eq!(street.roles([GO2, SPOT]), [Role::Helper, Role::Helper]);
     let session = street.session_of(ARI);
     street.pass(300);
@@ -196,8 +191,7 @@ fn a_leader_takes_no_more_offers() {
 
 #[test]
 fn an_offer_to_somebody_else_is_not_taken() {
-    let mut street = Street::new(&[ARI]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI], 1);
     let session = SessionId {
         leader: SPOT,
         ..street.session_of(ARI)
@@ -210,8 +204,7 @@ fn an_offer_to_somebody_else_is_not_taken() {
 
 #[test]
 fn a_repeated_offer_changes_nothing() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     let offer = street[GO2].ram();
     assert_ignored(&street.hears_ram(ARI, offer), Ignored::OldHeartbeat);
 }
@@ -265,8 +258,7 @@ fn an_impossible_request_opens_no_session() {
 
 #[test]
 fn a_late_request_of_the_own_session_does_not_move_a_follower() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     let need_help = street[ARI].ram();
     street.pass(400);
     assert_eq!(street[GO2].role(), Role::Follower);
@@ -275,25 +267,20 @@ fn a_late_request_of_the_own_session_does_not_move_a_follower() {
 
 #[test]
 fn an_offer_that_ran_out_before_the_confirmation_is_answered() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     let session = street.session_of(ARI);
     street.part(ARI, GO2);
     street.pass(3_000);
     assert_eq!(street.roles([ARI, GO2]), [Role::Leader, Role::None]);
     street.heal();
     street.pass(100);
-    assert_eq!(
-        street[GO2].farewell(),
-        Some(Farewell::Left(session, FIRST_OFFER))
-    );
+    assert_eq!(street[GO2].farewell(), Some(left(session)));
     assert_eq!(street[ARI].role(), Role::None, "its only follower is gone");
 }
 
 #[test]
 fn a_helper_that_left_may_come_back_with_a_new_offer() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     street.tell(GO2, Event::LeaveRequested);
     assert_eq!(
         street[GO2].farewell(),
@@ -312,8 +299,7 @@ fn a_helper_that_left_may_come_back_with_a_new_offer() {
 
 #[test]
 fn while_it_asks_for_help_a_robot_repeats_its_ram() {
-    let mut street = Street::new(&[ARI]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI], 1);
     street.forget();
     street.pass(1_000);
     assert_eq!(street.count(ARI, sends_ram), 10);

@@ -6,25 +6,25 @@ use crate::script::*;
 
 const ALIAS: StationId = StationId(77);
 
+/// The robot takes another pseudonym; why it may not.
+fn change(street: &mut Street, who: StationId) -> Option<Ignored> {
+    let changed = Event::IdentityChanged(ALIAS, None);
+    street.tell(who, changed).ignored()
+}
+
 #[test]
 fn an_idle_robot_may_change_its_pseudonym() {
     let mut street = Street::new(&[ARI]);
     let same = street.tell(ARI, Event::IdentityChanged(ARI, None));
     assert_ignored(&same, Ignored::NothingNew);
-    assert_eq!(
-        street
-            .tell(ARI, Event::IdentityChanged(ALIAS, None))
-            .ignored(),
-        None
-    );
+    assert_eq!(change(&mut street, ARI), None);
     assert_eq!(street[ARI].station(), ALIAS);
 }
 
 /// Hazard: sessions that are numbered on tell that two pseudonyms are one robot.
 #[test]
 fn numbers_begin_anew_with_a_pseudonym_where_the_event_says_so() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     street.pass(400);
     street.tell(ARI, Event::TaskCompleted);
     street.pass(1_000);
@@ -54,38 +54,18 @@ fn the_lock_holds_from_the_request_or_offer_until_the_farewell_is_over() {
     street.tell(ARI, Event::PedestrianDetected(escort(1)));
     for who in [ARI, GO2] {
         assert!(street.has_put_out(who, Output::LockIdentity));
-        assert_eq!(
-            street
-                .tell(who, Event::IdentityChanged(ALIAS, None))
-                .ignored(),
-            locked
-        );
+        assert_eq!(change(&mut street, who), locked);
     }
     street.pass(400);
     street.tell(ARI, Event::TaskCompleted);
     // The follower is free at once; the leader still says farewell.
     assert!(street.has_put_out(GO2, Output::UnlockIdentity));
-    assert_eq!(
-        street
-            .tell(ARI, Event::IdentityChanged(ALIAS, None))
-            .ignored(),
-        locked
-    );
+    assert_eq!(change(&mut street, ARI), locked);
     street.pass(999);
-    assert_eq!(
-        street
-            .tell(ARI, Event::IdentityChanged(ALIAS, None))
-            .ignored(),
-        locked
-    );
+    assert_eq!(change(&mut street, ARI), locked);
     street.pass(1);
     assert!(street.has_put_out(ARI, Output::UnlockIdentity));
-    assert_eq!(
-        street
-            .tell(ARI, Event::IdentityChanged(ALIAS, None))
-            .ignored(),
-        None
-    );
+    assert_eq!(change(&mut street, ARI), None);
     // Once each: a lock is not locked again.
     assert_eq!(street.count(GO2, |o| *o == Output::LockIdentity), 1);
 }

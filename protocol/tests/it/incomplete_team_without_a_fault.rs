@@ -63,8 +63,7 @@ fn a_request_that_beats_keeps_its_helper() {
 
 #[test]
 fn an_offer_that_is_not_repeated_lapses_before_the_reservation_does() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(2)));
+    let mut street = Street::asking(&[ARI, GO2], 2);
     street.pass(1_000);
     street.part(ARI, GO2);
     let lapsed = Output::Notify(Notice::OfferLapsed(GO2));
@@ -80,8 +79,7 @@ fn an_offer_that_is_not_repeated_lapses_before_the_reservation_does() {
 
 #[test]
 fn an_offer_is_as_old_as_the_heartbeat_that_it_echoes() {
-    let mut street = Street::new(&[ARI]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI], 1);
     let session = street.session_of(ARI);
     let late = offer(GO2, session, FIRST_OFFER, &[TaskType::MOVE], 0);
     // Sent when the request was, and heard when the reservation may be over.

@@ -9,8 +9,7 @@ const SECOND_OFFER: OfferNumber = OfferNumber(UniqueNumber { boot: 1, count: 1 }
 
 /// `GO2` has offered, left, and offered anew.
 fn offers_twice() -> (Street, Ram, Ram) {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     let offer = street[GO2].ram();
     street.tell(GO2, Event::LeaveRequested);
     let left = street[GO2].ram();
@@ -124,8 +123,7 @@ fn a_late_confirmation_is_no_leader_to_withdraw_for() {
 
 #[test]
 fn a_late_request_does_not_keep_a_helper_reserved() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(2)));
+    let mut street = Street::asking(&[ARI, GO2], 2);
     street.pass(1_000);
     let stale = street[ARI].ram();
     street.remove(ARI);

@@ -170,8 +170,7 @@ fn a_follower_is_kept_without_a_lease_until_it_must_have_left() {
 
 #[test]
 fn a_follower_that_never_takes_its_role_is_dropped() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     street.remove(GO2);
     street.pass(300);
     assert_eq!(street[ARI].role(), Role::Leader);
@@ -250,7 +249,7 @@ fn a_follower_that_the_leader_no_longer_lists_falls_back() {
         offer: FIRST_OFFER,
     };
     let session = street.session_of(ARI);
-    let maneuver = street.following(GO2).executing().unwrap();
+    let maneuver = street.executes(GO2);
     let outputs = street.hears_ram(
         GO2,
         leader(session, NEWEST + 1, [other].into_iter().collect()),

@@ -8,7 +8,7 @@ use crate::script::*;
 fn a_follower_that_leaves_falls_back_and_names_the_session() {
     let mut street = Street::executing(TaskType::MOVE);
     let session = street.session_of(GO2);
-    let maneuver = street.following(GO2).executing().unwrap();
+    let maneuver = street.executes(GO2);
     street.tell(GO2, Event::LeaveRequested);
     let policy = FallbackPolicy::EscortToKerb;
     assert!(street.has_put_out(GO2, Output::FallBack(maneuver, policy)));
@@ -16,10 +16,7 @@ fn a_follower_that_leaves_falls_back_and_names_the_session() {
         GO2,
         Notice::Released(session, ReleaseReason::LeaveRequested)
     ));
-    assert_eq!(
-        street[GO2].farewell(),
-        Some(Farewell::Left(session, FIRST_OFFER))
-    );
+    assert_eq!(street[GO2].farewell(), Some(left(session)));
     assert!(street.was_told(ARI, Notice::FollowerGone(GO2, GoneReason::Left)));
 }
 
@@ -44,8 +41,7 @@ fn a_helper_that_leaves_takes_its_offer_back() {
 #[test]
 fn a_leader_or_requester_that_leaves_ends_its_session() {
     for established in [false, true] {
-        let mut street = Street::new(&[ARI, GO2]);
-        street.tell(ARI, Event::PedestrianDetected(escort(1)));
+        let mut street = Street::asking(&[ARI, GO2], 1);
         if established {
             street.pass(400);
         }
@@ -61,8 +57,7 @@ fn a_leader_or_requester_that_leaves_ends_its_session() {
 
 #[test]
 fn a_request_may_be_taken_back_as_completed() {
-    let mut street = Street::new(&[ARI]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI], 1);
     let session = street.session_of(ARI);
     street.tell(ARI, Event::TaskCompleted);
     assert!(street.was_told(ARI, Notice::SessionEnded(session, EndReason::TaskCompleted)));
@@ -83,8 +78,7 @@ fn who_has_no_part_has_nothing_to_leave_or_to_complete() {
 
 #[test]
 fn a_farewell_stands_for_t_farewell_and_is_repeated() {
-    let mut street = Street::new(&[ARI]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI], 1);
     street.tell(ARI, Event::LeaveRequested);
     street.forget();
     street.pass(999);

@@ -97,8 +97,7 @@ fn an_epoch_may_be_renewed_within_a_session() {
 
 #[test]
 fn an_offer_of_an_earlier_epoch_that_ends_gives_back_nothing() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     street.tell(GO2, Event::EpochRenewed(2));
     street.tell(ARI, Event::LeaveRequested);
     assert_eq!(

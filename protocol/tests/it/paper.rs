@@ -134,8 +134,7 @@ fn p7_two_leaders_of_one_follower() {
 
 #[test]
 fn p8_request_without_end() {
-    let mut street = Street::new(&[ARI]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI], 1);
     let session = street.session_of(ARI);
     street.pass(9_999);
     assert_eq!(street[ARI].role(), Role::Requester);
@@ -152,8 +151,7 @@ fn p8_request_without_end() {
 
 #[test]
 fn p9_offer_without_end() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     street.remove(ARI);
     street.pass(3_000);
     assert_eq!(street[GO2].state(), State::Idle);

@@ -43,7 +43,7 @@ fn a_follower_that_guards_nobody_may_be_commanded() {
         street.tell(ARI, order(guard, TaskType::MOVE));
     }
     assert_eq!(street.tell(ARI, Event::OpenCorridor).ignored(), None);
-    let done = street.following(SPOT).executing().unwrap().id;
+    let done = street.executes(SPOT).id;
     street.tell(SPOT, Event::ManeuverFailed(done));
     assert_eq!(street.corridor(ARI), Corridor::Clearing);
     // Its place may be taken again while people are on the road; that of the other is kept.

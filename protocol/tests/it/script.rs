@@ -57,6 +57,16 @@ pub fn farewell(station: StationId, farewell: Farewell) -> Ram {
     }
 }
 
+/// The farewell of the leader of a session that ended in the middle.
+pub fn aborted(session: SessionId) -> Farewell {
+    Farewell::Ended(session.number, Ending::Aborted)
+}
+
+/// The farewell of a robot that left a session in which it made its first offer.
+pub fn left(session: SessionId) -> Farewell {
+    Farewell::Left(session, FIRST_OFFER)
+}
+
 /// A RAM of `station` that asks for help in its session of this count.
 pub fn need_help(station: StationId, count: u16, heartbeat: u16, request: HelpRequest) -> Ram {
     let coordination = Coordination::NeedHelp {
@@ -151,6 +161,13 @@ impl Street {
         }
     }
 
+    /// A street on which the first robot has asked for help of so many.
+    pub fn asking(stations: &[StationId], followers: u8) -> Self {
+        let mut street = Self::new(stations);
+        street.tell(stations[0], Event::PedestrianDetected(escort(followers)));
+        street
+    }
+
     /// A street on which the first robot leads all others, and all have taken their roles.
     pub fn with_roles(stations: &[StationId]) -> Self {
         Self::with_roles_and_settings(stations, Settings::default())
@@ -200,7 +217,7 @@ impl Street {
 
     /// The body of `who` is at the place from which it guards.
     pub fn in_position(&mut self, who: StationId) {
-        let running = self.following(who).executing().expect("a maneuver");
+        let running = self.executes(who);
         let outputs = self.tell(who, Event::InPosition(running.id));
         assert_eq!(outputs.ignored(), None);
     }
@@ -417,6 +434,11 @@ impl Street {
             panic!("{who} follows nobody")
         };
         following
+    }
+
+    /// The maneuver that it executes.
+    pub fn executes(&self, who: StationId) -> Maneuver {
+        self.following(who).executing().expect("a maneuver")
     }
 
     pub fn requesting(&self, who: StationId) -> &Requesting {

@@ -7,8 +7,7 @@ use crate::script::*;
 
 #[test]
 fn it_selects_at_once_when_nothing_better_can_come() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     street.pass(20);
     let outputs = street.tell(ARI, Event::AllAnswered);
     assert_eq!(outputs.ignored(), None);

@@ -84,7 +84,7 @@ fn only_the_end_of_the_own_session_releases() {
     );
     assert_eq!(street[GO2].state(), State::ManeuverExecuting);
 
-    let maneuver = street.following(GO2).executing().unwrap();
+    let maneuver = street.executes(GO2);
     let outputs = street.hears_ram(GO2, ended(ARI, session.number));
     let stop = StopReason::Released(ReleaseReason::TaskCompleted);
     assert!(
@@ -97,8 +97,7 @@ fn only_the_end_of_the_own_session_releases() {
 
 #[test]
 fn the_end_frees_a_helper_that_was_not_confirmed_yet() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     assert_eq!(street[GO2].role(), Role::Helper);
     street.tell(ARI, Event::LeaveRequested);
     assert_eq!(street[GO2].role(), Role::None);
@@ -157,10 +156,7 @@ fn a_robot_that_follows_in_a_session_that_is_over_is_told_so() {
     street.reboot(ARI);
     // The follower's next RAM names a session that the rebooted leader does not know.
     street.pass(100);
-    assert_eq!(
-        street[ARI].farewell(),
-        Some(Farewell::Ended(session.number, Ending::Aborted))
-    );
+    assert_eq!(street[ARI].farewell(), Some(aborted(session)));
     assert_eq!(street[GO2].state(), State::Idle);
     // It stands for a while and is not started anew by every RAM.
     let stale = follower(GO2, session, 0);
@@ -175,10 +171,7 @@ fn a_session_that_somebody_named_before_it_was_opened_is_not_named_as_over() {
         number: SessionNumber(street[ARI].next_number()),
     };
     street.hears_ram(ARI, offer_to(session));
-    assert_eq!(
-        street[ARI].farewell(),
-        Some(Farewell::Ended(session.number, Ending::Aborted))
-    );
+    assert_eq!(street[ARI].farewell(), Some(aborted(session)));
     street.tell(ARI, Event::PedestrianDetected(escort(1)));
     assert_eq!(street.session_of(ARI), session);
     assert_eq!(street[ARI].farewell(), None);
@@ -187,8 +180,7 @@ fn a_session_that_somebody_named_before_it_was_opened_is_not_named_as_over() {
 
 #[test]
 fn a_robot_that_offers_to_a_session_that_is_over_is_told_so() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     street.reboot(ARI);
     street.pass(100);
     assert_eq!(street[GO2].role(), Role::None);
@@ -196,8 +188,7 @@ fn a_robot_that_offers_to_a_session_that_is_over_is_told_so() {
 
 #[test]
 fn a_robot_that_claims_a_part_that_nobody_gave_it_does_not_end_the_session() {
-    let mut street = Street::new(&[ARI]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI], 1);
     let session = street.session_of(ARI);
     let claim = follower(GO2, session, 0);
     assert_ignored(&street.hears_ram(ARI, claim), Ignored::NotAFollower);
@@ -212,8 +203,7 @@ fn offer_to(session: SessionId) -> Ram {
 #[test]
 fn an_offer_to_an_older_session_is_not_taken_for_the_present_one() {
     for established in [false, true] {
-        let mut street = Street::new(&[ARI, SPOT]);
-        street.tell(ARI, Event::PedestrianDetected(escort(1)));
+        let mut street = Street::asking(&[ARI, SPOT], 1);
         if established {
             street.pass(400);
         }
@@ -227,8 +217,7 @@ fn an_offer_to_an_older_session_is_not_taken_for_the_present_one() {
 
 #[test]
 fn a_helper_is_not_moved_by_another_session_of_the_same_leader() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     street.part(ARI, GO2);
     let Coordination::OfferHelp { offer, .. } = street[GO2].ram().coordination else {
         panic!()
@@ -263,8 +252,7 @@ fn a_helper_is_not_moved_by_another_session_of_the_same_leader() {
 
 #[test]
 fn who_leaves_an_older_session_keeps_its_offer_to_the_present_one() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     let left = farewell(GO2, Farewell::Left(other_session(ARI), FIRST_OFFER));
     assert_ignored(&street.hears_ram(ARI, left), Ignored::OtherSession);
     street.pass(300);
@@ -288,8 +276,7 @@ fn a_timer_that_is_not_armed_does_not_expire() {
 
 #[test]
 fn a_rebooted_follower_is_not_drawn_back_by_a_late_confirmation() {
-    let mut street = Street::new(&[ARI, GO2]);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    let mut street = Street::asking(&[ARI, GO2], 1);
     let need_help = street[ARI].ram();
     street.pass(400);
     let confirmation = street[ARI].ram();
@@ -304,10 +291,7 @@ fn a_rebooted_follower_is_not_drawn_back_by_a_late_confirmation() {
     let released = Notice::Released(session, ReleaseReason::NotListed);
     assert!(outputs.notices().any(|notice| notice == released));
     assert_eq!(street[GO2].role(), Role::None);
-    assert_eq!(
-        street[GO2].farewell(),
-        Some(Farewell::Left(session, FIRST_OFFER))
-    );
+    assert_eq!(street[GO2].farewell(), Some(left(session)));
 
     // The leader learns it.
     street.heal();
@@ -321,10 +305,7 @@ fn a_rebooted_follower_that_is_still_listed_says_that_it_left() {
     let session = street.session_of(ARI);
     street.reboot(GO2);
     street.pass(100);
-    assert_eq!(
-        street[GO2].farewell(),
-        Some(Farewell::Left(session, FIRST_OFFER))
-    );
+    assert_eq!(street[GO2].farewell(), Some(left(session)));
     assert!(street.was_told(ARI, Notice::FollowerGone(GO2, GoneReason::Left)));
     assert!(street.was_told(ARI, Notice::SessionEnded(session, EndReason::NoFollowers)));
 }

@@ -25,7 +25,7 @@ fn each_follower_gets_its_own_command() {
         street.tell(ARI, order(follower, task));
     }
     for (follower, task) in orders {
-        let maneuver = street.following(follower).executing().unwrap();
+        let maneuver = street.executes(follower);
         assert_eq!((maneuver.task, maneuver.id.request), (task, RequestId(0)));
     }
 }
@@ -38,14 +38,8 @@ fn the_numbers_of_one_follower_are_not_those_of_another() {
         street.tell(ARI, order(GO2));
     }
     street.tell(ARI, order(SPOT));
-    assert_eq!(
-        street.following(GO2).executing().unwrap().id.request,
-        RequestId(2)
-    );
-    assert_eq!(
-        street.following(SPOT).executing().unwrap().id.request,
-        RequestId(0)
-    );
+    assert_eq!(street.executes(GO2).id.request, RequestId(2));
+    assert_eq!(street.executes(SPOT).id.request, RequestId(0));
 }
 
 #[test]

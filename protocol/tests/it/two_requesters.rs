@@ -38,10 +38,7 @@ fn the_lower_station_id_goes_before_among_equals() {
         street.has_put_out(GO2, Output::Notify(told)),
         "its application is told"
     );
-    assert_eq!(
-        street[GO2].farewell(),
-        Some(Farewell::Ended(withdrawn.number, Ending::Aborted))
-    );
+    assert_eq!(street[GO2].farewell(), Some(aborted(withdrawn)));
     street.pass(400);
     assert_eq!(street.roles([ARI, GO2]), [Role::Leader, Role::Follower]);
 }
