@@ -55,12 +55,13 @@ fn a_program_commands_and_watches_a_crossing_whatever_others_say() {
         "{{\"type\": \"hello\", \"crossguard\": 1}}"
     )
     .unwrap();
-    // One that talks nonsense, one line of which has no end, and one that never reads.
-    let mut spoils = [connect(&ari), connect(&ari)];
+    // One that talks nonsense, one whose line has no end, and one that never reads.
+    let mut spoils = [connect(&ari), connect(&ari), connect(&ari)];
     writeln!(spoils[0].get_mut(), "no json").unwrap();
-    spoils[0].get_mut().write_all(&[b'x'; 10_000]).unwrap();
+    // It may be sent away meanwhile.
+    let _ = spoils[1].get_mut().write_all(&[b'x'; 10_000]);
     writeln!(
-        spoils[1].get_mut(),
+        spoils[2].get_mut(),
         "{{\"type\": \"hello\", \"crossguard\": 1}}"
     )
     .unwrap();
