@@ -23,8 +23,13 @@ for name in ("ROS_STATIC_PEERS", "ROS_LOCALHOST_ONLY"):
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped
+from rclpy.action import get_action_client_names_and_types_by_node
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
+from std_msgs.msg import String
+
+from crossguard_msgs.action import Maneuver
+from crossguard_msgs.msg import Corridor, Event, Status
 
 # In seconds, for a machine that has other things to do.
 PATIENCE = 60.0
@@ -41,11 +46,13 @@ def until(what, holds):
 
 
 def free_ports():
-    with contextlib.ExitStack() as stack:
-        sockets = [stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM)) for _ in range(2)]
-        for it in sockets:
-            it.bind(("127.0.0.1", 0))
-        return [it.getsockname()[1] for it in sockets]
+    """Two UDP ports, below those that systems pick by themselves."""
+    while True:
+        first = random.randrange(12000, 32000, 2)
+        with contextlib.ExitStack() as stack, contextlib.suppress(OSError):
+            for port in (first, first + 1):
+                stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM)).bind(("127.0.0.1", port))
+            return [first, first + 1]
 
 
 class Process:
@@ -79,18 +86,24 @@ class Heard:
 class Robot:
     """`crossguard run`, its node, and its body."""
 
-    def __init__(self, street, name, station, build, place, link, pace):
+    def __init__(self, street, name, station, build, place, link, pace, lines="", options=()):
         self.street, self.name, self.place, self.pace = street, name, place, pace
         folder, space = street.folder, f"/{name}/crossguard"
         self.log, config = folder / f"{name}.jsonl", folder / f"{name}.toml"
         config.write_text(
-            f'name = "{name}"\nstation = {station}\nbuild = "{build}"\nboot_file = "{name}.boot"\n'
+            f'{lines}\nname = "{name}"\nstation = {station}\nbuild = "{build}"\nboot_file = "{name}.boot"\n'
             f'autopilot = true\n\n[link]\naddress = "127.0.0.1:{link[0]}"\npeers = ["127.0.0.1:{link[1]}"]\n\n'
-            f'[body]\nlisten = "unix:{name}.sock"\nsilence_ms = {1000 * SILENCE_S:.0f}\n')
+            f'[body]\nlisten = "unix:{name}.sock"\nsilence_ms = {1000 * SILENCE_S:.0f}\n\n'
+            f'[operator]\nlisten = "unix:{name}-operator.sock"\n')
+        self.corridor = Heard(street, Corridor, f"{space}/corridor")
+        self.status = Heard(street, Status, f"{space}/status")
+        self.events = Heard(street, Event, f"{space}/event")
         self.poses = Heard(street, PoseStamped, f"{space}/pose")
-        self.run = Process(street.stack, folder, name, [CROSSGUARD, "run", "--config", config, "--log", self.log],
+        self.commands = street.node.create_publisher(String, f"{space}/command", 10)
+        self.run = Process(street.stack, folder, name, [CROSSGUARD, "run", "--config", config, "--log", self.log, *options],
                            stdin=subprocess.PIPE)
         self.node, self.body = self.start_node(), self.start_body()
+        until(f"the node of {name}", lambda: self.commands.get_subscription_count() == 1)
 
     def start(self, program, *parameters):
         parameters = [word for it in (*parameters, f"silence:={SILENCE_S}") for word in ("-p", it)]
@@ -98,21 +111,24 @@ class Robot:
         return Process(self.street.stack, self.street.folder, f"{self.name}-{program}", command)
 
     def start_node(self):
-        return self.start("crossguard_node", f"body:=unix:{self.street.folder / self.name}.sock")
+        socket = f"unix:{self.street.folder / self.name}"
+        return self.start("crossguard_node", f"body:={socket}.sock", f"operator:={socket}-operator.sock")
 
     def start_body(self):
         return self.start("simulated_body", f"place:=[{self.place[0]}, {self.place[1]}]", f"pace:={self.pace}")
 
     def command(self, line):
-        self.run.process.stdin.write(f"{line}\n".encode())
-        self.run.process.stdin.flush()
+        self.commands.publish(String(data=line))
 
     def said(self, what):
         """How often its log has this."""
         return self.log.read_text().replace(" ", "").count(what) if self.log.exists() else 0
 
-    def until(self, what, times=1):
-        until(f"{what} of {self.name}, {times} times", lambda: self.said(what) >= times)
+    def until(self, what):
+        until(f"{what} in the log of {self.name}", lambda: self.said(what))
+
+    def until_available(self, wanted=Status.AVAILABLE, since=0):
+        self.status.until(wanted, lambda it: it.availability == wanted, since)
 
     def stands(self):
         """Whether its body has not moved for half a second."""
@@ -147,11 +163,11 @@ class Street(Graph):
         self.go2 = Robot(self, "go2", 2, "quadruped", (1.0, -1.11), ports[::-1], pace)
         self.robots = [self.ari, self.go2]
         for robot in self.robots:
-            robot.until('"availabilityChanged":"available"')
+            robot.until_available()
 
     def open_the_corridor(self):
         self.ari.command("detect")
-        self.ari.until('"corridorOpened"')
+        return self.ari.corridor.until("an open corridor", lambda it: it.open)
 
     def end(self):
         """Everybody ends in order, and the logs are what the protocol allows."""
@@ -159,6 +175,7 @@ class Street(Graph):
             robot.command("quit")
         for robot in self.robots:
             assert robot.run.process.wait(PATIENCE) == 0, robot.name
+            robot.events.until("its end", lambda it: it.kind == Event.STOPPED)
         judged = subprocess.run([CROSSGUARD, "validate", *(it.log for it in self.robots)], capture_output=True, text=True)
         assert judged.returncode == 0, judged.stdout + judged.stderr
         return [json.loads(it.log.read_text().splitlines()[-1])["counters"].get("body", {}) for it in self.robots]
@@ -166,36 +183,68 @@ class Street(Graph):
 
 def a_whole_crossing_is_done_by_two_bodies_of_rclpy(stack):
     street = Street(stack, pace=10.0)
-    street.open_the_corridor()
-    street.ari.until('"taskCompleted"')
+    ari, go2 = street.robots
+    is_open = street.open_the_corridor()
+    assert is_open.road_occupied and is_open.station == 1, is_open
+    assert is_open.valid_for.sec == 0 and 0 < is_open.valid_for.nanosec <= 300_000_000, is_open
+    ended = ari.events.until("the end", lambda it: it.kind == Event.SESSION_ENDED)
+    assert ended.reason == "taskCompleted" and ended.session.leader == 1, ended
     if began := os.environ.get("CROSSGUARD_TRY_BEGAN"):
         print(f"{time.time() - float(began):.0f} s from the beginning of pip install to task completed")
-    street.go2.until('"released"')
+    go2.events.until("its release", lambda it: it.kind == Event.RELEASED)
+    starts = [it for it in go2.events.messages if it.kind == Event.START_MANEUVER]
+    assert [it.task for it in starts] == [Maneuver.Goal.INITIAL_POS, Maneuver.Goal.MOVE], starts
+    status = go2.status.until("the escort", lambda it: it.task == Maneuver.Goal.MOVE)
+    assert (status.role, status.station, status.robot) == (Status.ROLE_FOLLOWER, 2, "go2"), status
+    status = ari.status.until("a follower", lambda it: it.followers)
+    assert status.followers[0].station == 2 and status.session.leader == 1, status
+    ari.corridor.until("a clear road", lambda it: not it.road_occupied, ari.corridor.messages.index(is_open))
+    the_readme_has_the_graph(street)
+    ari.command("opne")
+    ari.events.until("a refusal", lambda it: it.kind == Event.REFUSED and "opne" in it.text)
     for counters in street.end():
         assert counters.get("silent", 0) == counters.get("not understood", 0) == 0, counters
-    assert street.ari.said('"corridorOpened"') == 1
-    assert street.go2.said('"startManeuver"') == 2
+    assert ari.said('"corridorOpened"') == 1
+
+
+def the_readme_has_the_graph(street):
+    """The table of the README is what the node has on the graph."""
+    node, at = street.node, ("crossguard", "/go2")
+    told = {
+        "out": node.get_publisher_names_and_types_by_node(*at), "in": node.get_subscriber_names_and_types_by_node(*at),
+        "client": get_action_client_names_and_types_by_node(node, *at)}
+    found = {(name.replace("/go2/crossguard", "~"), kind, way) for way, rows in told.items() for name, [kind] in rows}
+    found = {it for it in found if not it[0].startswith(("/rosout", "/parameter_events", "~/_")) and "/_action/" not in it[0]}
+    rows = (line.split("|") for line in (Path(__file__).parent / "README.md").read_text().splitlines())
+    rows = ([cell.strip(" `") for cell in row[1:4]] for row in rows if len(row) == 6)
+    page = {tuple(row) for row in rows if row[0].startswith(("~/", "/"))}
+    assert page == found, (page - found, found - page)
 
 
 def lose(stack, which):
     street = Street(stack, pace=1.5)
     ari, go2 = street.robots
     street.open_the_corridor()
+    told, shown = len(go2.status.messages), len(ari.corridor.messages)
     getattr(go2, which).end()
     go2.until('"unavailable":"emergencyStop"')
-    ari.until('"corridorClosed"')
+    closed = ari.corridor.until("a closed corridor", lambda it: not it.open, shown)
+    assert closed.road_occupied, closed
     if which == "node":
         until("a body that stands", go2.stands)
         go2.node = go2.start_node()
     else:
         go2.body = go2.start_body()
     # It is heard again, and the stop stands until a person says otherwise.
+    go2.until_available(Status.EMERGENCY_STOP, told)
     street.diagnostics.until("its body", lambda it: any(
         status.name == "/go2/crossguard: body" and status.message == "connected" for status in it.status),
         len(street.diagnostics.messages))
-    before = go2.said('"availabilityChanged":"available"')
+    assert go2.status.messages[-1].availability == Status.EMERGENCY_STOP
+    told = len(go2.status.messages)
+    until("somebody who hears commands", lambda: go2.commands.get_subscription_count() == 1)
     go2.command("available")
-    go2.until('"availabilityChanged":"available"', before + 1)
+    go2.until_available(since=told)
     for robot in street.robots:
         robot.command("clear")
     counters = street.end()
@@ -210,6 +259,47 @@ def a_body_that_is_killed_is_an_emergency_stop(stack):
     lose(stack, "body")
 
 
+def a_body_stands_when_its_robot_is_killed(stack):
+    street = Street(stack, pace=1.0)
+    street.open_the_corridor()
+    street.go2.run.end()
+    until("a body that stands", street.go2.stands)
+
+
+def a_node_that_was_held_says_nothing_old(stack):
+    street = Street(stack, pace=1.0)
+    street.open_the_corridor()
+    street.ari.node.process.send_signal(signal.SIGSTOP)
+    street.ari.until('"corridorClosed"')
+    before = len(street.ari.corridor.messages)
+    street.ari.node.process.send_signal(signal.SIGCONT)
+    street.ari.until_available(Status.EMERGENCY_STOP)
+    assert not any(it.open for it in street.ari.corridor.messages[before:])
+
+
+def a_robot_that_takes_signed_packets_only_takes_nothing_from_the_graph(stack):
+    graph = Graph(stack)
+    pki = graph.folder / "pki"
+    subprocess.run([CROSSGUARD, "pki", "init", pki], check=True, capture_output=True)
+    options = ["--security", "enforce", "--pki", pki / "robots/ARI"]
+    for lines in ("", "trust_ros_graph = true"):
+        name = "trusting" if lines else "enforcing"
+        robot = Robot(graph, name, 1, "humanoid", (0.0, -1.5), free_ports(), 1.0, lines, options)
+        robot.status.until("a status", lambda _: True)
+        if lines:
+            robot.until_available()
+            robot.command("detect")
+            robot.status.until("a request", lambda it: it.state == Status.STATE_HELP_REQUESTED)
+        else:
+            robot.command("detect")
+            robot.events.until("a refusal", lambda it: it.kind == Event.REFUSED and "trust_ros_graph" in it.text)
+            graph.diagnostics.until("the count", lambda it: any(
+                (value.key, value.value) == ("refused", "1") for status in it.status for value in status.values))
+            # Its body is not moved by the graph, either.
+            assert robot.status.messages[-1].availability == Status.LOCAL_FAULT
+            assert {it.state for it in robot.status.messages} == {Status.STATE_IDLE}
+
+
 def a_graph_that_others_can_reach_is_refused(_):
     for name, value in [("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET"), ("ROS_STATIC_PEERS", "192.0.2.1")]:
         command = [BIN / "crossguard_node", "--ros-args", "-p", "body:=unix:nowhere.sock"]
@@ -219,7 +309,8 @@ def a_graph_that_others_can_reach_is_refused(_):
 
 CASES = [
     a_whole_crossing_is_done_by_two_bodies_of_rclpy, a_node_that_is_killed_is_an_emergency_stop,
-    a_body_that_is_killed_is_an_emergency_stop, a_graph_that_others_can_reach_is_refused]
+    a_body_that_is_killed_is_an_emergency_stop, a_body_stands_when_its_robot_is_killed, a_node_that_was_held_says_nothing_old,
+    a_robot_that_takes_signed_packets_only_takes_nothing_from_the_graph, a_graph_that_others_can_reach_is_refused]
 
 
 def main():

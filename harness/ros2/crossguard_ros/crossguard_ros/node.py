@@ -66,11 +66,12 @@ class Port:
 
     def connect(self):
         """Whether it is connected now. It said hello, then."""
-        host, _, port = self.address.rpartition(":")
-        link = socket.socket(socket.AF_UNIX if host == "unix" else socket.AF_INET)
+        path, (host, _, port) = self.address.removeprefix("unix:"), self.address.rpartition(":")
+        is_path = path != self.address
+        link = socket.socket(socket.AF_UNIX if is_path else socket.AF_INET)
         try:
             link.settimeout(0.1)
-            link.connect(port if host == "unix" else (host, int(port)))
+            link.connect(path if is_path else (host, int(port)))
         except OSError:
             link.close()
             return False
@@ -352,7 +353,7 @@ class Crossguard(Node):
         if self.operator:
             self.operator.turn()
         # A robot that does not trust the graph is moved by nobody on it.
-        if self.body and (not self.operator or self.operator.trusts()):
+        if self.body and (self.body.port.link or not self.operator or self.operator.trusts()):
             self.body.turn(late_s)
 
     def refuse(self, why):
