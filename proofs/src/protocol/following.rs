@@ -4,17 +4,14 @@ use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::{all, all_but_validity, keeps_the_state_valid};
 use crossguard_protocol::{EventKind, OutputKind, Role};
 
-use super::stage::{From, becomes, steps};
+use super::stage::{From, becomes, steps_of_others};
 
 const FROM: From = From::stage(Role::Follower);
 
-steps! { FROM, all;
+steps_of_others! { FROM, all;
     @each |step| { "ignored": step.is_ignored() } {
         hears_an_answer(Kind::Answer);
         detects_a_pedestrian(Kind::Local(EventKind::PedestrianDetected));
-        commands(Kind::Local(EventKind::CommandManeuver));
-        opens_the_corridor(Kind::Local(EventKind::OpenCorridor));
-        closes_the_corridor(Kind::Local(EventKind::CloseCorridor));
         completes_the_task(Kind::Local(EventKind::TaskCompleted));
         changes_its_identity(Kind::Local(EventKind::IdentityChanged));
         hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered));

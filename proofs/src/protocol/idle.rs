@@ -4,18 +4,15 @@ use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::all;
 use crossguard_protocol::{EventKind, OutputKind, Role};
 
-use super::stage::{From, becomes, steps};
+use super::stage::{From, becomes, steps_of_others};
 
 const FROM: From = From::stage(Role::None);
 
-steps! { FROM, all;
+steps_of_others! { FROM, all;
     @each |step| { "ignored": step.is_ignored() } {
         hears_a_farewell(Kind::RamNone);
         hears_a_command(Kind::Command);
         hears_an_answer(Kind::Answer);
-        commands(Kind::Local(EventKind::CommandManeuver));
-        opens_the_corridor(Kind::Local(EventKind::OpenCorridor));
-        closes_the_corridor(Kind::Local(EventKind::CloseCorridor));
         completes_a_maneuver(Kind::Local(EventKind::ManeuverCompleted));
         fails_a_maneuver(Kind::Local(EventKind::ManeuverFailed));
         completes_the_task(Kind::Local(EventKind::TaskCompleted));

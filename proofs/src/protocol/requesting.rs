@@ -4,7 +4,7 @@ use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::{all, ignores};
 use crossguard_protocol::{EndReason, EventKind, NoticeKind, OutputKind, Role, TimerKind};
 
-use super::stage::{From, becomes, steps};
+use super::stage::{From, becomes, steps_of_others};
 
 /// How many offers the requester has heard, at most: one of the station that a message is about, and
 /// another.
@@ -15,14 +15,11 @@ pub(super) const FROM: From = From {
     ..From::stage(Role::Requester)
 };
 
-/// Inputs that a requester always ignores. [`ignored`](super::ignored) proves the other laws of such a step.
-pub(super) const IGNORED: [Kind; 11] = [
+/// Inputs that a requester always ignores, besides those that only leaders act on. [`ignored`](super::ignored) proves the other laws of such a step.
+pub(super) const IGNORED: [Kind; 8] = [
     Kind::Command,
     Kind::Answer,
     Kind::Local(EventKind::PedestrianDetected),
-    Kind::Local(EventKind::CommandManeuver),
-    Kind::Local(EventKind::OpenCorridor),
-    Kind::Local(EventKind::CloseCorridor),
     Kind::Local(EventKind::ManeuverCompleted),
     Kind::Local(EventKind::ManeuverFailed),
     Kind::Local(EventKind::IdentityChanged),
@@ -30,19 +27,16 @@ pub(super) const IGNORED: [Kind; 11] = [
     Kind::Local(EventKind::RoadClear),
 ];
 
-steps! { FROM, all;
+steps_of_others! { FROM, all, ignores;
     @each |step| { "ignored": step.is_ignored() } {
         hears_a_command(IGNORED[0], ignores);
         hears_an_answer(IGNORED[1], ignores);
         detects_a_pedestrian(IGNORED[2], ignores);
-        commands(IGNORED[3], ignores);
-        opens_the_corridor(IGNORED[4], ignores);
-        closes_the_corridor(IGNORED[5], ignores);
-        completes_a_maneuver(IGNORED[6], ignores);
-        fails_a_maneuver(IGNORED[7], ignores);
-        changes_its_identity(IGNORED[8], ignores);
-        reaches_its_position(IGNORED[9], ignores);
-        clears_the_road(IGNORED[10], ignores);
+        completes_a_maneuver(IGNORED[3], ignores);
+        fails_a_maneuver(IGNORED[4], ignores);
+        changes_its_identity(IGNORED[5], ignores);
+        reaches_its_position(IGNORED[6], ignores);
+        clears_the_road(IGNORED[7], ignores);
     }
 
     /// A RAM that asks for help as well.

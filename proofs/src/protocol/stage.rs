@@ -3,7 +3,7 @@
 use crossguard_protocol::laws::Source;
 use crossguard_protocol::laws::arbitrary::{self, Kind};
 use crossguard_protocol::laws::taken::Taken;
-use crossguard_protocol::{Config, Robot, Role};
+use crossguard_protocol::{Config, EventKind, Robot, Role};
 
 use crate::{Symbolic, kani};
 
@@ -29,6 +29,13 @@ pub(super) fn any_valid(config: &Config, stage: Role, peers: (usize, usize)) -> 
     kani::assume(robot.is_valid(config));
     robot
 }
+
+/// What the application of a leader tells its robot. A robot with another role ignores it.
+pub(super) const OF_LEADERS: [Kind; 3] = [
+    Kind::Local(EventKind::CommandManeuver),
+    Kind::Local(EventKind::OpenCorridor),
+    Kind::Local(EventKind::CloseCorridor),
+];
 
 /// Where a step begins.
 #[derive(Clone, Copy)]
@@ -64,11 +71,17 @@ impl From {
     }
 
     /// Any input of any of these kinds in any such state is ignored: the laws of one step hold, whatever the cause.
-    pub(super) fn any_ignored(self, kinds: &[Kind], laws: fn(&Config, &Taken)) -> Taken {
+    pub(super) fn any_ignored(self, kinds: [&[Kind]; 2], laws: fn(&Config, &Taken)) -> Taken {
         let config = config();
         let robot = any_valid(&config, self.stage, self.peers);
-        let last = u32::try_from(kinds.len() - 1).unwrap_or(0);
-        let kind = kinds[Symbolic.number(last, last) as usize];
+        let [first, second] = kinds;
+        let last = u32::try_from(first.len() + second.len() - 1).unwrap_or(0);
+        let number = Symbolic.number(last, last) as usize;
+        let kind = if number < first.len() {
+            first[number]
+        } else {
+            second[number - first.len()]
+        };
         let input = arbitrary::input(&mut Symbolic, kind, self.farewells);
         let step = Taken::ignored(robot, input);
         laws(&config, &step);
@@ -136,4 +149,23 @@ macro_rules! steps {
     };
 }
 
-pub(super) use {laws_of, steps};
+/// Declares the harnesses of a stage that is no leader's: those of its inputs, and those of [`OF_LEADERS`] by the law that
+/// stands behind those of the stage.
+macro_rules! steps_of_others {
+    ($from:expr, $laws:expr $(, $law:expr)?;
+        @each |$any:ident| { $($mark:tt)+ } { $($each:tt)* }
+        $($rest:tt)*
+    ) => {
+        $crate::protocol::stage::steps! { $from, $laws;
+            @each |$any| { $($mark)+ } {
+                commands($crate::protocol::stage::OF_LEADERS[0] $(, $law)?);
+                opens_the_corridor($crate::protocol::stage::OF_LEADERS[1] $(, $law)?);
+                closes_the_corridor($crate::protocol::stage::OF_LEADERS[2] $(, $law)?);
+                $($each)*
+            }
+            $($rest)*
+        }
+    };
+}
+
+pub(super) use {laws_of, steps, steps_of_others};
