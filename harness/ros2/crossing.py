@@ -271,6 +271,7 @@ def a_node_that_was_held_says_nothing_old(stack):
     street.open_the_corridor()
     street.ari.node.process.send_signal(signal.SIGSTOP)
     street.ari.until('"corridorClosed"')
+    time.sleep(0.5)  # it has been told
     before = len(street.ari.corridor.messages)
     street.ari.node.process.send_signal(signal.SIGCONT)
     street.ari.until_available(Status.EMERGENCY_STOP)

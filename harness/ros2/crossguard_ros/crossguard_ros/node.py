@@ -261,17 +261,19 @@ class Operator:
         if not self.port.link and time.monotonic() - self.asked > 10 * TURN_S:
             self.asked = time.monotonic()
             self.port.connect()
-        for line in self.port.lines():
-            self.hear(line)
+        lines = self.port.lines()
+        states = [line for line in lines if line["type"] == "state"]
+        for line in lines:
+            self.hear(line, is_newest=line is states[-1] if states else False)
         if not self.port.link and self.robot:
             self.robot = self.said = self.offset = None
 
-    def hear(self, line):
+    def hear(self, line, is_newest):
         kind = line["type"]
         if kind == "hello":
             self.robot = line
         elif kind == "state" and self.robot:
-            self.tell(line)
+            self.tell(line, is_newest)
         elif kind in ("act", "notice", "ignored", "refused", "dropped", "stopped"):
             if kind == "dropped":
                 cause = f"{line['layer']}: {line['cause']}"
@@ -291,17 +293,18 @@ class Operator:
     def session(self, of):
         return bool(of), Session(**of) if of else Session()
 
-    def tell(self, line):
-        """Tells a state: the corridor of each line, and the rest when it changes or a second is over."""
+    def tell(self, line, is_newest):
+        """Tells a state: its corridor if no newer one is known, and the rest when it changes or a second is over."""
         now = time.monotonic()
         # A line that waited, here or in the socket, is older than the quickest one would be.
         passed = now - line["at_us"] / 1e6
         self.offset = passed if self.offset is None else min(passed, self.offset)
         left = min(line.get("open_ms", 0) / 1e3, SHOWN_S) - (passed - self.offset)
-        corridor = Corridor(station=line["station"], open=left > 0, road_occupied=line["road_occupied"],
-                            valid_for=Duration(seconds=max(left, 0.0)).to_msg())
-        corridor.header.stamp = self.node.now()
-        self.corridor.publish(corridor)
+        if is_newest:
+            corridor = Corridor(station=line["station"], open=left > 0, road_occupied=line["road_occupied"],
+                                valid_for=Duration(seconds=max(left, 0.0)).to_msg())
+            corridor.header.stamp = self.node.now()
+            self.corridor.publish(corridor)
         what = {name: value for name, value in line.items() if name not in ("at_us", "open_ms")}
         if what == self.said and now - self.told < STATUS_S:
             return
