@@ -77,6 +77,12 @@ def expected(path):
     return topics
 
 
+def foxglove_type(name):
+    kind = name.removeprefix("foxglove.")
+    module = importlib.import_module(f"foxglove_schemas_protobuf.{kind}_pb2")
+    return getattr(module, kind)
+
+
 class Found:
     """What is in the file, in the form of `expected`."""
 

@@ -1,10 +1,10 @@
-//! The page about a run: what is in it, and that a browser shows it without a network.
+//! The page about a run: what is in it. That a browser shows it without a network is in `tests/studio/pages.py`.
 
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
 use crossguard_judge::sim::{Swarm, run};
 use crossguard_robot::trace::{self, Record};
@@ -129,94 +129,4 @@ fn the_log_of_one_robot_alone_shows_those_that_it_heard() {
         svg.contains(">R1</text>") && svg.contains(">station "),
         "no stranger"
     );
-}
-
-/// What a browser of Debian says, with flags that keep it off any network of its own.
-fn browser(folder: &Path, arguments: &[&str], page: &Path) -> Option<Output> {
-    let mut command = Command::new("chromium");
-    command.args([
-        "--headless",
-        "--no-sandbox",
-        "--disable-gpu",
-        "--disable-quic",
-        "--no-first-run",
-    ]);
-    command.args([
-        "--disable-background-networking",
-        "--disable-component-update",
-        "--disable-sync",
-    ]);
-    command.args(["--enable-logging=stderr", "--log-level=0"]);
-    command.arg(format!(
-        "--user-data-dir={}",
-        folder.join("profile").display()
-    ));
-    command
-        .args(arguments)
-        .arg(format!("file://{}", page.display()));
-    match command.output() {
-        Ok(output) => Some(output),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => None,
-        Err(error) => panic!("chromium: {error}"),
-    }
-}
-
-#[test]
-fn a_browser_shows_the_page_without_an_error_and_without_a_request() {
-    let folder = tempfile::tempdir().unwrap();
-    let (log, page) = (log_of(3, folder.path()), folder.path().join("page.html"));
-    assert!(report(&[&log], &page).status.success());
-    let net_log = folder.path().join("net.json");
-    let net = format!("--log-net-log={}", net_log.display());
-    let Some(output) = browser(
-        folder.path(),
-        &[&net, "--virtual-time-budget=5000", "--dump-dom"],
-        &page,
-    ) else {
-        eprintln!("SKIPPED a_browser_shows_the_page: no chromium (Debian package chromium)");
-        return;
-    };
-    let (dom, said) = (stdout(&output), stderr(&output));
-    assert!(output.status.success(), "{said}");
-    assert!(!said.contains("CONSOLE"), "{said}");
-    for shown in [
-        "✓ Valid",
-        "class=\"body ",
-        "class=\"row",
-        "class=\"timers\"",
-        "data-ready=\"true\"",
-    ] {
-        assert!(
-            dom.contains(shown),
-            "{shown} is not in the page as the browser has it"
-        );
-    }
-    let net = std::fs::read_to_string(net_log).unwrap();
-    // What the browser asks its makers is not the page's.
-    let is_own = |url: &&str| {
-        let host = url.split('/').nth(2).unwrap_or_default();
-        [".google.com", ".googleapis.com", ".gvt1.com"]
-            .iter()
-            .any(|own| host.ends_with(own))
-    };
-    let requests: Vec<_> = net
-        .match_indices("\"url\":\"")
-        .map(|(at, key)| net[at + key.len()..].split('"').next().unwrap())
-        .filter(|url| url.starts_with("http") || url.starts_with("ws"))
-        .filter(|url| !is_own(url))
-        .collect();
-    assert!(requests.is_empty(), "{requests:?}");
-    for width in [1_280, 390] {
-        let picture = folder.path().join(format!("{width}.png"));
-        let (size, to) = (
-            format!("--window-size={width},900"),
-            format!("--screenshot={}", picture.display()),
-        );
-        let output = browser(folder.path(), &[&size, &to, "--hide-scrollbars"], &page).unwrap();
-        assert!(output.status.success(), "{}", stderr(&output));
-        assert!(
-            std::fs::metadata(picture).unwrap().len() > 10_000,
-            "an empty picture"
-        );
-    }
 }

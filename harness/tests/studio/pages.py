@@ -166,6 +166,24 @@ def after(studio, folder):
     at.assert_clean()
 
 
+def report(studio, folder):
+    """The page After as a file: it shows the same and asks nobody."""
+    log = demo(folder, "--report", folder / "page.html")
+    at = studio(log)
+    at.requests.clear()
+    page = at.page
+    page.goto((folder / "page.html").as_uri())
+    page.wait_for_selector("html[data-ready=true]", state="attached")
+    expect(page.locator("#chip")).to_have_text("✓ Valid")
+    expect(page.locator("#map .body")).to_have_count(2)
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("End")
+    expect(page.locator(".row.current")).to_have_count(1)
+    at.assert_fits()
+    assert at.errors == [], at.errors
+    assert all(it.startswith(("file:", "data:")) for it in at.requests), at.requests
+
+
 def hostile_log(studio, folder):
     """Names with markup, very many events, and a cut in the middle of a record with more behind it."""
     records = [json.loads(line) for line in demo(folder).read_text().splitlines()]
@@ -328,7 +346,7 @@ def main():
     passed = failed = 0
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
-        for test in (after, hostile_log, play, explore, live):
+        for test in (after, report, hostile_log, play, explore, live):
             with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as closing:
                 def studio(*arguments):
                     at = Studio(browser, *arguments)
