@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 use crossguard_model_check::check::Stop;
 use crossguard_model_check::odds::{
-    ChainError, Coupling, Enclosure, FOLLOWERS_MAX, FlowCut, Iteration, OddsModel, OddsProgress,
-    OddsSetup, Stage, TeamOdds, TimeGrid, write_drn,
+    ChainError, Coupling, FOLLOWERS_MAX, FlowCut, OddsModel, OddsProgress, OddsSetup, Stage,
+    TeamOdds, TimeGrid, write_drn,
 };
 use crossguard_protocol::{Config, Millis};
 use crossguard_robot::robot_file::RobotFile;
@@ -248,11 +248,6 @@ struct ChainFigures {
     tick_ms: u32,
     /// The probability that a label is reached within so many steps.
     within: Vec<WithinSteps>,
-    /// The probability that a label is ever reached.
-    ever: Vec<EverReached>,
-    /// The expected number of steps until the chain stays where it is; only where it was found.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    expected_steps: Option<Enclosure>,
 }
 
 #[derive(Serialize)]
@@ -260,12 +255,6 @@ struct WithinSteps {
     label: String,
     steps: usize,
     probability: f64,
-}
-
-#[derive(Serialize)]
-struct EverReached {
-    label: String,
-    probability: Enclosure,
 }
 
 fn export(
@@ -289,9 +278,8 @@ fn export(
         };
         let path = folder.join(stage.name()).with_extension("drn");
         written(&path, |to| write_drn(&chain, to))?;
-        let iteration = Iteration::default();
         let names = chain.label_names().iter().enumerate();
-        let within = names.clone().flat_map(|(label, name)| {
+        let within = names.flat_map(|(label, name)| {
             let steps = [2, 5, 11, 41, 101, setup.grid().ticks(setup.hold()) + 1];
             steps.map(|steps| WithinSteps {
                 label: name.clone(),
@@ -299,14 +287,6 @@ fn export(
                 probability: chain.within(label, steps),
             })
         });
-        // Over a whole day a follower falls back for certain, and it would take long to find that out.
-        let is_bounded = stage != Stage::Holding;
-        let ever = names
-            .filter(|_| is_bounded)
-            .map(|(label, name)| EverReached {
-                label: name.clone(),
-                probability: chain.ever(label, iteration),
-            });
         all.push(ChainFigures {
             stage,
             loss,
@@ -314,10 +294,6 @@ fn export(
             transitions: chain.transitions(),
             tick_ms: setup.grid().tick.0,
             within: within.collect(),
-            ever: ever.collect(),
-            expected_steps: is_bounded
-                .then(|| chain.expected_steps(iteration))
-                .flatten(),
         });
     }
     let path = folder.join("figures.json");

@@ -49,7 +49,7 @@ mod team;
 mod weight;
 
 pub use analysis::{ChainError, OddsModel, OddsProgress, TeamOdds};
-pub use chain::{Iteration, MarkovChain};
+pub use chain::MarkovChain;
 pub use enclosure::Enclosure;
 pub use export::write_drn;
 pub use figures::{LossOdds, MilestoneOdds, Quantile, ReachedBy, StageSize};
