@@ -1,6 +1,5 @@
 //! `crossguard odds`.
 
-mod loss;
 mod output;
 mod settings;
 
@@ -18,7 +17,6 @@ use crossguard_robot::robot_file::RobotFile;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
-use self::loss::LossRates;
 use self::settings::{Knob, Varied};
 use super::interrupts::interrupts_that;
 use super::ranges::{number, whole};
@@ -30,10 +28,10 @@ pub(super) struct Arguments {
     /// How many followers the leader asks for: 1 for a pair, 2 for a trio.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u8>(1..=FOLLOWERS_MAX.into()))]
     followers: u8,
-    /// The shares of messages that get lost: a list like 0,0.1,0.3, or a range like 0..0.6, in steps of 0.1 or as in
-    /// 0..0.6:0.05.
-    #[arg(long, value_name = "RATES", default_value = "0..0.6")]
-    loss: LossRates,
+    /// The shares of messages that get lost, like 0,0.1,0.3.
+    #[arg(long, value_name = "RATES", value_delimiter = ',', default_value = "0,0.1,0.2,0.3,0.4,0.5,0.6",
+        value_parser = number(0.0..=0.999))]
+    loss: Vec<f64>,
     /// Losses come in bursts of this mean length, in milliseconds, on the link of each follower; without it, each
     /// message is lost independently.
     #[arg(long, value_name = "MEAN_LENGTH", value_parser = whole::<u32>(1..=3_600_000))]
@@ -175,7 +173,7 @@ impl Arguments {
             Millis(self.hold),
         );
         let mut setup = setup.map_err(Failure::input)?;
-        for &loss in self.loss.rates() {
+        for &loss in &self.loss {
             setup.check_loss(loss).map_err(Failure::input)?;
         }
         if let Some(width) = self.width {
@@ -194,7 +192,7 @@ impl Arguments {
             bar.set_position(it.done as u64);
             bar.set_message(format!("{} at a loss of {}", it.stage.name(), it.loss));
         };
-        let solved = OddsModel::new(setup).odds(self.loss.rates(), stop, &mut watch);
+        let solved = OddsModel::new(setup).odds(&self.loss, stop, &mut watch);
         bar.finish_and_clear();
         solved
     }
@@ -263,7 +261,7 @@ fn export(
     folder: &Path,
     stop: &Stop,
 ) -> Result<(), Failure> {
-    let &[loss] = arguments.loss.rates() else {
+    let [loss] = arguments.loss[..] else {
         return Err(Failure::input(
             "--export wants one loss rate, like --loss 0.3",
         ));

@@ -58,7 +58,7 @@ fn json_has_the_bounds_of_each_milestone_at_each_loss_rate() {
 
 #[test]
 fn tables_say_what_was_asked_for() {
-    let output = odds(&["--loss", "0..0.2"]);
+    let output = odds(&["--loss", "0,0.1,0.2"]);
     let said = stdout(&output);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     for words in [
