@@ -272,9 +272,9 @@ pub enum Goal {
         /// Its place in the scenario, from 0.
         place: usize,
         /// The state.
-        state: StateName,
+        state: State,
         /// The side in it, where that matters.
-        role: Option<Side>,
+        role: Option<Role>,
     },
     /// A person is on the road.
     PersonOnRoad,
@@ -282,27 +282,6 @@ pub enum Goal {
     ShowsGo,
     /// A body falls back.
     FallsBack,
-}
-
-/// A state of the paper's machine, by its name.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
-#[allow(missing_docs, reason = "as in State")]
-pub enum StateName {
-    Idle,
-    HelpRequested,
-    RoleEstablished,
-    ManeuverExecuting,
-}
-
-/// A side in a state, by its name.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[allow(missing_docs, reason = "as in Role")]
-pub enum Side {
-    Requester,
-    Helper,
-    Leader,
-    Follower,
 }
 
 /// What a search has come to.
@@ -361,35 +340,12 @@ impl Goal {
                 let node = nodes.clone().nth(place);
                 let robot = node.and_then(|node| node.robot.as_ref());
                 robot.is_some_and(|robot| {
-                    robot.state() == state.of_protocol()
-                        && role.is_none_or(|role| robot.role() == role.of_protocol())
+                    robot.state() == state && role.is_none_or(|role| robot.role() == role)
                 })
             }
             Self::PersonOnRoad => model.history(found).pedestrian.on_road().is_some(),
             Self::ShowsGo => any(|node| node.actuation.corridor_open),
             Self::FallsBack => any(|node| matches!(node.actuation.body, Body::FallingBack(..))),
-        }
-    }
-}
-
-impl StateName {
-    const fn of_protocol(self) -> State {
-        match self {
-            Self::Idle => State::Idle,
-            Self::HelpRequested => State::HelpRequested,
-            Self::RoleEstablished => State::RoleEstablished,
-            Self::ManeuverExecuting => State::ManeuverExecuting,
-        }
-    }
-}
-
-impl Side {
-    const fn of_protocol(self) -> Role {
-        match self {
-            Self::Requester => Role::Requester,
-            Self::Helper => Role::Helper,
-            Self::Leader => Role::Leader,
-            Self::Follower => Role::Follower,
         }
     }
 }

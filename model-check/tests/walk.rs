@@ -4,7 +4,8 @@ use crossguard_model_check::model::Model;
 use crossguard_model_check::replay::{Followed, Replay};
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::sequence::{ChartPlace, ChartStep, Fate};
-use crossguard_model_check::walk::{Goal, PersonFrame, Side, StateName, Stray, Walk, search};
+use crossguard_model_check::walk::{Goal, PersonFrame, Stray, Walk, search};
+use crossguard_protocol::{Role, State};
 
 fn scenario(name: &str) -> Scenario {
     Scenario::load(name).unwrap()
@@ -134,8 +135,8 @@ fn walk_to_offer() -> (Vec<ChartStep>, Walk) {
 fn the_search_finds_a_shortest_way_and_the_walk_gets_there() {
     let leads = Goal::Robot {
         place: 0,
-        state: StateName::RoleEstablished,
-        role: Some(Side::Leader),
+        state: State::RoleEstablished,
+        role: Some(Role::Leader),
     };
     let found = search(scenario("crossing"), leads, 100_000);
     let steps = found.steps.unwrap();
@@ -159,8 +160,8 @@ fn a_search_says_whether_it_has_seen_everything() {
     // The robot dog detects nobody, so it never asks.
     let asks = Goal::Robot {
         place: 1,
-        state: StateName::HelpRequested,
-        role: Some(Side::Requester),
+        state: State::HelpRequested,
+        role: Some(Role::Requester),
     };
     let found = search(scenario("crossing"), asks, 100_000);
     assert!(found.steps.is_none() && found.is_complete);
