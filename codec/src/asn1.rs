@@ -84,21 +84,28 @@ fn malformed(error: &rasn::error::DecodeError) -> DecodeError {
         };
     }
     let field = FieldPath::named(names);
-    let cause = match kind {
+    let (cause, detail) = match kind {
         Kind::UnexpectedExtraData { length } if field.names().next().is_none() => {
             return DecodeError::TrailingOctets { count: *length };
         }
-        Kind::Incomplete { .. } | Kind::Eof => "truncated",
-        Kind::ValueConstraintNotSatisfied { .. } | Kind::IntegerOverflow { .. } => {
-            "value out of range"
+        Kind::Incomplete { .. } | Kind::Eof => {
+            ("truncated", "the message ends within it".to_owned())
         }
-        Kind::SizeConstraintNotSatisfied { .. } => "size out of range",
+        Kind::ValueConstraintNotSatisfied { value, expected } => {
+            let detail = format!("{value} is not within {expected}");
+            ("value out of range", detail)
+        }
+        Kind::IntegerOverflow { .. } => ("value out of range", kind.to_string()),
+        Kind::SizeConstraintNotSatisfied { expected, .. } => {
+            let detail = format!("its size is not within {expected}");
+            ("size out of range", detail)
+        }
         Kind::EnumerationIndexNotFound { .. } | Kind::ChoiceIndexNotFound { .. } => {
-            "unknown alternative"
+            let detail = "its alternative is unknown".to_owned();
+            ("unknown alternative", detail)
         }
-        _ => "malformed extension",
+        _ => ("malformed extension", kind.to_string()),
     };
-    let detail = kind.to_string();
     DecodeError::Foreign {
         field,
         cause,

@@ -151,8 +151,7 @@ fn a_number_out_of_its_range_is_refused_by_its_name() {
     let error = read(&octets).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "denm.management.event_position.latitude: Value constraint not satisfied: expected: \
-         -900000000..900000001; actual: 1247483647"
+        "denm.management.event_position.latitude: 1247483647 is not within -900000000..900000001"
     );
     assert_eq!(error.cause(), "value out of range");
     let mut denm = denm();
