@@ -15,6 +15,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
+use crossguard_endpoint::Stimulus;
 use crossguard_endpoint::counters::Counts;
 use crossguard_protocol::{Config, EndReason, Event, Notice, Output, StationId};
 use serde::Serialize;
@@ -25,7 +26,7 @@ use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::{Mode, Security};
 use crossguard_judge::timing::{Summary, TeamSummary, Timing};
 use crossguard_judge::validate::{self, Validated};
-use crossguard_robot::application::{Application, Wish};
+use crossguard_robot::application::Application;
 use crossguard_robot::body::Simulated;
 use crossguard_robot::boot::Boot;
 use crossguard_robot::capture::Capture;
@@ -284,7 +285,7 @@ impl Demo<'_> {
             if let Some(plan) = &participant.plan {
                 self.street.arrive(plan.crossing_us(options.time_scale));
                 let detected = Event::PedestrianDetected(plan.request());
-                robot.order(Order::Wish(Wish::Tell(detected)));
+                robot.order(Order::Wish(Stimulus::Event(detected)));
             }
         }
         // The paper's crossing takes about 26 s; commands may have to be given again.

@@ -101,8 +101,6 @@ pub enum Cause {
     NotSent,
     /// The operating system delivers no datagrams any more.
     LinkFailed,
-    /// Datagrams arrived faster than they were taken off the link.
-    LinkFull,
     /// A datagram is not framed as the link's datagrams are.
     Misframed(&'static str),
     /// A datagram waited for longer than `delay_max` between its arrival and its input to the robot.
@@ -155,7 +153,7 @@ impl Cause {
     pub const fn layer(self) -> Layer {
         match self {
             Self::Simulated(_) => Layer::Simulated,
-            Self::NotSent | Self::LinkFailed | Self::LinkFull | Self::Misframed(_) => Layer::Link,
+            Self::NotSent | Self::LinkFailed | Self::Misframed(_) => Layer::Link,
             Self::WaitedTooLong | Self::InboxFull => Layer::Inbox,
             Self::Discarded(_) => Layer::Packet,
             Self::Rejected(_) => Layer::Security,
@@ -189,7 +187,7 @@ impl Display for Reason {
             Cause::Simulated(loss) => loss.name(),
             Cause::NotSent => "not sent",
             Cause::LinkFailed => "failed",
-            Cause::LinkFull | Cause::InboxFull | Cause::LogFull | Cause::OutputFull => "full",
+            Cause::InboxFull | Cause::LogFull | Cause::OutputFull => "full",
             Cause::WaitedTooLong => "waited too long",
             Cause::Misframed(why)
             | Cause::Discarded(why)

@@ -30,7 +30,7 @@ use crate::ras::surroundings::{Awareness, Surroundings};
 use crate::station::{LocalDynamicMap, Neighbours};
 
 /// An input of an endpoint.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Stimulus<'a> {
     /// A datagram was received: a `GeoNetworking` packet. One that has waited for longer than
     /// [`delay_max`](crossguard_protocol::Settings::delay_max) is dropped.

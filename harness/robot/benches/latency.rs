@@ -9,11 +9,12 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use crossguard_codec::{Identifiers, TaskParameters};
+use crossguard_endpoint::Stimulus;
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Security;
 use crossguard_protocol::{Config, Event, Notice, Output, Phase, Rmcm, StationId, TaskType};
-use crossguard_robot::application::{Application, Wish};
+use crossguard_robot::application::Application;
 use crossguard_robot::body::{Build, Simulated};
 use crossguard_robot::boot::Boot;
 use crossguard_robot::journal::{Journal, WhenFull};
@@ -92,7 +93,7 @@ impl Pair {
     fn measure(&self, commands: usize) -> Vec<u64> {
         let plan = Plan::crossing(Site::default());
         let detected = Event::PedestrianDetected(plan.request());
-        self.leader.order(Order::Wish(Wish::Tell(detected)));
+        self.leader.order(Order::Wish(Stimulus::Event(detected)));
         let (mut taken, mut commanded_us) = (Vec::new(), None);
         let deadline = Instant::now() + Duration::from_mins(10);
         while taken.len() < commands && Instant::now() < deadline {
@@ -124,14 +125,14 @@ impl Pair {
                         // The numbers of the session's commands are used up, or something went wrong.
                         commanded_us = None;
                         if matches!(state.phase(), Phase::Idle) {
-                            self.leader.order(Order::Wish(Wish::Tell(detected)));
+                            self.leader.order(Order::Wish(Stimulus::Event(detected)));
                         }
                     }
                     _ => {}
                 }
             }
             if is_free {
-                self.leader.order(Order::Wish(Wish::Order {
+                self.leader.order(Order::Wish(Stimulus::Order {
                     follower: StationId(2),
                     task: TaskType::MOVE,
                     parameters: TaskParameters::default(),

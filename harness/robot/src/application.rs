@@ -8,39 +8,22 @@ mod whereabouts;
 
 use std::collections::VecDeque;
 
-use crossguard_codec::TaskParameters;
-use crossguard_endpoint::Act;
+use crossguard_endpoint::{Act, Stimulus};
 use crossguard_protocol::{
-    Availability, Config, Corridor, Duty, Event, Maneuver, ManeuverId, Phase, Robot, StationId,
-    TaskSet, TaskType, Unavailability,
+    Availability, Config, Corridor, Duty, Event, Maneuver, ManeuverId, Phase, Robot, TaskSet,
+    Unavailability,
 };
 
 use self::bodily::Bodily;
 use self::detection::Detection;
 use self::errand::Errand;
 pub use self::traits::Traits;
-use crate::body::{Body, BodyAct, Fallback, Pose, Report};
+use crate::body::{Body, BodyAct, Fallback, Report};
 use crate::plan::Plan;
 use crate::sight::Outline;
 use crate::sign::{Shown, Sign};
 use crate::site::Site;
 use crate::street::Road;
-
-/// What an application wants of its endpoint.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Wish {
-    /// To tell this event.
-    Tell(Event),
-    /// To have a follower do something.
-    Order {
-        /// The follower.
-        follower: StationId,
-        /// The maneuver.
-        task: TaskType,
-        /// Where and how.
-        parameters: TaskParameters,
-    },
-}
 
 /// The longest list of wishes; more are not kept.
 const WISHES: usize = 64;
@@ -75,7 +58,7 @@ pub struct Application {
     plan: Option<Plan>,
     /// How its plan goes while it leads.
     errand: Option<Errand>,
-    wishes: VecDeque<Wish>,
+    wishes: VecDeque<Stimulus<'static>>,
     rules: Rules,
     /// Whether its corridor is known to be clear.
     corridor: Corridor,
@@ -189,7 +172,7 @@ impl Application {
         let report = self.body.advance((now_s - self.at_s).max(0.0));
         self.at_s = now_s;
         match report {
-            Some(Report::InPosition(id)) => self.wish(Wish::Tell(Event::InPosition(id))),
+            Some(Report::InPosition(id)) => self.wish(Stimulus::Event(Event::InPosition(id))),
             Some(Report::Completed(id)) => self.waits_for_people = Some(id),
             Some(report) => self.learn_of_body(report),
             None => {}
@@ -218,7 +201,7 @@ impl Application {
         };
         if !has_people {
             self.waits_for_people = None;
-            self.wish(Wish::Tell(Event::ManeuverCompleted(id)));
+            self.wish(Stimulus::Event(Event::ManeuverCompleted(id)));
         }
     }
 
@@ -292,7 +275,7 @@ impl Application {
             About::Clearing => road_is_clear,
         };
         if is_free && is_clear {
-            self.wish(Wish::Tell(Event::RoadClear));
+            self.wish(Stimulus::Event(Event::RoadClear));
         }
     }
 
@@ -303,11 +286,11 @@ impl Application {
     }
 
     /// The next thing that the application wants of its endpoint.
-    pub fn next_wish(&mut self) -> Option<Wish> {
+    pub fn next_wish(&mut self) -> Option<Stimulus<'static>> {
         self.wishes.pop_front()
     }
 
-    fn wish(&mut self, wish: Wish) {
+    fn wish(&mut self, wish: Stimulus<'static>) {
         if self.wishes.len() < WISHES {
             self.wishes.push_back(wish);
         }
@@ -322,11 +305,6 @@ impl Application {
     /// The driver of the body says that its fallback is finished.
     pub fn finish_fallback(&mut self) {
         self.body.finish_fallback();
-    }
-
-    /// Others say where the body is.
-    pub fn moved(&mut self, pose: Pose) {
-        self.body.moved(pose);
     }
 
     /// Carries the body back to where it began.
@@ -369,7 +347,7 @@ impl Application {
         tracing::error!(%error, ?act, "a fault of the body");
         let fault = Availability::Unavailable(Unavailability::LocalFault);
         self.wishes
-            .push_front(Wish::Tell(Event::AvailabilityChanged(fault)));
+            .push_front(Stimulus::Event(Event::AvailabilityChanged(fault)));
     }
 }
 

@@ -5,11 +5,9 @@
 //!               ◄── Report, state ──
 //! ```
 //!
-//! [`Simulated`] walks to targets by itself. [`External`] is moved by others: it hands each act to a function
-//! at once, and what that function does not take is a fault that the robot announces. [`Ported`] is another process, by lines
-//! on a socket.
+//! [`Simulated`] walks to targets by itself, [`Ported`] is another process, by lines on a socket. An act that a body does not
+//! take is a fault that the robot announces.
 
-mod external;
 mod port;
 mod simulated;
 
@@ -19,11 +17,9 @@ use crossguard_codec::{
     Capabilities, ControlMode, Dimensions, DriveDirection, JobRole, Position, RobotCategory,
     RobotState, SlowState, TaskParameters,
 };
-use crossguard_endpoint::Act;
 use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId, StopReason};
 use serde::{Deserialize, Serialize};
 
-pub use self::external::{Driver, External};
 pub use self::port::{BodyPort, Ported, VERSION as PORT_VERSION};
 pub use self::simulated::Simulated;
 use crate::site::{Place, Site};
@@ -115,16 +111,6 @@ pub enum BodyAct {
     FallBack(Maneuver, FallbackPolicy),
 }
 
-impl From<BodyAct> for Act {
-    fn from(act: BodyAct) -> Self {
-        match act {
-            BodyAct::Start(maneuver, parameters) => Self::Start(maneuver, parameters),
-            BodyAct::Stop(maneuver, why) => Self::Stop(maneuver, why),
-            BodyAct::FallBack(maneuver, policy) => Self::FallBack(maneuver, policy),
-        }
-    }
-}
-
 /// A body did not take what it was to do.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("the body does not take it: {0}")]
@@ -161,9 +147,6 @@ pub trait Body: fmt::Debug + Send {
 
     /// A person says that its fallback is finished. A body that moves by itself knows better.
     fn finish_fallback(&mut self) {}
-
-    /// Others say where it is. A body that moves by itself knows better.
-    fn moved(&mut self, _pose: Pose) {}
 
     /// Goes somewhere for the leader's own part in a plan, if it moves by itself.
     fn walk_to(&mut self, _place: Place) {}

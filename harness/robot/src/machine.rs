@@ -15,7 +15,7 @@ use crossguard_codec::Identity;
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Event, Notice, Phase, Robot, StateMachine};
 
-use crate::application::{Application, Wish};
+use crate::application::Application;
 
 /// How many wishes of the application are fulfilled in one turn; the others wait for the next.
 const WISHES_PER_TURN: usize = 32;
@@ -68,7 +68,7 @@ impl<P: StateMachine> Machine<P> {
             let Some(wish) = self.application.next_wish() else {
                 break;
             };
-            effects.extend(self.turn(moment, stimulus_of(wish)));
+            effects.extend(self.turn(moment, wish));
         }
         if self.endpoint.all_have_answered() {
             effects.extend(self.turn(moment, Stimulus::Event(Event::AllAnswered)));
@@ -155,21 +155,4 @@ impl<P: StateMachine> Machine<P> {
 pub fn is_at_rest(robot: &Robot) -> bool {
     let is_idle = matches!(robot.phase(), Phase::Idle);
     is_idle && robot.farewell().is_none() && robot.duty().is_none()
-}
-
-/// What a wish is to an endpoint.
-#[must_use]
-pub const fn stimulus_of(wish: Wish) -> Stimulus<'static> {
-    match wish {
-        Wish::Tell(event) => Stimulus::Event(event),
-        Wish::Order {
-            follower,
-            task,
-            parameters,
-        } => Stimulus::Order {
-            follower,
-            task,
-            parameters,
-        },
-    }
 }

@@ -17,7 +17,7 @@ use serde::Deserialize;
 
 use crate::application::{Application, Traits};
 use crate::attachment::Sends;
-use crate::body::{Body, BodyPort, Build, Driver, External, Ported, Simulated};
+use crate::body::{Body, BodyPort, Build, Ported, Simulated};
 use crate::boot::Boot;
 use crate::journal::Journal;
 use crate::located::FileError;
@@ -344,12 +344,6 @@ impl RobotFile {
         let holding = self.config.settings().holding;
         let body = Ported::open(self.build, self.site, self.place, port, holding)?;
         Ok(Box::new(body))
-    }
-
-    /// A body that others move, by this driver.
-    #[must_use]
-    pub fn external_body(&self, driver: Driver) -> External {
-        External::new(self.build, self.site, self.place, driver)
     }
 
     /// What it knows of the people on the road: nothing, unless its sensors have everybody there, or it

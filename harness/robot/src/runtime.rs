@@ -47,14 +47,13 @@ use self::keeper::Keeper;
 use self::reader::{Reader, Waiting};
 pub use self::running::{Orders, Panicked, Running};
 use self::sampler::Sampler;
-use crate::application::{Application, Wish};
+use crate::application::Application;
 use crate::around::Around;
-use crate::body::Pose;
 use crate::boot::Boot;
 use crate::channel::Monitored;
 use crate::clock::ClockState;
 use crate::journal::Journal;
-use crate::machine::{Machine, stimulus_of};
+use crate::machine::Machine;
 use crate::observe;
 use crate::perception::seen_from;
 use crate::trace::{Entry, Record, recorded};
@@ -83,7 +82,7 @@ const AROUND_PERIOD_US: u64 = 1_000_000;
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Order {
     /// Something for its endpoint.
-    Wish(Wish),
+    Wish(Stimulus<'static>),
     /// The body holds the place from which the maneuver that runs guards.
     InPosition,
     /// A person says that the road is clear.
@@ -95,8 +94,6 @@ pub enum Order {
     },
     /// The sensors have this person, at this place on the site; or they work, and have nobody.
     Perceived(Option<PerceivedVru>),
-    /// The body, which others move, is here.
-    Moved(Pose),
     /// The battery is like this now.
     Battery(Battery),
     /// The wall clock is like this, as whatever keeps it says.
@@ -118,9 +115,8 @@ pub enum Order {
 }
 
 enum Delivery {
-    Arrived(Arrival),
+    Arrived(std::io::Result<Arrival>),
     Order(Order),
-    LinkFailed(std::io::Error),
     Revoked(revoked::Read),
 }
 
@@ -282,9 +278,9 @@ impl Loop {
             match inbox.recv_timeout(self.patience()) {
                 Ok(Delivery::Order(order)) => self.obey(order),
                 Ok(Delivery::Revoked(list)) => self.revoke(list),
-                Ok(delivery) => {
+                Ok(Delivery::Arrived(arrival)) => {
                     self.waiting.datagrams.fetch_sub(1, Ordering::Relaxed);
-                    self.take(delivery);
+                    self.take(arrival);
                 }
                 Err(RecvTimeoutError::Timeout) => self.handle(Stimulus::Time),
                 // Nobody is left who could order it to stop.
@@ -323,37 +319,30 @@ impl Loop {
     }
 
     /// Takes in what comes from the reader, in one turn.
-    fn take(&mut self, delivery: Delivery) {
+    fn take(&mut self, arrival: std::io::Result<Arrival>) {
         self.count_overflow();
-        match delivery {
-            Delivery::Arrived(Arrival::Datagram { octets, at, .. }) => {
+        match arrival {
+            Ok(Arrival::Datagram { octets, at, .. }) => {
                 let arrived_ms = self.clock.at_ms(at);
                 let packet = &octets;
                 return self.handle(Stimulus::Datagram { packet, arrived_ms });
             }
-            Delivery::Arrived(Arrival::Lost { how, octets }) => {
+            Ok(Arrival::Lost { how, octets }) => {
                 let detail = "by the fault injector".to_owned();
                 self.drop(Cause::Simulated(how), detail, octets);
             }
-            Delivery::Arrived(Arrival::Overflow(datagrams)) => {
-                for _ in 0..datagrams {
-                    self.machine.endpoint_mut().count(Cause::LinkFull);
-                }
-            }
-            Delivery::Arrived(Arrival::Channel(radio)) => {
+            Ok(Arrival::Channel(radio)) => {
                 let now_ms = self.now_ms();
                 self.channel.measure(radio, now_ms);
             }
-            Delivery::Arrived(Arrival::Misframed {
+            Ok(Arrival::Misframed {
                 cause,
                 detail,
                 octets,
             }) => self.drop(Cause::Misframed(cause), detail, octets),
-            Delivery::LinkFailed(cause) => {
+            Err(cause) => {
                 self.drop(Cause::LinkFailed, cause.to_string(), Vec::new());
             }
-            Delivery::Order(order) => return self.obey(order),
-            Delivery::Revoked(list) => return self.revoke(list),
         }
         self.handle(Stimulus::Time);
     }
@@ -369,7 +358,7 @@ impl Loop {
     fn obey(&mut self, order: Order) {
         let seen;
         let stimulus = match order {
-            Order::Wish(wish) => stimulus_of(wish),
+            Order::Wish(wish) => wish,
             Order::InPosition => event(self.machine.in_position()),
             Order::Clear => {
                 // Where nothing waits for it, the robot says so.
@@ -386,10 +375,6 @@ impl Loop {
                 self.machine.application_mut().perceive(&vru);
                 seen = [seen_from(place, vru)];
                 Stimulus::Perceived(&seen)
-            }
-            Order::Moved(pose) => {
-                self.machine.application_mut().moved(pose);
-                Stimulus::Time
             }
             Order::Battery(battery) => {
                 self.machine.application_mut().set_battery(battery);

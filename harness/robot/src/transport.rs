@@ -137,8 +137,6 @@ pub enum Arrival {
         /// What it held.
         octets: Vec<u8>,
     },
-    /// This many datagrams, at least one, found no place in the transport's own queue.
-    Overflow(u64),
     /// How the channel is, from a transport that measures it.
     Channel(Radio),
     /// A datagram that is not framed as it should be.

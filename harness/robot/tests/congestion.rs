@@ -1,17 +1,18 @@
 //! A full channel, as an on-board unit measures it, holds the RAM of a moving robot back.
 
+use std::io::Write;
 use std::net::UdpSocket;
+use std::os::unix::net::UnixStream;
 use std::time::{Duration, Instant};
 
 use crossguard_endpoint::station::Security;
 use crossguard_robot::attachment::{Frame, Kind, Radio, Sends, Side};
-use crossguard_robot::body::Pose;
 use crossguard_robot::boot;
 use crossguard_robot::journal::Journal;
 use crossguard_robot::robot_file::RobotFile;
 use crossguard_robot::runtime::Order;
-use crossguard_robot::site::Place;
 use crossguard_robot::transport::{Link, Transport};
+use serde_json::json;
 
 /// For how long congestion control may settle, and for how long is counted after that.
 const SETTLING: Duration = Duration::from_millis(1_500);
@@ -26,7 +27,8 @@ fn sent_at(busy_permyriad: u16) -> usize {
     let address = unit.local_addr().unwrap();
     let path = folder.path().join("robot.toml");
     let text = format!(
-        "name = \"R\"\nstation = 1\nbuild = \"wheeled\"\nboot_file = \"r.boot\"\n[link]\nunit = \"{address}\"\n"
+        "name = \"R\"\nstation = 1\nbuild = \"wheeled\"\nboot_file = \"r.boot\"\n\
+         [body]\nlisten = \"unix:r.sock\"\n[link]\nunit = \"{address}\"\n"
     );
     std::fs::write(&path, text).unwrap();
     let file = RobotFile::read(&path).unwrap();
@@ -37,7 +39,9 @@ fn sent_at(busy_permyriad: u16) -> usize {
         sends,
     };
     assert_eq!(file.link, link);
-    let body = Box::new(file.external_body(Box::new(|_| Ok(()))));
+    let body = file.body_or_port(1).unwrap();
+    let mut moves = UnixStream::connect(folder.path().join("r.sock")).unwrap();
+    writeln!(moves, "{{\"type\": \"hello\", \"crossguard\": 1}}").unwrap();
     let boot = boot::take(&file.boot_file).unwrap();
     let halves = link.open().unwrap();
     let setup = file.setup(boot, body, Security::default(), halves, Journal::new());
@@ -46,11 +50,9 @@ fn sent_at(busy_permyriad: u16) -> usize {
     let (mut buffer, mut packets, mut turn) = ([0; 2_048], 0, 0);
     while began.elapsed() < SETTLING + COUNTED {
         turn += 1;
-        running.order(Order::Moved(Pose {
-            place: Place::new(0.0, 0.0),
-            heading_deg: 0.0,
-            speed_mps: f64::from(turn % 5),
-        }));
+        let speed_mps = turn % 5;
+        let pose = json!({"type": "pose", "east_m": 0, "north_m": 0, "speed_mps": speed_mps});
+        writeln!(moves, "{pose}").unwrap();
         let Ok((length, robot)) = unit.recv_from(&mut buffer) else {
             continue;
         };

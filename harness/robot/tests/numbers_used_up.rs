@@ -5,11 +5,12 @@ use std::fs;
 use std::time::{Duration, Instant};
 
 use crossguard_codec::Identifiers;
+use crossguard_endpoint::Stimulus;
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Security;
 use crossguard_protocol::{Config, Event, Input, StationId};
-use crossguard_robot::application::{Application, Wish};
+use crossguard_robot::application::Application;
 use crossguard_robot::body::{Build, Simulated};
 use crossguard_robot::boot;
 use crossguard_robot::journal::{Journal, WhenFull};
@@ -49,8 +50,8 @@ fn the_next_boot_counter_is_persisted_and_used_before_numbers_run_out() {
     }
     .start();
     let request = Plan::crossing(Site::default()).request();
-    let asks = Order::Wish(Wish::Tell(Event::PedestrianDetected(request)));
-    let leaves = Order::Wish(Wish::Tell(Event::LeaveRequested));
+    let asks = Order::Wish(Stimulus::Event(Event::PedestrianDetected(request)));
+    let leaves = Order::Wish(Stimulus::Event(Event::LeaveRequested));
     let (mut complained, mut renewed) = (0, None);
     let deadline = Instant::now() + PATIENCE;
     while renewed.is_none() && Instant::now() < deadline {

@@ -5,15 +5,26 @@ use crossguard_judge::validate::{Invalid, Validated};
 use crossguard_judge::verdict::{self, PropertyVerdict};
 use serde::Serialize;
 
-use super::shell::{self, Asset, Refusal, Skip, View, value};
+use super::shell::{self, Page, Refusal, Skip, View, value};
 
-const FILES: [Asset; 5] = [
-    ("after.css", include_str!("after/after.css")),
-    ("after.js", include_str!("after/after.js")),
-    ("player.js", include_str!("after/player.js")),
-    ("source.js", include_str!("after/source.js")),
-    ("timeline.js", include_str!("after/timeline.js")),
-];
+static PAGE: Page = Page {
+    name: "after",
+    title: "After",
+    about: "A run after it happened: robots, people and messages in time, what validation says, and times beside the paper's.",
+    skip: Skip {
+        to: "messages-title",
+        words: "Skip to the messages",
+    },
+    content: include_str!("after/content.html"),
+    shared_style: Some("run.css"),
+    files: &[
+        ("after.css", include_str!("after/after.css")),
+        ("after.js", include_str!("after/after.js")),
+        ("player.js", include_str!("after/player.js")),
+        ("source.js", include_str!("after/source.js")),
+        ("timeline.js", include_str!("after/timeline.js")),
+    ],
+};
 
 /// A run, and what is said of it.
 pub struct Studied {
@@ -114,40 +125,13 @@ impl After {
 }
 
 impl View for After {
-    fn name(&self) -> &'static str {
-        "after"
-    }
-
-    fn title(&self) -> &'static str {
-        "After"
-    }
-
-    fn about(&self) -> &'static str {
-        "A run after it happened: robots, people and messages in time, what validation says, and times beside the paper's."
+    fn page(&self) -> &'static Page {
+        &PAGE
     }
 
     fn wants(&self) -> Option<&'static str> {
         let wants = "crossguard studio LOG...";
         self.0.is_none().then_some(wants)
-    }
-
-    fn skip(&self) -> Skip {
-        Skip {
-            to: "messages-title",
-            words: "Skip to the messages",
-        }
-    }
-
-    fn content(&self) -> &'static str {
-        include_str!("after/content.html")
-    }
-
-    fn shared_style(&self) -> Option<&'static str> {
-        Some("run.css")
-    }
-
-    fn files(&self) -> &'static [Asset] {
-        &FILES
     }
 
     fn ask(&self, what: &str, query: &str, _body: &str) -> Result<String, Refusal> {

@@ -6,13 +6,24 @@ use crossguard_model_check::paper;
 use crossguard_model_check::replay::Replay;
 use serde::Serialize;
 
-use super::shell::{Asset, Refusal, Skip, View};
+use super::shell::{Page, Refusal, Skip, View};
 use super::walks::{self, json};
 
-const FILES: [Asset; 2] = [
-    ("explore.css", include_str!("explore/explore.css")),
-    ("explore.js", include_str!("explore/explore.js")),
-];
+static PAGE: Page = Page {
+    name: "explore",
+    title: "Explore",
+    about: "Scenarios and counterexamples step by step: of the paper's wording, of the kit, and from files.",
+    skip: Skip {
+        to: "steps-title",
+        words: "Skip to the steps",
+    },
+    content: include_str!("explore/content.html"),
+    shared_style: Some("walk.css"),
+    files: &[
+        ("explore.css", include_str!("explore/explore.css")),
+        ("explore.js", include_str!("explore/explore.js")),
+    ],
+};
 
 /// A run in a file.
 #[derive(Clone, Debug, Serialize)]
@@ -40,39 +51,8 @@ impl Explore {
 }
 
 impl View for Explore {
-    fn name(&self) -> &'static str {
-        "explore"
-    }
-
-    fn title(&self) -> &'static str {
-        "Explore"
-    }
-
-    fn about(&self) -> &'static str {
-        "Scenarios and counterexamples step by step: of the paper's wording, of the kit, and from files."
-    }
-
-    fn wants(&self) -> Option<&'static str> {
-        None
-    }
-
-    fn skip(&self) -> Skip {
-        Skip {
-            to: "steps-title",
-            words: "Skip to the steps",
-        }
-    }
-
-    fn content(&self) -> &'static str {
-        include_str!("explore/content.html")
-    }
-
-    fn shared_style(&self) -> Option<&'static str> {
-        Some("walk.css")
-    }
-
-    fn files(&self) -> &'static [Asset] {
-        &FILES
+    fn page(&self) -> &'static Page {
+        &PAGE
     }
 
     fn ask(&self, what: &str, _query: &str, body: &str) -> Result<String, Refusal> {

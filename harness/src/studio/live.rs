@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use crossguard_robot::site_file::SiteFile;
 
-use super::shell::{Asset, Refusal, Skip, View};
+use super::shell::{Page, Refusal, Skip, View};
 use super::walks::json;
 use state::State;
 use tail::Tail;
@@ -17,10 +17,21 @@ use tail::Tail;
 /// How often it is looked whether logs have grown.
 const LOOK: Duration = Duration::from_millis(100);
 
-const FILES: [Asset; 2] = [
-    ("live.css", include_str!("live/live.css")),
-    ("live.js", include_str!("live/live.js")),
-];
+static PAGE: Page = Page {
+    name: "live",
+    title: "Live",
+    about: "Robots while they run: the street, states and timers, messages as they are sent, and who has fallen silent.",
+    skip: Skip {
+        to: "messages-title",
+        words: "Skip to the messages",
+    },
+    content: include_str!("live/content.html"),
+    shared_style: Some("run.css"),
+    files: &[
+        ("live.css", include_str!("live/live.css")),
+        ("live.js", include_str!("live/live.js")),
+    ],
+};
 
 /// Logs of robots that run.
 #[derive(Debug)]
@@ -64,40 +75,13 @@ fn follow(logs: Vec<PathBuf>, shared: &Mutex<State>) {
 }
 
 impl View for Live {
-    fn name(&self) -> &'static str {
-        "live"
-    }
-
-    fn title(&self) -> &'static str {
-        "Live"
-    }
-
-    fn about(&self) -> &'static str {
-        "Robots while they run: the street, states and timers, messages as they are sent, and who has fallen silent."
+    fn page(&self) -> &'static Page {
+        &PAGE
     }
 
     fn wants(&self) -> Option<&'static str> {
         let wants = "crossguard studio --follow LOG...";
         self.0.is_none().then_some(wants)
-    }
-
-    fn skip(&self) -> Skip {
-        Skip {
-            to: "messages-title",
-            words: "Skip to the messages",
-        }
-    }
-
-    fn content(&self) -> &'static str {
-        include_str!("live/content.html")
-    }
-
-    fn shared_style(&self) -> Option<&'static str> {
-        Some("run.css")
-    }
-
-    fn files(&self) -> &'static [Asset] {
-        &FILES
     }
 
     fn ask(&self, what: &str, _query: &str, _body: &str) -> Result<String, Refusal> {

@@ -25,7 +25,7 @@ const TEXT: &str = "text/plain; charset=utf-8";
 const HTML: &str = "text/html; charset=utf-8";
 
 /// What all pages have around their content.
-const PAGE: &str = include_str!("shell/page.html");
+const FRAME: &str = include_str!("shell/page.html");
 
 /// What is in front of the content of each view.
 const SCRIPTED: &str = "<noscript><p class=\"trouble\">This page needs its scripts, which come from this server \
@@ -49,24 +49,32 @@ const SHARED: [Asset; 11] = [
     ("model.js", include_str!("walk/model.js")),
 ];
 
+/// A page of a view.
+pub(super) struct Page {
+    /// It is at `/NAME/`.
+    pub(super) name: &'static str,
+    /// How it is called on pages.
+    pub(super) title: &'static str,
+    /// What is seen there, in a sentence.
+    pub(super) about: &'static str,
+    /// Where its first link leads.
+    pub(super) skip: Skip,
+    /// What is on it below the header.
+    pub(super) content: &'static str,
+    /// The style that it shares with another view.
+    pub(super) shared_style: Option<&'static str>,
+    /// Its scripts and styles, `NAME.js` and `NAME.css` among them.
+    pub(super) files: &'static [Asset],
+}
+
 /// A view: a page, and what it asks the server.
 pub(super) trait View: Send + Sync {
-    /// The page is at `/NAME/`.
-    fn name(&self) -> &'static str;
-    /// How it is called on pages.
-    fn title(&self) -> &'static str;
-    /// What is seen there, in a sentence.
-    fn about(&self) -> &'static str;
+    /// Its page.
+    fn page(&self) -> &'static Page;
     /// The command that gives it something to show, where this studio was given nothing.
-    fn wants(&self) -> Option<&'static str>;
-    /// Where the first link of its page leads.
-    fn skip(&self) -> Skip;
-    /// What is on its page below the header.
-    fn content(&self) -> &'static str;
-    /// The style that it shares with another view.
-    fn shared_style(&self) -> Option<&'static str>;
-    /// Its scripts and styles, `NAME.js` and `NAME.css` among them.
-    fn files(&self) -> &'static [Asset];
+    fn wants(&self) -> Option<&'static str> {
+        None
+    }
     /// The answer, in JSON, to `/NAME/api/WHAT?QUERY`, with the body of a POST.
     fn ask(&self, what: &str, query: &str, body: &str) -> Result<String, Refusal>;
 }
@@ -134,20 +142,20 @@ fn respond(request: &Request, views: &[Box<dyn View>]) -> Answer {
         return answer("200 OK", HTML, home(views));
     }
     let Some((folder, file)) = path.split_once('/') else {
-        let view = views.iter().find(|view| view.name() == path);
-        return view.map_or_else(nothing, |view| moved(view.name()));
+        let view = views.iter().find(|view| view.page().name == path);
+        return view.map_or_else(nothing, |view| moved(view.page().name));
     };
     if folder == "shell" {
         return find(&SHARED, file);
     }
-    let Some(view) = views.iter().find(|view| view.name() == folder) else {
+    let Some(view) = views.iter().find(|view| view.page().name == folder) else {
         return nothing();
     };
     if file.is_empty() || file == "index.html" {
         return page(views, &**view);
     }
     let Some(what) = file.strip_prefix("api/") else {
-        return find(view.files(), file);
+        return find(view.page().files, file);
     };
     match view.ask(what, request.query, request.body) {
         Ok(json) => answer("200 OK", "application/json", json),
@@ -183,49 +191,51 @@ fn find(files: &[Asset], name: &str) -> Answer {
 
 /// The page of a view.
 fn page(views: &[Box<dyn View>], view: &dyn View) -> Answer {
-    let (name, Skip { to, words }) = (view.name(), view.skip());
-    let shared = view.shared_style().map(|style| format!("/shell/{style}"));
+    let Page {
+        name,
+        title,
+        skip: Skip { to, words },
+        content,
+        shared_style,
+        ..
+    } = view.page();
+    let shared = shared_style.map(|style| format!("/shell/{style}"));
     let mut head = String::new();
     for style in shared.into_iter().chain([format!("{name}.css")]) {
         let _ = writeln!(head, "<link rel=\"stylesheet\" href=\"{style}\">");
     }
     let _ = write!(head, "<script type=\"module\" src=\"{name}.js\"></script>");
-    let page = PAGE
-        .replace(
-            "<!-- title -->",
-            &format!("{} · Crossguard studio", view.title()),
-        )
+    let page = FRAME
+        .replace("<!-- title -->", &format!("{title} · Crossguard studio"))
         .replace("<!-- links -->", &head)
         .replace(
             "<!-- skip -->",
             &format!("<a class=\"skip\" href=\"#{to}\">{words}</a>"),
         )
         .replace("<!-- views -->", &links(views, Some(view)))
-        .replace(
-            "<!-- content -->",
-            &[SCRIPTED, view.content().trim_end()].concat(),
-        );
+        .replace("<!-- content -->", &[SCRIPTED, content.trim_end()].concat());
     answer("200 OK", HTML, page)
 }
 
 /// The page of a view as one file, with what it shows in it as JSON. It loads nothing, and runs its own scripts alone.
 pub(super) fn saved(view: &dyn View, shown: &str) -> String {
-    let files = SHARED.iter().chain(view.files());
+    let page = view.page();
+    let (name, files) = (page.name, SHARED.iter().chain(page.files));
     let (mut styles, mut imports) = (String::new(), serde_json::Map::new());
-    let own = format!("{}.css", view.name());
+    let own = format!("{name}.css");
     for (name, text) in files {
         if name.rsplit('.').next() == Some("js") {
             let script = text.replace("\"/shell/", "\"").replace("\"./", "\"");
             imports.insert((*name).to_owned(), data_url(&script).into());
-        } else if *name == "studio.css" || Some(*name) == view.shared_style() || *name == own {
+        } else if *name == "studio.css" || Some(*name) == page.shared_style || *name == own {
             styles.push_str(text);
         }
     }
     // Whatever texts say, they do not end the element that they are in.
     let shown = shown.replace('<', "\\u003c");
     let imports = serde_json::Value::from(imports);
-    let name = view.name();
-    PAGE.replace("<!-- title -->", "Crossguard run")
+    FRAME
+        .replace("<!-- title -->", "Crossguard run")
         .replace("<link rel=\"icon\" href=\"/shell/icon.svg\">\n", "")
         .replace(
             "<link rel=\"stylesheet\" href=\"/shell/studio.css\">",
@@ -243,7 +253,7 @@ pub(super) fn saved(view: &dyn View, shown: &str) -> String {
             &format!(
                 "<div id=\"troubles\" role=\"alert\"></div>\n{}\n<script type=\"application/json\" id=\"saved\">{shown}</script>\n\
                  <script type=\"module\">import \"{name}.js\";</script>",
-                view.content().trim_end()
+                page.content.trim_end()
             ),
         )
 }
@@ -269,7 +279,7 @@ fn data_url(script: &str) -> String {
 fn links(views: &[Box<dyn View>], here: Option<&dyn View>) -> String {
     let mut links = String::from("<nav aria-label=\"Views\">");
     for view in views {
-        let is_here = here.is_some_and(|here| here.name() == view.name());
+        let is_here = here.is_some_and(|here| here.page().name == view.page().name);
         let current = if is_here {
             " aria-current=\"page\""
         } else {
@@ -278,8 +288,8 @@ fn links(views: &[Box<dyn View>], here: Option<&dyn View>) -> String {
         let _ = write!(
             links,
             "<a href=\"/{}/\"{current}>{}</a>",
-            view.name(),
-            view.title()
+            view.page().name,
+            view.page().title
         );
     }
     links + "</nav>"
@@ -292,9 +302,9 @@ fn home(views: &[Box<dyn View>]) -> String {
         let _ = write!(
             cards,
             "<li><h2><a href=\"/{}/\">{}</a></h2><p>{}</p>",
-            view.name(),
-            view.title(),
-            view.about()
+            view.page().name,
+            view.page().title,
+            view.page().about
         );
         if let Some(command) = view.wants() {
             let _ = write!(
@@ -304,7 +314,8 @@ fn home(views: &[Box<dyn View>]) -> String {
         }
         cards.push_str("</li>\n");
     }
-    PAGE.replace("<!-- title -->", "Crossguard studio")
+    FRAME
+        .replace("<!-- title -->", "Crossguard studio")
         .replace("<!-- links -->\n", "")
         .replace("<!-- skip -->\n", "")
         .replace("<!-- views -->", &links(views, None))

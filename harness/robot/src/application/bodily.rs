@@ -3,7 +3,7 @@
 use crossguard_endpoint::cause::Cause;
 use crossguard_protocol::{Availability, Event, Unavailability};
 
-use super::{Application, Wish};
+use super::{Application, Stimulus};
 use crate::body::Report;
 
 /// How many troubles wait to be counted; a body that makes more of them at a time is counted for these.
@@ -21,7 +21,7 @@ impl Application {
     pub(super) fn learn_of_body(&mut self, report: Report) {
         let trouble = match report {
             Report::InPosition(_) | Report::Completed(_) => return,
-            Report::Failed(id) => return self.wish(Wish::Tell(Event::ManeuverFailed(id))),
+            Report::Failed(id) => return self.wish(Stimulus::Event(Event::ManeuverFailed(id))),
             // Nothing is wrong with a body that was not started yet, but its robot takes no part.
             Report::Absent => {
                 self.bodily.missing = Some(Unavailability::LocalFault);
@@ -67,7 +67,7 @@ impl Application {
     /// Before anything else that it wants.
     fn wish_available(&mut self, availability: Availability) {
         self.wishes
-            .push_front(Wish::Tell(Event::AvailabilityChanged(availability)));
+            .push_front(Stimulus::Event(Event::AvailabilityChanged(availability)));
     }
 
     /// The next thing that went wrong with the body, to be counted.

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_protocol::{Availability, Corridor, Event, HelpRequest, Phase, Robot};
 
-use super::{Application, Wish};
+use super::{Application, Stimulus};
 use crate::plan::Plan;
 use crate::sight::{Seen, Sight};
 use crate::site::Place;
@@ -126,7 +126,7 @@ impl Application {
                 None => Plan::crossing(self.site).request(),
             };
             let request = HelpRequest { urgency, ..request };
-            self.wish(Wish::Tell(Event::PedestrianDetected(request)));
+            self.wish(Stimulus::Event(Event::PedestrianDetected(request)));
             return;
         }
         let is_own = match detection.session {
@@ -138,7 +138,7 @@ impl Application {
             Standing::Free | Standing::Bound => false,
         };
         if detection.is_called && is_own && !detection.has_opened && watched.is_deserted(now_s) {
-            self.wish(Wish::Tell(Event::LeaveRequested));
+            self.wish(Stimulus::Event(Event::LeaveRequested));
         }
     }
 

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crossguard_codec::{PublicSignal, TaskParameters};
 use crossguard_protocol::{Corridor, Event, Failure, Notice, Rejection, StationId};
 
-use super::{Application, Wish};
+use super::{Application, Stimulus};
 use crate::plan::Leg;
 use crate::street::Road;
 
@@ -163,7 +163,7 @@ impl Application {
     /// Leaves the session, and commands nothing any more.
     fn give_up(&mut self) {
         self.errand = None;
-        self.wish(Wish::Tell(Event::LeaveRequested));
+        self.wish(Stimulus::Event(Event::LeaveRequested));
     }
 
     fn begin_part(&mut self, follower: StationId) {
@@ -184,7 +184,7 @@ impl Application {
         let stands = |place| self.body.stands_at(place);
         let is_needed = self.road.needs_corridor(self.at_s);
         if self.corridor != Corridor::Open && is_needed && plan.own_place.is_none_or(stands) {
-            self.wish(Wish::Tell(Event::OpenCorridor));
+            self.wish(Stimulus::Event(Event::OpenCorridor));
         }
     }
 
@@ -198,7 +198,7 @@ impl Application {
                 *seat = seat.filter(|seated| *seated != follower);
             }
             if !errand.followers.is_empty() {
-                self.wish(Wish::Tell(Event::LeaveRequested));
+                self.wish(Stimulus::Event(Event::LeaveRequested));
             }
         }
     }
@@ -218,7 +218,7 @@ impl Application {
             None => return,
         };
         if attempts >= ATTEMPTS {
-            return self.wish(Wish::Tell(Event::LeaveRequested));
+            return self.wish(Stimulus::Event(Event::LeaveRequested));
         }
         errand
             .followers
@@ -232,7 +232,7 @@ impl Application {
             map_place: plan.site.map_place,
             ..TaskParameters::default()
         };
-        self.wish(Wish::Order {
+        self.wish(Stimulus::Order {
             follower,
             task: leg.task,
             parameters,
@@ -287,10 +287,10 @@ impl Application {
         // An escort that is there already is done as soon as it is commanded: it is not commanded without end.
         let may_try = self.at_s - errand.tried_s >= OPENING_PERIOD_S;
         if errand.is_done && is_across {
-            self.wish(Wish::Tell(Event::TaskCompleted));
+            self.wish(Stimulus::Event(Event::TaskCompleted));
         } else if self.at_s - errand.since_s > plan.patience_s && is_clear {
             self.errand = None;
-            self.wish(Wish::Tell(Event::LeaveRequested));
+            self.wish(Stimulus::Event(Event::LeaveRequested));
         } else if may_try && errand.is_done && is_clear && plan.is_escort(errand.stage) {
             // The escort is over there, and nobody came along.
             self.begin_stage(0);

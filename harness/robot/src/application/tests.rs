@@ -1,12 +1,13 @@
 //! What an application does with its body and its plan.
 
-use crossguard_codec::{PublicSignal, SignalMeans, Target};
+use crossguard_codec::{PublicSignal, RobotState, SignalMeans, Target, TaskParameters};
 use crossguard_protocol::{
-    EndReason, Notice, Rejection, RequestId, SessionId, SessionNumber, StopReason, UniqueNumber,
+    EndReason, Notice, Rejection, RequestId, SessionId, SessionNumber, StationId, StopReason,
+    TaskType, UniqueNumber,
 };
 
 use super::*;
-use crate::body::{Build, External, NotTaken, Simulated};
+use crate::body::{Build, NotTaken, Simulated};
 use crate::plan::{Leg, Stage};
 use crate::plan_file::APART_M;
 use crate::site::{Place, Site};
@@ -30,7 +31,9 @@ fn an_escort_that_is_across_already_is_commanded_anew_at_the_opening_period_and_
     for step in 0..1_000 {
         application.advance(f64::from(step) / 100.0);
         while let Some(wish) = application.next_wish() {
-            let Wish::Order { .. } = wish else { continue };
+            let Stimulus::Order { .. } = wish else {
+                continue;
+            };
             let request = RequestId(orders);
             let id = ManeuverId { session, request };
             orders += 1;
@@ -42,15 +45,46 @@ fn an_escort_that_is_across_already_is_commanded_anew_at_the_opening_period_and_
     assert!((15..=20).contains(&orders), "{orders} orders");
 }
 
+/// A body that starts, and takes nothing after that.
+#[derive(Debug)]
+struct Broken;
+
+impl Body for Broken {
+    fn act(&mut self, act: BodyAct) -> Result<(), NotTaken> {
+        match act {
+            BodyAct::Start(..) => Ok(()),
+            _ => Err(NotTaken("the bus is down".to_owned())),
+        }
+    }
+
+    fn advance(&mut self, _: f64) -> Option<Report> {
+        None
+    }
+
+    fn state(&self) -> RobotState {
+        RobotState::default()
+    }
+
+    fn place(&self) -> Place {
+        Place::default()
+    }
+
+    fn stands_at(&self, _: Place) -> bool {
+        false
+    }
+
+    fn fallback(&self) -> Option<Fallback> {
+        None
+    }
+
+    fn release(&mut self) {}
+
+    fn halt(&mut self) {}
+}
+
 #[test]
 fn a_body_that_does_not_take_a_stop_is_a_fault_that_is_told_at_once() {
-    let driver = |act| match act {
-        BodyAct::Start(..) => Ok(()),
-        _ => Err(NotTaken("the bus is down".to_owned())),
-    };
-    let (place, site) = (Place::default(), Site::default());
-    let body = External::new(Build::Quadruped, site, place, Box::new(driver));
-    let mut application = Application::new(Box::new(body), None);
+    let mut application = Application::new(Box::new(Broken), None);
     let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
     let leader = StationId(1);
     let session = SessionId { leader, number };
@@ -62,7 +96,7 @@ fn a_body_that_does_not_take_a_stop_is_a_fault_that_is_told_at_once() {
     assert_eq!(application.next_wish(), None);
     application.act(&Act::Stop(maneuver, why));
     let fault = Availability::Unavailable(Unavailability::LocalFault);
-    let told = Wish::Tell(Event::AvailabilityChanged(fault));
+    let told = Stimulus::Event(Event::AvailabilityChanged(fault));
     assert_eq!(application.next_wish(), Some(told));
 }
 
@@ -123,10 +157,10 @@ fn a_follower_that_reports_from_elsewhere_is_commanded_again_and_in_the_end_give
         let mut wishes = Vec::new();
         while let Some(wish) = application.next_wish() {
             wishes.push(match wish {
-                Wish::Order { .. } => "order",
-                Wish::Tell(Event::OpenCorridor) => "open",
-                Wish::Tell(Event::LeaveRequested) => "give up",
-                Wish::Tell(_) => "other",
+                Stimulus::Order { .. } => "order",
+                Stimulus::Event(Event::OpenCorridor) => "open",
+                Stimulus::Event(Event::LeaveRequested) => "give up",
+                _ => "other",
             });
         }
         wishes
@@ -163,7 +197,7 @@ fn followers_with_the_same_part_are_sent_to_places_apart() {
     let team = [2, 3, 4].map(StationId);
     let (mut application, _) = leading(&team);
     let mut places: Vec<Place> = Vec::new();
-    while let Some(Wish::Order { parameters, .. }) = application.next_wish() {
+    while let Some(Stimulus::Order { parameters, .. }) = application.next_wish() {
         let Some(Target::Position {
             latitude,
             longitude,
@@ -188,7 +222,7 @@ fn a_rejected_command_is_repeated_half_a_second_later_and_never_to_who_is_unavai
         let wishes: Vec<_> = std::iter::from_fn(|| application.next_wish()).collect();
         let orders = wishes
             .iter()
-            .filter(|wish| matches!(wish, Wish::Order { .. }));
+            .filter(|wish| matches!(wish, Stimulus::Order { .. }));
         (orders.count(), wishes.len())
     };
     assert_eq!(orders(&mut application), (1, 1));

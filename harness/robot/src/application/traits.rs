@@ -5,7 +5,7 @@ use crossguard_codec::{
 };
 use crossguard_protocol::{Availability, Event, Robot, Unavailability};
 
-use super::{Application, Wish, micros};
+use super::{Application, Stimulus, micros};
 use crate::sign::Shown;
 
 /// A robot whose battery was low is available again this much above the limit, in percent.
@@ -111,6 +111,6 @@ impl Application {
             return;
         };
         self.was_low = changed == low;
-        self.wish(Wish::Tell(Event::AvailabilityChanged(changed)));
+        self.wish(Stimulus::Event(Event::AvailabilityChanged(changed)));
     }
 }

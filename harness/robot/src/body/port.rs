@@ -223,11 +223,12 @@ impl Ported {
                 if !is_on_site || !heading_deg.is_finite() || !speed_mps.is_finite() {
                     return self.reports.push_back(Report::Garbled);
                 }
-                self.moved(Pose {
+                self.pose = Pose {
                     place: Place::new(east_m, north_m),
                     heading_deg: heading_deg.rem_euclid(360.0),
                     speed_mps,
-                });
+                };
+                self.known_s = POSE_LASTS_S;
             }
             FromBody::InPosition { id } => self.report(&id, Report::InPosition),
             FromBody::Completed { id } => self.report(&id, Report::Completed),
@@ -331,10 +332,6 @@ impl Body for Ported {
         if self.fallback == Some(Fallback::UnderWay) {
             self.fallback = Some(Fallback::Finished);
         }
-    }
-
-    fn moved(&mut self, pose: Pose) {
-        (self.pose, self.known_s) = (pose, POSE_LASTS_S);
     }
 
     fn walk_to(&mut self, place: Place) {

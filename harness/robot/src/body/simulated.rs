@@ -404,15 +404,4 @@ mod tests {
         body.release();
         assert_eq!(body.fallback(), None);
     }
-
-    #[test]
-    fn a_body_that_moves_by_itself_is_not_carried_away() {
-        let mut body = walking(1.0);
-        body.moved(Pose {
-            place: Place::new(1.0, 2.0),
-            heading_deg: 90.0,
-            speed_mps: 0.5,
-        });
-        assert_eq!(body.place(), Place::default());
-    }
 }

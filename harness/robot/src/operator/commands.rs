@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
-use crate::application::Wish;
 use crate::runtime::Order;
 use crate::site::{Place, Site};
 use crate::wall_clock::{ClockQuality, ERROR_MAX_MS};
 use crossguard_codec::{Battery, PublicSignal, SignalMeans, SignalsShown, TaskParameters};
+use crossguard_endpoint::Stimulus;
 use crossguard_protocol::{
     Availability, Event, HelpRequest, MAX_FOLLOWERS, StationId, TaskSet, TaskType, Urgency,
 };
@@ -205,7 +205,7 @@ pub(super) const COMMANDS: &[Command] = &[
 
 /// The application tells its robot so.
 fn tell(event: Event) -> Line {
-    Line::Order(Order::Wish(Wish::Tell(event)))
+    Line::Order(Order::Wish(Stimulus::Event(event)))
 }
 
 /// The same, by a command without words.
@@ -367,7 +367,7 @@ fn order(words: &[&str], scope: &Scope<'_>) -> Result<Line, Misunderstood> {
         map_place,
         ..TaskParameters::default()
     };
-    Ok(Line::Order(Order::Wish(Wish::Order {
+    Ok(Line::Order(Order::Wish(Stimulus::Order {
         follower,
         task: task(name)?,
         parameters,

@@ -17,6 +17,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use crossguard_endpoint::Stimulus;
 use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::counters::CauseName;
 use crossguard_protocol::{Event, HelpRequest, Input, Output, OutputKind, Robot};
@@ -24,7 +25,6 @@ use serde_json::{Map, Value};
 
 use self::lines::{Fields, ToOperator, condition, said};
 use super::{Line, parse_with};
-use crate::application::Wish;
 use crate::perception;
 use crate::port::{Heard, Listening, Stream};
 use crate::runtime::{Clock, Order, Orders};
@@ -394,7 +394,7 @@ fn greeting(line: &str) -> Result<(), String> {
 fn order_of(event: Event) -> Result<Order, String> {
     Ok(match event {
         Event::RoadClear => Order::Clear,
-        Event::CommandManeuver { follower, task } => Order::Wish(Wish::Order {
+        Event::CommandManeuver { follower, task } => Order::Wish(Stimulus::Order {
             follower,
             task,
             parameters: crossguard_codec::TaskParameters::default(),
@@ -402,7 +402,7 @@ fn order_of(event: Event) -> Result<Order, String> {
         Event::AllAnswered | Event::IdentityChanged(..) | Event::EpochRenewed(_) => {
             return Err(format!("'{}' is for the kit alone", event.kind().name()));
         }
-        event => Order::Wish(Wish::Tell(event)),
+        event => Order::Wish(Stimulus::Event(event)),
     })
 }
 

@@ -37,7 +37,7 @@ impl Waiting {
         if taken < DATAGRAMS {
             return true;
         }
-        let Delivery::Arrived(Arrival::Datagram { octets, .. }) = delivery else {
+        let Delivery::Arrived(Ok(Arrival::Datagram { octets, .. })) = delivery else {
             return false;
         };
         taken < DATAGRAMS + OF_PARTNERS && self.partners.include(octets)
@@ -63,13 +63,11 @@ pub(super) struct Reader {
 impl Reader {
     pub(super) fn run(mut self) {
         while !self.stop.load(Ordering::Relaxed) {
-            let delivery = match self.receiver.receive(READER_WAIT) {
-                Ok(None) => continue,
-                Ok(Some(arrival)) => Delivery::Arrived(arrival),
-                Err(error) => Delivery::LinkFailed(error),
+            let Some(arrival) = self.receiver.receive(READER_WAIT).transpose() else {
+                continue;
             };
-            let has_failed = matches!(delivery, Delivery::LinkFailed(_));
-            if !self.deliver(delivery) {
+            let has_failed = arrival.is_err();
+            if !self.deliver(Delivery::Arrived(arrival)) {
                 return;
             }
             if has_failed {
@@ -115,11 +113,11 @@ mod tests {
     fn from(station: u32) -> Delivery {
         let mut stack = Stack::of_robot(Identifiers::default(), StationId(station));
         let packet = stack.packet(&EgoPosition::default(), Service::Ram, b"anything");
-        Delivery::Arrived(Arrival::Datagram {
+        Delivery::Arrived(Ok(Arrival::Datagram {
             from: Source::Unknown,
             octets: packet.unwrap(),
             at: Instant::now(),
-        })
+        }))
     }
 
     /// A robot that has offered its help to station 1.

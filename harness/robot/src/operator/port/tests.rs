@@ -97,7 +97,7 @@ fn each_line_is_an_order_or_is_refused_and_counted() {
             "trusts_ros_graph": true})
     );
     say(&mut counter, 0, HELLO);
-    let tell = |event| Ok(Some(Order::Wish(Wish::Tell(event))));
+    let tell = |event| Ok(Some(Order::Wish(Stimulus::Event(event))));
     let stopped = Availability::Unavailable(Unavailability::EmergencyStop);
     let rows: [(&str, Result<Option<Order>, &str>); 18] = [
         (
@@ -118,7 +118,7 @@ fn each_line_is_an_order_or_is_refused_and_counted() {
         ),
         (
             r#"{"type": "event", "event": {"commandManeuver": {"follower": 5, "task": 1}}}"#,
-            Ok(Some(Order::Wish(Wish::Order {
+            Ok(Some(Order::Wish(Stimulus::Order {
                 follower: StationId(5),
                 task: TaskType::MOVE,
                 parameters: crossguard_codec::TaskParameters::default(),
