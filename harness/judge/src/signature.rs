@@ -47,12 +47,6 @@ impl Signatures {
         }
     }
 
-    /// Whether there is something to verify by.
-    #[must_use]
-    pub const fn are_verified(&self) -> bool {
-        self.verifier.is_some()
-    }
-
     /// The signature of a packet that was heard at `now`, or when it was signed if that is not known. `None`
     /// where it has none, or is no packet.
     pub fn of(

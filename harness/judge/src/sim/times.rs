@@ -5,36 +5,68 @@ use crossguard_model_check::timed::Limits;
 use crossguard_protocol::{Millis, Phase, RequestId, SessionId, SessionNumber, StationId};
 use serde::Serialize;
 
-/// What is measured.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Measure {
-    /// From a request to roles or to giving up (L1).
-    Roles,
-    /// From a command to its acknowledgement or to the follower given up (L2).
-    Commands,
-    /// From the leader's crash to a follower stopped (L5).
-    Stopped,
-    /// From the leader's crash to a follower idle (L5).
-    Left,
-    /// From a follower's own failure to the corridor closed (I11).
-    CorridorClosed,
-    /// For how long a required guard has been gone when somebody steps on the road (W1).
-    GuardGone,
-    /// From a follower's fallback for lack of contact to the sign at stop (W1).
-    Unguarded,
-    /// From two leaders at one place that hear each other to one sign at stop (W3).
-    TwoSigns,
-    /// From a guard that fails, falls back, finishes, hangs or loses power to the sign at stop (W5).
-    SignAfterGuard,
-    /// From a leader that hangs or loses power to its sign at stop (W5).
-    SignAfterLeader,
-    /// From a guard that is gone to the leader's application told so (W6).
-    Untold,
-    /// From the network healed to a crossing completed (W7).
-    Crossed,
-    /// From somebody noticed to go, or to a reason for the application (W8).
-    Served,
+/// A table of measures: the property that bounds each, what is measured, and what must come to pass within the bound.
+macro_rules! measures {
+    ($($measure:ident $property:literal $name:literal: $statement:literal;)*) => {
+        /// What is measured.
+        #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+        #[serde(rename_all = "snake_case")]
+        pub enum Measure {
+            $(#[doc = $name] $measure,)*
+        }
+
+        impl Measure {
+            /// All of them.
+            pub const ALL: [Self; [$($property),*].len()] = [$(Self::$measure),*];
+
+            /// The property that bounds it.
+            #[must_use]
+            pub const fn property(self) -> &'static str {
+                [$($property),*][self as usize]
+            }
+
+            /// What must come to pass within the bound.
+            #[must_use]
+            pub const fn statement(self) -> &'static str {
+                [$($statement),*][self as usize]
+            }
+
+            /// What is measured, for a person.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                [$($name),*][self as usize]
+            }
+        }
+    };
+}
+
+measures! {
+    Roles "L1" "request to roles or giving up":
+        "a request has roles or is given up within the bound";
+    Commands "L2" "command to acknowledgement or giving up":
+        "a command is acknowledged or its follower is given up within the bound";
+    Stopped "L5" "leader's crash to follower stopped":
+        "after the leader's crash a follower stops within the bound";
+    Left "L5" "leader's crash to follower idle":
+        "after the leader's crash a follower is idle within the bound";
+    CorridorClosed "I11" "follower's failure to corridor closed":
+        "after a follower's own failure the corridor closes within the bound";
+    GuardGone "W1" "guard gone when somebody steps on the road":
+        "who steps on the road finds every required guard in place, or gone for less than the bound";
+    Unguarded "W1" "follower's fallback to sign at stop":
+        "no follower falls back for lack of contact while the sign shows go";
+    TwoSigns "W3" "two leaders that hear each other to one sign at stop":
+        "two leaders at one place that hear each other show go for no longer than the bound";
+    SignAfterGuard "W5" "guard gone to sign at stop":
+        "after a guard has failed, fallen back, hung or lost power the sign shows stop within the bound";
+    SignAfterLeader "W5" "leader hung or without power to its sign at stop":
+        "after a leader has hung or lost power its sign shows stop within the bound";
+    Untold "W6" "guard gone to leader's application told":
+        "a leader's application knows of a guard that is gone within the bound";
+    Crossed "W7" "network healed to crossing completed":
+        "once the network is healed and a team can exist, a crossing is completed within the bound";
+    Served "W8" "somebody noticed to go or a reason":
+        "who was noticed gets go, or the application gets a reason, within the bound";
 }
 
 /// The longest time that was observed, with what it is held against.
@@ -59,96 +91,6 @@ impl Serialize for Worst {
 }
 
 impl Measure {
-    /// All of them.
-    pub const ALL: [Self; 13] = [
-        Self::Roles,
-        Self::Commands,
-        Self::Stopped,
-        Self::Left,
-        Self::CorridorClosed,
-        Self::GuardGone,
-        Self::Unguarded,
-        Self::TwoSigns,
-        Self::SignAfterGuard,
-        Self::SignAfterLeader,
-        Self::Untold,
-        Self::Crossed,
-        Self::Served,
-    ];
-
-    /// The property that bounds it.
-    #[must_use]
-    pub const fn property(self) -> &'static str {
-        match self {
-            Self::Roles => "L1",
-            Self::Commands => "L2",
-            Self::Stopped | Self::Left => "L5",
-            Self::CorridorClosed => "I11",
-            Self::GuardGone | Self::Unguarded => "W1",
-            Self::TwoSigns => "W3",
-            Self::SignAfterGuard | Self::SignAfterLeader => "W5",
-            Self::Untold => "W6",
-            Self::Crossed => "W7",
-            Self::Served => "W8",
-        }
-    }
-
-    /// What must come to pass within the bound.
-    #[must_use]
-    pub const fn statement(self) -> &'static str {
-        match self {
-            Self::Roles => "a request has roles or is given up within the bound",
-            Self::Commands => {
-                "a command is acknowledged or its follower is given up within the bound"
-            }
-            Self::Stopped => "after the leader's crash a follower stops within the bound",
-            Self::Left => "after the leader's crash a follower is idle within the bound",
-            Self::CorridorClosed => {
-                "after a follower's own failure the corridor closes within the bound"
-            }
-            Self::GuardGone => {
-                "who steps on the road finds every required guard in place, or gone for less than the bound"
-            }
-            Self::Unguarded => "no follower falls back for lack of contact while the sign shows go",
-            Self::TwoSigns => {
-                "two leaders at one place that hear each other show go for no longer than the bound"
-            }
-            Self::SignAfterGuard => {
-                "after a guard has failed, fallen back, hung or lost power the sign shows stop within the bound"
-            }
-            Self::SignAfterLeader => {
-                "after a leader has hung or lost power its sign shows stop within the bound"
-            }
-            Self::Untold => "a leader's application knows of a guard that is gone within the bound",
-            Self::Crossed => {
-                "once the network is healed and a team can exist, a crossing is completed within the bound"
-            }
-            Self::Served => {
-                "who was noticed gets go, or the application gets a reason, within the bound"
-            }
-        }
-    }
-
-    /// What is measured, for a person.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Roles => "request to roles or giving up",
-            Self::Commands => "command to acknowledgement or giving up",
-            Self::Stopped => "leader's crash to follower stopped",
-            Self::Left => "leader's crash to follower idle",
-            Self::CorridorClosed => "follower's failure to corridor closed",
-            Self::GuardGone => "guard gone when somebody steps on the road",
-            Self::Unguarded => "follower's fallback to sign at stop",
-            Self::TwoSigns => "two leaders that hear each other to one sign at stop",
-            Self::SignAfterGuard => "guard gone to sign at stop",
-            Self::SignAfterLeader => "leader hung or without power to its sign at stop",
-            Self::Untold => "guard gone to leader's application told",
-            Self::Crossed => "network healed to crossing completed",
-            Self::Served => "somebody noticed to go or a reason",
-        }
-    }
-
     /// The limit, where the timed model has one.
     const fn limit(self, limits: &Limits) -> Millis {
         match self {

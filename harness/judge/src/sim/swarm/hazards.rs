@@ -9,104 +9,53 @@ use serde::Serialize;
 use super::{RobotDraw, Swarm};
 use crate::sim::script::Deed;
 
-/// Something that makes a run hard.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Hazard {
-    /// Messages are lost.
-    Loss,
-    /// Messages arrive twice.
-    Duplication,
-    /// Messages overtake each other.
-    Reordering,
-    /// Messages take longer than some lease.
-    LongDelay,
-    /// Some robots do not hear some others for a while.
-    Partition,
-    /// Two teams come about that do not hear each other.
-    TwoTeams,
-    /// People cross at two places.
-    TwoPlaces,
-    /// Some robot does not know the reference of its crossing.
-    UnknownPlace,
-    /// A robot loses power.
-    Crash,
-    /// A process hangs.
-    Hang,
-    /// A body fails, or a robot becomes unavailable.
-    OwnFailure,
-    /// A pseudonym changes.
-    Pseudonym,
-    /// Endpoints are later than `delay_max`.
-    LateEndpoints,
-    /// Robots have timers of their own.
-    UnequalTimers,
-    /// Some robot's lease does not fit the `t_safety` of another.
-    TimersThatDoNotFit,
-    /// Old packets are sent once more.
-    Replay,
-    /// Packets are signed, and nothing else is taken in.
-    Security,
-    /// Something happens to a team that lets people cross.
-    Strike,
-    /// Somebody takes more than half of `t_cross`.
-    SlowPeople,
-    /// A station with a certificate says anything in its own name.
-    Insider,
+/// A table of hazards: their names, and what they are.
+macro_rules! hazards {
+    ($($hazard:ident $name:literal: $what:literal;)*) => {
+        /// Something that makes a run hard.
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
+        #[serde(rename_all = "snake_case")]
+        pub enum Hazard {
+            $(#[doc = $what] $hazard,)*
+        }
+
+        impl Hazard {
+            /// All of them.
+            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$hazard),*];
+
+            /// Its name.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                [$($name),*][self as usize]
+            }
+        }
+    };
+}
+
+hazards! {
+    Loss "loss": "Messages are lost.";
+    Duplication "duplication": "Messages arrive twice.";
+    Reordering "reordering": "Messages overtake each other.";
+    LongDelay "delays beyond a lease": "Messages take longer than some lease.";
+    Partition "partitions": "Some robots do not hear some others for a while.";
+    TwoTeams "two teams apart": "Two teams come about that do not hear each other.";
+    TwoPlaces "two places": "People cross at two places.";
+    UnknownPlace "unknown places": "Some robot does not know the reference of its crossing.";
+    Crash "crashes": "A robot loses power.";
+    Hang "hangs": "A process hangs.";
+    OwnFailure "own failures": "A body fails, or a robot becomes unavailable.";
+    Pseudonym "pseudonyms out of turn": "A pseudonym changes.";
+    LateEndpoints "endpoints later than delay_max": "Endpoints are later than `delay_max`.";
+    UnequalTimers "unequal timers": "Robots have timers of their own.";
+    TimersThatDoNotFit "timers that do not fit": "Some robot's lease does not fit the `t_safety` of another.";
+    Replay "replays": "Old packets are sent once more.";
+    Security "security enforced": "Packets are signed, and nothing else is taken in.";
+    Strike "failures while the sign shows go": "Something happens to a team that lets people cross.";
+    SlowPeople "slow people": "Somebody takes more than half of `t_cross`.";
+    Insider "an insider that lies": "A station with a certificate says anything in its own name.";
 }
 
 impl Hazard {
-    /// All of them.
-    pub const ALL: [Self; 20] = [
-        Self::Loss,
-        Self::Duplication,
-        Self::Reordering,
-        Self::LongDelay,
-        Self::Partition,
-        Self::TwoTeams,
-        Self::TwoPlaces,
-        Self::UnknownPlace,
-        Self::Crash,
-        Self::Hang,
-        Self::OwnFailure,
-        Self::Pseudonym,
-        Self::LateEndpoints,
-        Self::UnequalTimers,
-        Self::TimersThatDoNotFit,
-        Self::Replay,
-        Self::Security,
-        Self::Strike,
-        Self::SlowPeople,
-        Self::Insider,
-    ];
-
-    /// Its name.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Loss => "loss",
-            Self::Duplication => "duplication",
-            Self::Reordering => "reordering",
-            Self::LongDelay => "delays beyond a lease",
-            Self::Partition => "partitions",
-            Self::TwoTeams => "two teams apart",
-            Self::TwoPlaces => "two places",
-            Self::UnknownPlace => "unknown places",
-            Self::Crash => "crashes",
-            Self::Hang => "hangs",
-            Self::OwnFailure => "own failures",
-            Self::Pseudonym => "pseudonyms out of turn",
-            Self::LateEndpoints => "endpoints later than delay_max",
-            Self::UnequalTimers => "unequal timers",
-            Self::TimersThatDoNotFit => "timers that do not fit",
-            Self::Replay => "replays",
-            Self::Security => "security enforced",
-            Self::Strike => "failures while the sign shows go",
-            Self::SlowPeople => "slow people",
-            Self::Insider => "an insider that lies",
-        }
-    }
-
     /// Whether a run has it.
     fn is_in(self, swarm: &Swarm) -> bool {
         let some_way = |has: fn(&Faults) -> bool| swarm.ways.iter().any(has);
