@@ -232,133 +232,55 @@ impl Rules for Opens {
 /// Acknowledgements and rejections are not sent.
 const ANSWERS_NOTHING: Drops = Drops(|output| matches!(output, Output::SendRmcm(Rmcm::Answer(_))));
 
-/// A rule, a weakening of it, and what it does.
+/// A rule, a weakening of it, and the words for that.
 type Weakening = (&'static str, &'static dyn Rules, &'static str);
 
+/// A table of weakenings, each with the rule whose verdict names it.
+macro_rules! named {
+    ($($rule:literal: $rules:expr;)*) => {
+        vec![$(($rule, &$rules, stringify!($rules))),*]
+    };
+}
+
 /// Weakenings that the verdict on the rule names.
-#[expect(clippy::too_many_lines, reason = "it is a table")]
 fn named() -> Vec<Weakening> {
-    vec![
-        ("R1", &ObeysCommandsOfAnySession, "commands of any session"),
-        ("R2", &ConfirmsByStationAlone, "confirmations of any offer"),
-        ("R2", &NeedsNoConfirmation, "a request confirms"),
-        (
-            "R3",
-            &With(|it| it.t_offer = it.t_help),
-            "an offer that lapses late",
-        ),
-        ("R4", &AsksForFewer, "a request for too few"),
-        (
-            "R4",
-            &AdmitsWhoSaysThatItFollows,
-            "a follower that nobody asked for",
-        ),
-        (
-            "R5",
-            &With(|it| it.t_help = Millis(60_000)),
-            "a request that stands too long",
-        ),
-        ("R6", &HearsNoLeader, "a leader that hears no other"),
-        (
-            "R6",
-            &InsistsOnItsRequest,
-            "a requester that does not give way",
-        ),
-        ("R7", &ANSWERS_NOTHING, "commands are not answered"),
-        (
-            "R8",
-            &StartsRepeatedCommands,
-            "repeated commands are started",
-        ),
-        ("R8", &StartsOlderCommands, "older commands are started"),
-        (
-            "R9",
-            &TakesAnyAcknowledgement,
-            "acknowledgements of other commands count",
-        ),
-        ("R10", &RepeatsOnceTooOften, "one repetition too many"),
-        (
-            "R10",
-            &With(|it| it.t_ack = Millis(60_000)),
-            "no repetitions",
-        ),
-        ("R11", &ReadsNoProgress, "progress is not read"),
-        (
-            "R11",
-            &TakesAnyProgress,
-            "progress of other commands counts",
-        ),
-        ("R12", &FollowersWaitForEver, "followers wait for ever"),
-        (
-            "R12",
-            &WaitsAQuarter,
-            "followers wait for less than they told",
-        ),
-        (
-            "R13",
-            &With(|it| it.t_leave = Millis(60_000)),
-            "a silent follower that is kept",
-        ),
-        ("R14", &FollowersWaitForEver, "followers wait for ever"),
-        (
-            "R14",
-            &With(|it| it.t_leave = Millis(60_000)),
-            "followers leave late",
-        ),
-        (
-            "R15",
-            &RunsAgainAfterItsFallback,
-            "a command that runs again after the fallback",
-        ),
-        (
-            "R16",
-            &Opens(|_| true),
-            "a corridor that opens over missing guards",
-        ),
-        (
-            "R16",
-            &NEVER_CLOSES_THE_CORRIDOR,
-            "a corridor that does not close",
-        ),
-        (
-            "R17",
-            &WhileItLeads(|it| (it.t_safety, it.t_lease) = (Millis(60_000), Millis(50_000))),
-            "go that outlives the lease",
-        ),
-        (
-            "R18",
-            &CommandsItsGuardsAway,
-            "guards that are commanded away",
-        ),
-        ("R19", &NEVER_STOPS, "what is released goes on"),
-        (
-            "R19",
-            &IsNotTold(|it| matches!(it, Event::TaskCompleted)),
-            "a session that is not ended",
-        ),
-        (
-            "R20",
-            &ForgetsItsDuty,
-            "a duty that is forgotten for a request",
-        ),
-        ("R21", &Forgets("farewell"), "nothing is named"),
-        (
-            "R21",
-            &With(|it| it.t_farewell = Millis(300)),
-            "what is over is named for too short a time",
-        ),
-        (
-            "R22",
-            &LosesAllForOne,
-            "all followers are lost with one of them",
-        ),
-        (
-            "R24",
-            &IsNotTold(|it| matches!(it, Event::AvailabilityChanged(_))),
-            "an unavailable robot goes on",
-        ),
-        ("R26", &AnswersEveryRam, "a RAM for each that is heard"),
-    ]
+    named! {
+        "R1": ObeysCommandsOfAnySession;
+        "R2": ConfirmsByStationAlone;
+        "R2": NeedsNoConfirmation;
+        "R3": With(|it| it.t_offer = it.t_help);
+        "R4": AsksForFewer;
+        "R4": AdmitsWhoSaysThatItFollows;
+        "R5": With(|it| it.t_help = Millis(60_000));
+        "R6": HearsNoLeader;
+        "R6": InsistsOnItsRequest;
+        "R7": ANSWERS_NOTHING;
+        "R8": StartsRepeatedCommands;
+        "R8": StartsOlderCommands;
+        "R9": TakesAnyAcknowledgement;
+        "R10": RepeatsOnceTooOften;
+        "R10": With(|it| it.t_ack = Millis(60_000));
+        "R11": ReadsNoProgress;
+        "R11": TakesAnyProgress;
+        "R12": FollowersWaitForEver;
+        "R12": WaitsAQuarter;
+        "R13": With(|it| it.t_leave = Millis(60_000));
+        "R14": FollowersWaitForEver;
+        "R14": With(|it| it.t_leave = Millis(60_000));
+        "R15": RunsAgainAfterItsFallback;
+        "R16": Opens(|_| true);
+        "R16": NEVER_CLOSES_THE_CORRIDOR;
+        "R17": WhileItLeads(|it| (it.t_safety, it.t_lease) = (Millis(60_000), Millis(50_000)));
+        "R18": CommandsItsGuardsAway;
+        "R19": NEVER_STOPS;
+        "R19": IsNotTold(|it| matches!(it, Event::TaskCompleted));
+        "R20": ForgetsItsDuty;
+        "R21": Forgets("farewell");
+        "R21": With(|it| it.t_farewell = Millis(300));
+        "R22": LosesAllForOne;
+        "R24": IsNotTold(|it| matches!(it, Event::AvailabilityChanged(_)));
+        "R26": AnswersEveryRam;
+    }
 }
 
 #[test]

@@ -11,79 +11,56 @@ use super::options::Parameters;
 use super::{Failure, print};
 use crate::cli::shows_progress;
 
-/// A row of a table for people, and of one for programs.
+/// A row of a table for people.
 pub(super) trait Row {
-    /// Heads of the columns for people.
-    fn head() -> Vec<&'static str>;
-    /// The columns for people.
-    fn columns(&self) -> Vec<String>;
+    /// Its columns, each with its head.
+    fn columns(&self) -> Vec<(&'static str, String)>;
 }
 
 fn percent(it: Estimate) -> String {
     format!("{:.2} ± {:.2} %", it.mean, it.sd)
 }
 
-impl Row for ObsCell {
-    fn head() -> Vec<&'static str> {
-        vec![
-            "robots",
-            "pedestrians",
-            "radius",
-            "coverage",
-            "of it at intersections",
-        ]
-    }
+/// Percent with two digits.
+fn mean(it: Estimate) -> String {
+    format!("{:.2} %", it.mean)
+}
 
-    fn columns(&self) -> Vec<String> {
+impl Row for ObsCell {
+    fn columns(&self) -> Vec<(&'static str, String)> {
+        let at_intersections = self.covered_at_intersections_percent.mean;
         vec![
-            self.robots.to_string(),
-            self.pedestrians.to_string(),
-            format!("{} m", self.radius_m),
-            percent(self.obs_percent),
-            format!("{:.1} %", self.covered_at_intersections_percent.mean),
+            ("robots", self.robots.to_string()),
+            ("pedestrians", self.pedestrians.to_string()),
+            ("radius", format!("{} m", self.radius_m)),
+            ("coverage", percent(self.obs_percent)),
+            ("of it at intersections", format!("{at_intersections:.1} %")),
         ]
     }
 }
 
 impl Row for CbrCell {
-    fn head() -> Vec<&'static str> {
-        vec![
-            "robots",
-            "pedestrians",
-            "radius",
-            "mCBR",
-            "reduction",
-            "by the law",
-            "silent devices",
-            "wrongly silent",
-            "VAM share",
-            "VAM/s",
-            "CAM/s",
-            "RAM/s",
-            "overlapped",
-        ]
-    }
-
-    fn columns(&self) -> Vec<String> {
+    fn columns(&self) -> Vec<(&'static str, String)> {
         let scaled = Estimate {
             mean: 100.0 * self.mcbr.mean,
             sd: 100.0 * self.mcbr.sd,
         };
         let [vam, cam, ram] = self.messages_per_s.map(|it| format!("{:.1}", it.mean));
+        let vam_share = self.vam_share_percent.mean;
         vec![
-            self.robots.to_string(),
-            self.pedestrians.to_string(),
-            format!("{} m", self.radius_m),
-            percent(scaled),
-            percent(self.reduction_percent),
-            format!("{:.2} %", self.predicted_percent.mean),
-            format!("{:.2} %", self.passive_percent.mean),
-            format!("{:.2} %", self.wrongly_silent_percent.mean),
-            format!("{:.1} %", self.vam_share_percent.mean),
-            vam,
-            cam,
-            ram,
-            format!("{:.2} %", self.overlapped_percent.mean),
+            ("robots", self.robots.to_string()),
+            ("pedestrians", self.pedestrians.to_string()),
+            ("radius", format!("{} m", self.radius_m)),
+            ("mCBR", percent(scaled)),
+            ("reduction", percent(self.reduction_percent)),
+            ("by the law", mean(self.predicted_percent)),
+            ("silent devices", mean(self.passive_percent)),
+            ("wrongly silent", mean(self.wrongly_silent_percent)),
+            ("VAM share", format!("{vam_share:.1} %")),
+            ("VAM/s", vam),
+            ("CAM/s", cam),
+            ("RAM/s", ram),
+            ("overlapped", mean(self.overlapped_percent)),
         ]
     }
 }
@@ -92,9 +69,10 @@ impl Row for CbrCell {
 pub(super) fn table<C: Row>(cells: &[C]) -> Table {
     let mut table = Table::new();
     table.load_style(NOTHING);
-    table.set_header(C::head());
     for cell in cells {
-        table.add_row(cell.columns());
+        let (heads, values): (Vec<_>, Vec<_>) = cell.columns().into_iter().unzip();
+        table.set_header(heads);
+        table.add_row(values);
     }
     table
 }
