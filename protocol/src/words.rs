@@ -1,6 +1,6 @@
 //! The words of the protocol: its events, outputs, notices and reasons, each declared once.
 //!
-//! [`words!`] declares an enumeration and writes down what others need to know of it: how each variant is called in
+//! `words!` declares an enumeration and writes down what others need to know of it: how each variant is called in
 //! JSON, its number on interfaces without names, what it means, what comes with it, and its text. C, C++, Python and
 //! ROS 2 are written from [`TABLE`]; laws, checker and tests take their lists from `ALL`.
 //!
