@@ -10,12 +10,12 @@ use crate::ras::surroundings::Awareness;
 
 /// Nothing is said to other stations.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Others;
+pub(super) struct Others {}
 
 #[expect(clippy::unused_self, reason = "its counterpart has a state")]
 impl Others {
     pub(super) const fn new(_: &Awareness) -> Self {
-        Self
+        Self {}
     }
 
     pub(super) const fn are_told(self) -> bool {

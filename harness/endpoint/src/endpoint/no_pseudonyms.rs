@@ -7,7 +7,7 @@ use crate::exchange::{Exchange, Moment};
 
 /// None.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Pseudonyms;
+pub(super) struct Pseudonyms {}
 
 #[expect(clippy::unused_self, reason = "its counterpart has a state")]
 impl Pseudonyms {

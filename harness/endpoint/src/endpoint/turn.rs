@@ -65,6 +65,7 @@ impl<'a> Turn<'a> {
     }
 
     /// The people around are announced under other ids from now on.
+    #[cfg(feature = "security")]
     pub(super) fn renew_clusters(&mut self, now_ms: u64, seed: u64) {
         self.around.surroundings.renew_ids(now_ms, seed);
     }
@@ -92,6 +93,7 @@ impl<'a> Turn<'a> {
     }
 
     /// A message could not be made.
+    #[cfg(feature = "foreign")]
     pub(super) fn not_sent(&mut self, error: &dyn Display) {
         self.dropped(Cause::NotSent, error, &[]);
     }

@@ -46,6 +46,10 @@ impl From<NotAdmitted> for Cause {
 
 /// Who goes by an id.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(
+    not(any(feature = "foreign", test)),
+    expect(dead_code, reason = "`admit` reads them")
+)]
 struct Owner {
     signer: Signer,
     /// The address of its packets.
