@@ -12,8 +12,8 @@ fn demo(more: &[&str]) -> Output {
     run(&[&["demo", "--port", &port], more].concat())
 }
 
-/// A plan that comes with the kit, with more arguments: who starts which tasks, the last after all others; how everybody is
-/// in the end; and what the log has.
+/// A plan that comes with the kit, with more arguments: who (or `ANYBODY`) starts which tasks, the last after all others;
+/// how everybody is in the end; and what the log has.
 struct Row {
     scenario: &'static str,
     more: &'static [&'static str],
@@ -22,6 +22,7 @@ struct Row {
     has: &'static [&'static str],
 }
 
+const ANYBODY: &str = "";
 const INITIAL_POS: u64 = 0;
 const MOVE: u64 = 1;
 const BLOCK: u64 = 2;
@@ -76,9 +77,10 @@ const ROWS: [Row; 7] = [
         has: &["fallBack", "\"contactLost\""],
     },
     Row {
+        // On busy cores the other robot that detected may be the one that is led.
         scenario: "two-detect",
         more: &["--speed", "40"],
-        starts: &[("Go2", MOVE)],
+        starts: &[(ANYBODY, MOVE)],
         ends: &[("ARI", "Idle"), ("ARI-2", "Idle"), ("Go2", "Idle")],
         has: &["corridorOpened", "\"taskCompleted\""],
     },
@@ -115,7 +117,7 @@ fn cross(row: &Row) {
     let when = row.starts.iter().map(|(robot, task)| {
         let first = started
             .iter()
-            .position(|it| it.0 == *robot && it.1 == *task);
+            .position(|it| [ANYBODY, &it.0].contains(robot) && it.1 == *task);
         first.unwrap_or_else(|| panic!("{scenario}: {robot} never starts {task}: {started:?}"))
     });
     let when: Vec<_> = when.collect();
