@@ -175,9 +175,9 @@ def report(studio, folder):
     page.goto((folder / "page.html").as_uri())
     page.wait_for_selector("html[data-ready=true]", state="attached")
     expect(page.locator("#chip")).to_have_text("✓ Valid")
-    expect(page.locator("#map .body")).to_have_count(2)
     page.keyboard.press("ArrowRight")
     page.keyboard.press("End")
+    expect(page.locator("#map .body")).to_have_count(2)
     expect(page.locator(".row.current")).to_have_count(1)
     at.assert_fits()
     assert at.errors == [], at.errors
