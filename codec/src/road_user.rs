@@ -59,7 +59,7 @@ impl Display for Kind {
 pub enum Identity {
     /// A station, which says of itself where it is.
     Station(u32),
-    /// An object that a station perceives, or a cluster of which it is the head.
+    /// An object that a station perceives, or a cluster that it heads.
     Object {
         /// The station.
         by: u32,

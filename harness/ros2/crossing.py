@@ -46,7 +46,7 @@ def until(what, holds):
 
 
 def free_ports():
-    """Two UDP ports, below those that systems pick by themselves."""
+    """Two free UDP ports below the ephemeral range."""
     while True:
         first = random.randrange(12000, 32000, 2)
         with contextlib.ExitStack() as stack, contextlib.suppress(OSError):

@@ -1,4 +1,4 @@
-//! Security of an endpoint: whom it believes, and the pseudonyms that it goes by.
+//! Security of an endpoint: verification of received packets, and its own pseudonyms.
 
 use std::collections::BTreeSet;
 

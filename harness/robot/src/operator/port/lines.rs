@@ -68,7 +68,7 @@ pub(super) enum ToOperator<'a> {
     },
 }
 
-/// Fields of a line, without those that have no value.
+/// Fields of a line; a field without a value is left out.
 pub(super) type Fields = Map<String, Value>;
 
 fn fields(all: Value) -> Fields {
