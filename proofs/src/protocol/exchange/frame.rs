@@ -56,6 +56,12 @@ fn choice(of: u32) -> u32 {
     Symbolic.number(of - 1, of)
 }
 
+/// One of a list.
+fn one_of<T: Copy>(all: &[T]) -> T {
+    let count = u32::try_from(all.len()).expect("lists are short");
+    all[choice(count) as usize]
+}
+
 fn any_maneuver() -> ManeuverId {
     let command = arbitrary::command(&mut Symbolic);
     ManeuverId {
@@ -208,8 +214,8 @@ harnesses! {
     /// Any robot, with any part or none, any input.
     #[random_only("all stages, parts and kinds of input at once")]
     fn any_robot_keeps_it() {
-        let part = [Part::Leader, Part::Follower, Part::Bystander][choice(3) as usize];
-        let stage = Role::ALL[choice(5) as usize];
+        let part = one_of(&[Part::Leader, Part::Follower, Part::Bystander]);
+        let stage = one_of(&Role::ALL);
         let kinds = [
             Kind::RamNone,
             Kind::RamNeedHelp,
@@ -222,8 +228,8 @@ harnesses! {
             Kind::Expired,
         ];
         let kind = match choice(2) {
-            0 => kinds[choice(9) as usize],
-            _ => Kind::Local(EventKind::ALL[choice(14) as usize]),
+            0 => one_of(&kinds),
+            _ => Kind::Local(one_of(&EventKind::ALL)),
         };
         let kept = any_step(part, stage, kind, Laws::All);
         kani::cover!(kept.changed(), "a fact becomes known");
