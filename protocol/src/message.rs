@@ -3,6 +3,8 @@
 //! The codec maps these views to and from the complete messages. Sizes, positions and everything
 //! else that no rule of the protocol depends on stays there.
 
+use core::cmp::Ordering;
+
 use crate::MAX_FOLLOWERS;
 use crate::id::{Heartbeat, OfferNumber, RequestId, SessionId, SessionNumber, StationId};
 use crate::list::List;
@@ -126,13 +128,17 @@ impl Progress {
         matches!(self, Self::Executing | Self::InPosition)
     }
 
-    /// Whether this progress of a command can only come after `earlier`.
+    /// Whether this progress of a command is later than the `known` one, in a RAM whose echo is so much newer than all before.
+    /// A place is left and taken again, so there the echo tells which was later. Where it cannot, the worse one counts.
     #[must_use]
-    pub(crate) const fn is_after(self, earlier: Self) -> bool {
-        match earlier {
-            Self::Executing => !matches!(self, Self::Executing),
-            Self::InPosition => !self.is_running(),
-            Self::Completed | Self::Failed(_) | Self::SafeIdle => false,
+    pub(crate) const fn is_news(self, known: Self, echo: Ordering) -> bool {
+        match (known, self) {
+            (Self::Executing, Self::InPosition) => matches!(echo, Ordering::Greater),
+            (Self::InPosition, Self::Executing) => !matches!(echo, Ordering::Less),
+            (Self::Executing | Self::InPosition, _) => !self.is_running(),
+            // The limit is the leader's own: the follower has gone on.
+            (Self::Failed(Failure::ExecutionLimit), Self::SafeIdle) => true,
+            (Self::Completed | Self::Failed(_) | Self::SafeIdle, _) => false,
         }
     }
 }

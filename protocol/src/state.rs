@@ -325,6 +325,8 @@ pub struct Following {
     pub job: Option<Job>,
     /// Newest command that it rejected, where that is newer than the job.
     pub refused: Option<Refusal>,
+    /// Whether it has seen somebody on the road itself, and has not said since then that the road is clear.
+    pub sees_people: bool,
 }
 
 /// A follower's contact with its leader.

@@ -50,6 +50,8 @@ impl Observer {
             | Event::CommandManeuver { .. }
             | Event::TaskCompleted
             | Event::RoadClear
+            | Event::OutOfPosition(_)
+            | Event::PersonOnRoad
             | Event::AllAnswered
             | Event::LeaveRequested
             | Event::AvailabilityChanged(_)
