@@ -6,7 +6,7 @@ use crate::input::{Event, Input};
 use crate::message::{Command, Failure, Progress, Rejection, Rmcm, Verdict};
 use crate::output::{EndReason, OutputKind};
 use crate::state::{Corridor, Leading, Member, Robot};
-use crate::task::{Availability, TaskType};
+use crate::task::Availability;
 
 use super::arithmetic::request_is_newer;
 use super::part::{executing, following, leading, requesting};
