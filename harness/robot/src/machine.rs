@@ -115,6 +115,15 @@ impl<P: StateMachine> Machine<P> {
         Some(Event::InPosition(following.executing()?.id))
     }
 
+    /// The event that the body does not hold that place any more. `None` when no maneuver runs.
+    #[must_use]
+    pub fn out_of_position(&self) -> Option<Event> {
+        let Phase::Following(following) = self.endpoint.robot().phase() else {
+            return None;
+        };
+        Some(Event::OutOfPosition(following.executing()?.id))
+    }
+
     /// The event that the maneuver which runs is finished, well or not; the body stops. `None` when
     /// none runs; then a fallback that runs is finished.
     pub fn finish(&mut self, well: bool) -> Option<Event> {

@@ -85,6 +85,8 @@ pub enum Order {
     Wish(Stimulus<'static>),
     /// The body holds the place from which the maneuver that runs guards.
     InPosition,
+    /// It does not hold that place any more.
+    OutOfPosition,
     /// A person says that the road is clear.
     Clear,
     /// The maneuver that runs is finished, well or not; or the fallback that runs.
@@ -360,6 +362,7 @@ impl Loop {
         let stimulus = match order {
             Order::Wish(wish) => wish,
             Order::InPosition => event(self.machine.in_position()),
+            Order::OutOfPosition => event(self.machine.out_of_position()),
             Order::Clear => {
                 // Where nothing waits for it, the robot says so.
                 let is_awaited = self.machine.application_mut().say_clear();
