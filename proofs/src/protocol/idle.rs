@@ -18,6 +18,8 @@ steps_of_others! { FROM, all;
         completes_the_task(Kind::Local(EventKind::TaskCompleted));
         leaves(Kind::Local(EventKind::LeaveRequested));
         reaches_its_position(Kind::Local(EventKind::InPosition));
+        leaves_its_position(Kind::Local(EventKind::OutOfPosition));
+        sees_a_person(Kind::Local(EventKind::PersonOnRoad));
         hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered));
     }
 

@@ -17,7 +17,7 @@ pub(super) const FROM: From = From {
 };
 
 /// Inputs that a leader always ignores. [`ignored`](super::ignored) proves the other laws of such a step.
-pub(super) const IGNORED: [Kind; 8] = [
+pub(super) const IGNORED: [Kind; 10] = [
     Kind::RamNeedHelp,
     Kind::Command,
     Kind::Local(EventKind::PedestrianDetected),
@@ -26,6 +26,8 @@ pub(super) const IGNORED: [Kind; 8] = [
     Kind::Local(EventKind::IdentityChanged),
     Kind::Local(EventKind::InPosition),
     Kind::Local(EventKind::AllAnswered),
+    Kind::Local(EventKind::OutOfPosition),
+    Kind::Local(EventKind::PersonOnRoad),
 ];
 
 /// Declares one harness of these laws for each message and event that a leader can act on, and for the timers that

@@ -18,6 +18,8 @@ steps_of_others! { FROM, all;
         completes_the_task(Kind::Local(EventKind::TaskCompleted));
         changes_its_identity(Kind::Local(EventKind::IdentityChanged));
         reaches_its_position(Kind::Local(EventKind::InPosition));
+        leaves_its_position(Kind::Local(EventKind::OutOfPosition));
+        sees_a_person(Kind::Local(EventKind::PersonOnRoad));
         clears_the_road(Kind::Local(EventKind::RoadClear));
         hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered));
     }

@@ -25,6 +25,8 @@ steps! { FROM, of_part_and_numbers;
         "grants a lease": step.said.tells(NoticeKind::LeaseGranted),
         "counts as acknowledged": step.said.tells(NoticeKind::CommandAcknowledged),
         "counts as in position": step.said.tells(NoticeKind::ManeuverInPosition),
+        "counts as out of position": step.said.tells(NoticeKind::ManeuverReported)
+            && step.said.has(OutputKind::CorridorClosed),
         "counts as completed": step.said.tells(NoticeKind::ManeuverCompleted),
         "extends the corridor": step.said.has(OutputKind::CorridorExtended),
         "closes the corridor": step.said.has(OutputKind::CorridorClosed),
