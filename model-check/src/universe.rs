@@ -260,6 +260,7 @@ fn events(robot: &Robot) -> Vec<Event> {
         Event::AvailabilityChanged(Availability::Available),
         Event::AvailabilityChanged(Availability::Unavailable(Unavailability::LocalFault)),
         Event::RoadClear,
+        Event::PersonOnRoad,
         Event::AllAnswered,
         Event::OpenCorridor,
         Event::CloseCorridor,
@@ -281,6 +282,7 @@ fn events(robot: &Robot) -> Vec<Event> {
             let id = crossguard_protocol::ManeuverId { session, request };
             events.extend([
                 Event::InPosition(id),
+                Event::OutOfPosition(id),
                 Event::ManeuverCompleted(id),
                 Event::ManeuverFailed(id),
             ]);

@@ -218,7 +218,7 @@ impl RobotFrame {
             timers: timers.unwrap_or_default(),
             body: match node.actuation.body {
                 Body::Parked => BodyFrame::Parked,
-                Body::UnderWay(_) => BodyFrame::UnderWay,
+                Body::UnderWay(_) | Body::OutOfPosition(_) => BodyFrame::UnderWay,
                 Body::InPosition(_) => BodyFrame::InPosition,
                 Body::FallingBack(..) => BodyFrame::FallingBack,
                 Body::Ended(..) => BodyFrame::Ended,

@@ -62,6 +62,10 @@ pub struct Bounds {
     pub losses: Option<u8>,
     /// A robot hangs. To go on costs nothing.
     pub hangs: u8,
+    /// A guard leaves the place that it holds. To get back there costs nothing.
+    pub drifts: u8,
+    /// A guard sees somebody on the road itself. The leader's application may take the crossing for completed then.
+    pub sightings: u8,
     /// A RAM timer expires and changes its robot, as it does where a heartbeat is counted. For a monotone
     /// channel, which needs it.
     pub heartbeats: Option<u8>,
@@ -79,6 +83,8 @@ impl Bounds {
             | Event::LeaveRequested
             | Event::AvailabilityChanged(Availability::Unavailable(_))
             | Event::IdentityChanged(..) => &mut self.disturbances,
+            Event::OutOfPosition(_) => &mut self.drifts,
+            Event::PersonOnRoad => &mut self.sightings,
             Event::InPosition(_)
             | Event::ManeuverCompleted(_)
             | Event::TaskCompleted
@@ -119,6 +125,8 @@ impl Hash for Bounds {
             restarts,
             losses,
             hangs,
+            drifts,
+            sightings,
             heartbeats,
             offers,
         } = *self;
@@ -133,6 +141,8 @@ impl Hash for Bounds {
             restarts,
             losses,
             hangs,
+            drifts,
+            sightings,
             heartbeats,
             offers,
         ]);
@@ -149,6 +159,8 @@ impl fmt::Display for Bounds {
             ("restarts", self.restarts),
             ("losses", self.losses.unwrap_or_default()),
             ("hangs", self.hangs),
+            ("drifts", self.drifts),
+            ("sightings", self.sightings),
             ("heartbeats", self.heartbeats.unwrap_or_default()),
             ("offers", self.offers.unwrap_or_default()),
         ];
