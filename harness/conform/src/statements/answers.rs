@@ -190,7 +190,7 @@ fn takes_up(exchange: &Exchange, state: &RamSeen, command: &Command) -> bool {
     let Some((session, Some(report))) = following(&state.ram) else {
         return false;
     };
-    own_commands(exchange).into_iter().any(|(_, first, _)| {
+    own_commands(exchange).any(|(_, first, _)| {
         first.session == session
             && first.request == report.request
             && (first.session, first.task) == (command.session, command.task)
