@@ -1,0 +1,158 @@
+//! Whether the carriageway is empty: decided by frames, and by nothing else.
+//!
+//! The road is clear when, after the last sign went to stop, each of its parts was covered by more than `miss_max`
+//! consecutive frames without anybody on the carriageway, and is covered now. Whatever speaks against that starts the count
+//! anew: somebody on the road, also as another station reports them, a frame that comes too late, a gap between two
+//! frames, a line that is no frame. Silence counts nothing.
+
+use crossguard_protocol::Millis;
+
+use crate::ground::Coverage;
+use crate::input::{Frame, FrameDrop};
+use crate::setup::{Sensors, Setup};
+
+/// Capacity for sources of one robot.
+pub const SOURCES: usize = 4;
+
+/// For how long a person on the road counts as wanting the corridor after they were seen there last.
+pub const LINGER: Millis = Millis(1_000);
+
+/// What is known of one source.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+struct Source {
+    /// Time since its newest frame was made; `None` before the first.
+    age: Option<Millis>,
+    /// What its newest frame covers.
+    covers: Coverage,
+    /// What all of its counted frames cover.
+    counted: Coverage,
+    /// How many consecutive frames were empty, saturating.
+    empty: u8,
+}
+
+/// What is known of the carriageway.
+#[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
+pub struct Occupancy {
+    sources: [Source; SOURCES],
+    /// For how long yet somebody counts as on the road, or has just left it.
+    seen: Millis,
+}
+
+impl Source {
+    fn is_fresh(&self, sensors: &Sensors) -> bool {
+        self.age.is_some_and(|age| age <= sensors.gap_max)
+    }
+}
+
+impl Occupancy {
+    /// Lets time pass.
+    pub(crate) fn elapse(&mut self, setup: &Setup, time: Millis) {
+        self.seen = self.seen.saturating_sub(time);
+        // What is older than any limit is as old as it gets.
+        let oldest = setup
+            .sensors
+            .gap_max
+            .saturating_add(setup.sensors.age_max)
+            .saturating_add(Millis(1));
+        for source in &mut self.sources {
+            source.age = source.age.map(|age| age.saturating_add(time).min(oldest));
+            if source.age.is_some() && !source.is_fresh(&setup.sensors) {
+                (source.empty, source.counted) = (0, Coverage::NONE);
+            }
+        }
+    }
+
+    /// Whether a frame counts; that it came is noted.
+    pub(crate) fn admit(&mut self, setup: &Setup, frame: &Frame<'_>) -> Result<(), FrameDrop> {
+        let source = self.sources.get_mut(usize::from(frame.source));
+        let source = source.ok_or(FrameDrop::NoSuchSource)?;
+        if frame.age > setup.sensors.age_max {
+            source.empty = 0;
+            return Err(FrameDrop::Stale);
+        }
+        if source.age.is_some_and(|age| frame.age >= age) {
+            return Err(FrameDrop::OutOfOrder);
+        }
+        let gap = source.age.map(|age| age.saturating_sub(frame.age));
+        if gap.is_none_or(|gap| gap > setup.sensors.gap_max) {
+            source.empty = 0;
+        }
+        (source.age, source.covers) = (Some(frame.age), frame.covers);
+        Ok(())
+    }
+
+    /// Counts a frame that was admitted and had nobody on the road.
+    pub(crate) fn count(&mut self, frame: &Frame<'_>) {
+        let Some(source) = self.sources.get_mut(usize::from(frame.source)) else {
+            return;
+        };
+        source.counted = if source.empty == 0 {
+            frame.covers
+        } else {
+            source.counted.intersection(frame.covers)
+        };
+        source.empty = source.empty.saturating_add(1);
+    }
+
+    /// A source delivered something that is no frame.
+    pub(crate) fn doubt(&mut self, source: u8) {
+        if let Some(source) = self.sources.get_mut(usize::from(source)) {
+            source.empty = 0;
+        }
+    }
+
+    /// Somebody is on the road.
+    pub(crate) fn occupy(&mut self) {
+        self.start_anew();
+        self.seen = LINGER;
+    }
+
+    /// Starts the count anew.
+    pub(crate) fn start_anew(&mut self) {
+        for source in &mut self.sources {
+            (source.empty, source.counted) = (0, Coverage::NONE);
+        }
+    }
+
+    /// Whether any source has ever delivered a frame.
+    #[must_use]
+    pub fn has_sources(&self) -> bool {
+        self.sources.iter().any(|source| source.age.is_some())
+    }
+
+    /// Whether the sources cover the whole carriageway now.
+    #[must_use]
+    pub fn is_covered(&self, setup: &Setup) -> bool {
+        let fresh = self.sources.iter().filter(|it| it.is_fresh(&setup.sensors));
+        covers_all(setup, fresh.map(|source| source.covers))
+    }
+
+    /// Whether the carriageway is known to be empty now.
+    #[must_use]
+    pub fn is_clear(&self, setup: &Setup) -> bool {
+        let sensors = &setup.sensors;
+        let empty = self.sources.iter();
+        let empty = empty.filter(|it| it.is_fresh(sensors) && it.empty > sensors.miss_max);
+        setup.ground.road.is_some() && covers_all(setup, empty.map(|source| source.counted))
+    }
+
+    /// Whether the robot's own sensors all work and have had nobody on the road for more than `miss_max` frames, in what
+    /// they cover.
+    #[must_use]
+    pub fn sees_nobody(&self, setup: &Setup) -> bool {
+        let sensors = &setup.sensors;
+        let mut known = self.sources.iter().filter(|source| source.age.is_some());
+        known.all(|it| it.is_fresh(sensors) && it.empty > sensors.miss_max)
+    }
+
+    /// Whether somebody was seen or reported on the road within the last [`LINGER`].
+    #[must_use]
+    pub fn was_seen(&self) -> bool {
+        self.seen > Millis::ZERO
+    }
+}
+
+fn covers_all(setup: &Setup, parts: impl Iterator<Item = Coverage>) -> bool {
+    let covered = parts.fold(Coverage::NONE, Coverage::union);
+    setup.ground.parts != Coverage::NONE && covered.has(setup.ground.parts)
+}
