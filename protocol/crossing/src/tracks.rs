@@ -332,9 +332,12 @@ impl<const N: usize> Tracks<N> {
                 && (track.source, track.id) == (source, sighting.id)
                 && track.at.distance_cm(sighting.at) <= track.reach_cm(setup, sighting, age)
         };
-        self.tracks
-            .iter()
-            .position(|slot| slot.as_ref().is_some_and(is_same))
+        let places = self.tracks.iter().enumerate();
+        let same = places.filter_map(|(place, slot)| Some((place, slot.as_ref()?)));
+        // An id that jumped stands for two people: the newer one has it.
+        same.filter(|(_, track)| is_same(track))
+            .min_by_key(|(_, track)| track.unseen)
+            .map(|(place, _)| place)
     }
 
     /// The nearest free track within the reach of a sighting.
