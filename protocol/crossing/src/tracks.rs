@@ -351,6 +351,9 @@ impl<const N: usize> Tracks<N> {
         let tracks = self.tracks.iter().zip(taken).enumerate();
         let free = tracks
             .filter_map(|(place, (slot, taken))| Some((place, slot.as_ref().filter(|_| !taken)?)));
+        // A vehicle beside a person who is out of sight is not that person.
+        let is_vehicle = |what| what == RoadUser::Vehicle;
+        let free = free.filter(|(_, track)| !is_vehicle(sighting.what) || is_vehicle(track.what));
         let near = free.filter_map(|(place, track)| {
             let distance = track.at.distance_cm(sighting.at);
             (distance <= track.reach_cm(setup, sighting, age)).then_some((distance, place))
