@@ -298,7 +298,7 @@ impl<const N: usize> Tracks<N> {
                 }
                 let found = match own.filter(|place| !taken[*place]) {
                     Some(place) => Some(place),
-                    None => self.nearest(setup, age, sighting, &taken),
+                    None => self.nearest(setup, source, age, sighting, &taken),
                 };
                 let free = || self.tracks.iter().position(Option::is_none);
                 let place = found.or_else(free);
@@ -344,6 +344,7 @@ impl<const N: usize> Tracks<N> {
     fn nearest(
         &self,
         setup: &Setup,
+        source: u8,
         age: Millis,
         sighting: &Sighting,
         taken: &[bool; N],
@@ -354,6 +355,8 @@ impl<const N: usize> Tracks<N> {
         // A vehicle beside a person who is out of sight is not that person.
         let is_vehicle = |what| what == RoadUser::Vehicle;
         let free = free.filter(|(_, track)| !is_vehicle(sighting.what) || is_vehicle(track.what));
+        // Other stations say nothing of people whom the robot sees itself.
+        let free = free.filter(|(_, track)| (track.source == OTHERS) == (source == OTHERS));
         let near = free.filter_map(|(place, track)| {
             let distance = track.at.distance_cm(sighting.at);
             (distance <= track.reach_cm(setup, sighting, age)).then_some((distance, place))

@@ -271,3 +271,31 @@ fn more_people_than_can_be_kept_track_of_are_a_crowd_that_waits() {
     (0..11).for_each(|_| frame(&mut crossing, &[]));
     assert!(!crossing.tracks().is_waiting());
 }
+
+/// Another station can add people, and take none away.
+#[test]
+fn nobody_ceases_to_wait_because_of_what_others_report() {
+    let mut scene = watch();
+    let mut who = person(1, 100, -20);
+    scene.sees(&mut who, 1_500);
+    for reported in [
+        person(9, 100, 40),
+        person(9, 100, -30),
+        Sighting {
+            confidence: 0,
+            ..person(1, 100, -20)
+        },
+        walking(person(1, 100, -20), 300, 0),
+    ] {
+        scene.tell(Input::Heard(reported, Millis(0)));
+        let own = scene.crossing.tracks().iter().next().unwrap();
+        assert_eq!(own.conduct(&scene.setup), Conduct::Waiting, "{reported:?}");
+    }
+    // It calls for people whom only others see.
+    let mut scene = watch();
+    for _ in 0..12 {
+        scene.pass(100);
+        scene.tell(Input::Heard(person(9, 100, -50), Millis(50)));
+    }
+    assert_eq!(scene.conducts(), [Conduct::Waiting]);
+}
