@@ -161,9 +161,12 @@ impl Track {
 
     /// Takes in one more observation, made `age` ago.
     fn update(&mut self, setup: &Setup, source: u8, sighting: &Sighting, age: Millis) {
+        // A source that lags says nothing new of somebody whom another has seen since.
+        if age > self.unseen {
+            return;
+        }
         if !self.is_fresh() {
             self.dwell = None;
-            self.waits = false;
             self.stood = sighting.at;
         }
         // One that was a person once does not become a vehicle.

@@ -299,3 +299,32 @@ fn nobody_ceases_to_wait_because_of_what_others_report() {
     }
     assert_eq!(scene.conducts(), [Conduct::Waiting]);
 }
+
+#[test]
+fn a_source_that_lags_takes_nobody_back_where_they_were() {
+    let mut scene = watch();
+    scene.look(100, &[person(1, 100, 20)]);
+    scene.frame(1, 90, 0b11, &[person(1, 100, -20)]);
+    assert_eq!(scene.conducts(), [Conduct::OnRoad]);
+}
+
+/// Hazard B: a person who waits under go is out of sight for a moment, and waits still when seen again.
+#[test]
+fn a_person_who_is_found_again_under_go_waits_still() {
+    let mut scene = watch();
+    scene.sees(&mut person(1, 100, -100), 1_500);
+    for _ in 0..15 {
+        scene.look(100, &[]);
+        scene.tell(Input::CorridorOpen(Millis(1_900)));
+        assert!(scene.crossing.tracks().is_waiting());
+    }
+    scene.look(100, &[person(2, 120, -100)]);
+    assert!(scene.crossing.tracks().is_waiting());
+    assert_eq!(scene.conducts(), [Conduct::Waiting]);
+    // Not without end.
+    for _ in 0..31 {
+        scene.look(100, &[]);
+        scene.tell(Input::CorridorOpen(Millis(1_900)));
+    }
+    assert!(!scene.crossing.tracks().is_waiting());
+}
