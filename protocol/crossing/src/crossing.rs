@@ -240,7 +240,6 @@ impl<const N: usize> Crossing<N> {
         }
         if self.obligation.is_some() && about.is_none() {
             out.put(Output::Release);
-            self.tracks.resolve();
         }
         self.obligation = about.map(|about| Obligation {
             about,
@@ -308,6 +307,9 @@ impl<const N: usize> Crossing<N> {
             self.occupancy.occupy();
         } else if frame.age < self.quiet {
             self.occupancy.count(frame);
+            if self.occupancy.sees_nobody(setup) {
+                self.tracks.resolve();
+            }
         } else {
             self.occupancy.doubt(frame.source);
         }

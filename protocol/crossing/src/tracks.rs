@@ -271,7 +271,8 @@ impl<const N: usize> Tracks<N> {
         for slot in &mut self.tracks {
             let Some(track) = slot else { continue };
             // What is older than any limit is as old as it gets.
-            track.unseen = track.unseen.saturating_add(time).min(Millis(kept.0 + 1));
+            let oldest = kept.saturating_add(Millis(1));
+            track.unseen = track.unseen.saturating_add(time).min(oldest);
             track.across = track.across.saturating_sub(time);
             track.dwell = track.dwell.map(|left| left.saturating_sub(time));
             let is_unresolved =
@@ -304,10 +305,13 @@ impl<const N: usize> Tracks<N> {
                     None => self.nearest(setup, source, age, sighting, &taken),
                 };
                 let free = || self.tracks.iter().position(Option::is_none);
-                let place = found.or_else(free);
+                let place = found.or_else(free).or_else(|| self.lost());
                 let mut is_person = sighting.what != RoadUser::Vehicle;
                 if let Some(place) = place {
                     taken[place] = true;
+                    if found.is_none() {
+                        self.tracks[place] = None;
+                    }
                     let track =
                         self.tracks[place].get_or_insert_with(|| Track::new(source, sighting, age));
                     is_person |= track.what != RoadUser::Vehicle;
@@ -343,6 +347,12 @@ impl<const N: usize> Tracks<N> {
             .map(|(place, _)| place)
     }
 
+    /// Somebody who was lost on the road. That their track goes frees nobody: occupancy decides.
+    fn lost(&self) -> Option<usize> {
+        let mut tracks = self.tracks.iter();
+        tracks.position(|slot| slot.is_some_and(|it| it.is_on_road() && !it.is_fresh()))
+    }
+
     /// The nearest free track within the reach of a sighting.
     fn nearest(
         &self,
@@ -367,10 +377,10 @@ impl<const N: usize> Tracks<N> {
         near.min().map(|(_, place)| place)
     }
 
-    /// The road is known to be clear: who was lost on it is not.
+    /// Nobody is on the road any more: who was lost on it is not.
     pub(crate) fn resolve(&mut self) {
         for slot in &mut self.tracks {
-            if slot.as_ref().is_some_and(Track::is_on_road) {
+            if slot.is_some_and(|track| track.is_on_road() && !track.is_fresh()) {
                 *slot = None;
             }
         }
@@ -379,7 +389,9 @@ impl<const N: usize> Tracks<N> {
     /// Whether somebody waits, or waited when go was shown and has not been seen since.
     #[must_use]
     pub fn is_waiting(&self) -> bool {
-        self.crowd > Millis::ZERO || self.iter().any(|track| track.waits)
+        // Who was lost on the road is for the occupancy to judge, once nobody is let on it any more.
+        let waits = |track: &Track| track.waits && (track.is_fresh() || !track.is_on_road());
+        self.crowd > Millis::ZERO || self.iter().any(waits)
     }
 
     /// Whether somebody was on the road when last seen.

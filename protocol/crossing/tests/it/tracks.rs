@@ -328,3 +328,30 @@ fn a_person_who_is_found_again_under_go_waits_still() {
     }
     assert!(!scene.crossing.tracks().is_waiting());
 }
+
+/// A person who was lost on the road is on it until frames say that nobody is, and not for ever.
+#[test]
+fn who_was_lost_on_the_road_is_resolved_by_empty_frames() {
+    let mut scene = watch();
+    scene.sees(&mut person(1, 100, 300), 1_500);
+    scene.pass(2_000);
+    assert_eq!(scene.conducts(), [Conduct::OnRoad]);
+    for frame in 1..=6 {
+        assert_eq!(scene.conducts(), [Conduct::OnRoad], "before frame {frame}");
+        scene.look(100, &[]);
+    }
+    assert_eq!(scene.conducts(), []);
+}
+
+#[test]
+fn no_number_of_people_who_were_lost_on_the_road_takes_the_place_of_those_who_are_there() {
+    let setup = street();
+    let mut crossing = Crossing::<2>::default();
+    for id in 0..5 {
+        crossing.step(&setup, Input::Elapsed(Millis(1_500)));
+        crossing.step(&setup, Input::Heard(person(id, 100, 300), Millis(0)));
+    }
+    crossing.step(&setup, Input::Elapsed(Millis(1_500)));
+    crossing.step(&setup, Input::Heard(person(9, 100, -200), Millis(0)));
+    assert!(!crossing.tracks().is_waiting(), "nobody is a crowd");
+}
