@@ -296,6 +296,13 @@ impl<const N: usize> Crossing<N> {
 
     fn frame(&mut self, setup: &Setup, frame: &Frame<'_>, out: &mut Outputs) {
         if let Err(why) = self.occupancy.admit(setup, frame) {
+            let mut people = frame.sightings.iter();
+            let is_person = |it: &Sighting| it.what != RoadUser::Vehicle;
+            if why == FrameDrop::OutOfOrder
+                && people.any(|it| is_person(it) && may_be_on_road(setup, it))
+            {
+                self.occupancy.occupy();
+            }
             return out.put(Output::Dropped(frame.source, why));
         }
         let mut is_occupied = false;

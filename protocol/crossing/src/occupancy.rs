@@ -70,7 +70,11 @@ impl Occupancy {
             source.empty = 0;
             return Err(FrameDrop::Stale);
         }
-        if source.age.is_some_and(|age| frame.age >= age) {
+        if let Some(age) = source.age.filter(|age| frame.age >= *age) {
+            // One that was on its way while others overtook it: those were not consecutive.
+            if frame.age > age {
+                source.empty = 0;
+            }
             return Err(FrameDrop::OutOfOrder);
         }
         let gap = source.age.map(|age| age.saturating_sub(frame.age));

@@ -35,7 +35,7 @@ fn the_road_is_clear_after_more_than_miss_max_empty_frames() {
 #[test]
 fn each_of_these_starts_the_count_anew() {
     type Case = (&'static str, fn(&mut Scene));
-    let cases: [Case; 9] = [
+    let cases: [Case; 10] = [
         ("somebody on the road", |it| {
             it.look(100, &[person(9, 0, 100)]);
         }),
@@ -67,6 +67,11 @@ fn each_of_these_starts_the_count_anew() {
         ("a malformed frame", |it| {
             let out = it.tell(Input::BadFrame(0));
             assert_eq!(out, [Output::Dropped(0, FrameDrop::Malformed)]);
+        }),
+        ("a frame that was overtaken", |it| {
+            it.pass(100);
+            it.frame(0, 0, 0b11, &[]);
+            it.frame(0, 50, 0b11, &[]);
         }),
         ("a gap", |it| it.pass(501)),
         ("a gap between frames that came late", |it| {
@@ -177,4 +182,16 @@ fn what_others_report_counts_against_a_clear_road_and_never_for_it() {
         crossguard_protocol::Millis(0),
     ));
     assert!(!scene.is_clear());
+}
+
+/// A frame that comes after newer ones still shows who was there, and at once again as a repetition changes nothing.
+#[test]
+fn a_person_in_a_frame_that_was_overtaken_is_on_the_road() {
+    for age in [0, 50] {
+        let mut scene = watch();
+        (0..NEEDED).for_each(|_| drop(scene.look(100, &[])));
+        assert!(scene.is_clear());
+        scene.frame(0, age, 0b11, &[person(1, 100, 300)]);
+        assert!(!scene.is_clear(), "{age} ms old");
+    }
 }
