@@ -311,10 +311,10 @@ impl<const N: usize> Crossing<N> {
                 is_occupied |= may_be_on_road(setup, person);
             });
         if is_occupied {
-            self.occupancy.occupy();
+            self.occupancy.owe(setup, frame);
         } else if frame.age < self.quiet {
             self.occupancy.count(frame);
-            if self.occupancy.sees_nobody(setup) {
+            if self.occupancy.settle(setup) {
                 self.tracks.resolve();
             }
         } else {

@@ -28,6 +28,8 @@ struct Source {
     counted: Coverage,
     /// How many consecutive frames were empty, saturating.
     empty: u8,
+    /// What it covered when it had somebody on the road, until that is empty again.
+    owed: Coverage,
 }
 
 /// What is known of the carriageway.
@@ -98,6 +100,31 @@ impl Occupancy {
         source.empty = source.empty.saturating_add(1);
     }
 
+    /// A frame that was admitted has somebody on the road.
+    pub(crate) fn owe(&mut self, setup: &Setup, frame: &Frame<'_>) {
+        if let Some(source) = self.sources.get_mut(usize::from(frame.source)) {
+            let parts = if frame.covers == Coverage::NONE {
+                setup.ground.parts
+            } else {
+                frame.covers
+            };
+            source.owed = source.owed.union(parts);
+        }
+        self.occupy();
+    }
+
+    /// Whether its own sensors have had nobody on the road for more than `miss_max` frames; what they covered before
+    /// is forgotten then.
+    pub(crate) fn settle(&mut self, setup: &Setup) -> bool {
+        let is_empty = self.sees_nobody(setup);
+        if is_empty {
+            for source in &mut self.sources {
+                source.owed = Coverage::NONE;
+            }
+        }
+        is_empty
+    }
+
     /// A source delivered something that is no frame.
     pub(crate) fn doubt(&mut self, source: u8) {
         if let Some(source) = self.sources.get_mut(usize::from(source)) {
@@ -141,12 +168,14 @@ impl Occupancy {
     }
 
     /// Whether the robot's own sensors all work and have had nobody on the road for more than `miss_max` frames, in what
-    /// they cover.
+    /// they cover, and in what they covered when they saw somebody last.
     #[must_use]
     pub fn sees_nobody(&self, setup: &Setup) -> bool {
         let sensors = &setup.sensors;
         let mut known = self.sources.iter().filter(|source| source.age.is_some());
-        known.all(|it| it.is_fresh(sensors) && it.empty > sensors.miss_max)
+        known.all(|it| {
+            it.is_fresh(sensors) && it.empty > sensors.miss_max && it.counted.has(it.owed)
+        })
     }
 
     /// Whether somebody was seen or reported on the road within the last [`LINGER`].

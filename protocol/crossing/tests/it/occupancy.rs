@@ -195,3 +195,23 @@ fn a_person_in_a_frame_that_was_overtaken_is_on_the_road() {
         assert!(!scene.is_clear(), "{age} ms old");
     }
 }
+
+/// A guard with sensors of its own that look away does not know that the person whom it saw has gone.
+#[test]
+fn a_source_that_looks_away_sees_nobody_leave() {
+    let mut scene = watch();
+    for _ in 0..20 {
+        scene.pass(100);
+        scene.frame(0, 0, 0b01, &[]);
+        assert!(!scene.crossing.occupancy().sees_nobody(&scene.setup));
+    }
+    (0..NEEDED).for_each(|_| drop(scene.look(100, &[])));
+    assert!(scene.crossing.occupancy().sees_nobody(&scene.setup));
+    // Now it owes nothing, and what it covers is enough.
+    (0..NEEDED).for_each(|_| drop(scene.look(100, &[])));
+    for _ in 0..NEEDED {
+        scene.pass(100);
+        scene.frame(0, 0, 0b01, &[]);
+    }
+    assert!(scene.crossing.occupancy().sees_nobody(&scene.setup));
+}
