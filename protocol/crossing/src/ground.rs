@@ -115,7 +115,8 @@ impl Way {
     /// Scalar product with another way, in square centimetres.
     #[must_use]
     pub const fn dot(self, other: Self) -> i64 {
-        self.east_cm as i64 * other.east_cm as i64 + self.north_cm as i64 * other.north_cm as i64
+        let east = self.east_cm as i64 * other.east_cm as i64;
+        east.saturating_add(self.north_cm as i64 * other.north_cm as i64)
     }
 
     /// Cross product with another way, in square centimetres: positive where `other` is to the left.
@@ -214,7 +215,10 @@ fn edge_distance_cm(from: Point, to: Point, at: Point) -> u32 {
     if along >= square {
         return to.distance_cm(at);
     }
-    let distance = edge.cross(way).unsigned_abs() / u64::from(edge.length_cm()).max(1);
+    // By the length rounded up: no place is nearer than this says.
+    let length = u64::from(edge.length_cm());
+    let is_exact = square.unsigned_abs() == length * length;
+    let distance = edge.cross(way).unsigned_abs() / (length + u64::from(!is_exact)).max(1);
     u32::try_from(distance).unwrap_or(u32::MAX)
 }
 
@@ -279,5 +283,67 @@ impl Ground {
     #[must_use]
     pub fn is_zone(&self, at: Point) -> bool {
         self.waiting.is_some_and(|waiting| waiting.has(at)) || self.is_road(at)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shape(corners: &[(i32, i32)]) -> Shape {
+        let corners: std::vec::Vec<Point> =
+            corners.iter().map(|at| Point::new(at.0, at.1)).collect();
+        Shape::new(&corners).unwrap()
+    }
+
+    /// Edges of a few centimetres, whose length is no whole number.
+    #[test]
+    fn a_distance_is_never_more_than_it_is() {
+        let diamond = shape(&[(0, 0), (1, 1), (0, 2), (-1, 1)]);
+        assert_eq!(diamond.distance_cm(Point::new(100, -98)), 140);
+        let long = shape(&[(0, 0), (100, 100), (0, 200)]);
+        for off in [1, 7, 50, 141, 1_000] {
+            let at = Point::new(50 + off, 50 - off);
+            let is = long.distance_cm(at);
+            let exact = f64::from(off) * std::f64::consts::SQRT_2;
+            assert!(
+                f64::from(is) <= exact && exact < f64::from(is) * 1.01 + 1.0,
+                "{is} {exact}"
+            );
+        }
+    }
+
+    #[test]
+    fn no_way_is_too_long_to_be_measured() {
+        for far in [i32::MIN, i32::MAX] {
+            let way = Way {
+                east_cm: far,
+                north_cm: far,
+            };
+            assert!(way.length_cm() > 3_000_000_000);
+            assert!(way.dot(way) > 0 && way.cross(way) == 0);
+            assert_eq!(way.part(far, 1), way.part(far, 1));
+            let (edge, origin) = (Point::new(far, far), Point::default());
+            assert_eq!(edge.distance_cm(origin), 14_142_135);
+        }
+    }
+
+    #[test]
+    fn a_polygon_has_what_is_in_it_in_either_direction() {
+        let mut corners = [(0, 0), (10, 0), (10, 10), (5, 5), (0, 10)];
+        for _ in 0..2 {
+            let shape = shape(&corners);
+            for (at, inside) in [
+                ((5, 2), true),
+                ((5, 8), false),
+                ((1, 7), true),
+                ((11, 5), false),
+            ] {
+                assert_eq!(shape.has(Point::new(at.0, at.1)), inside, "{at:?}");
+            }
+            corners.reverse();
+        }
+        assert_eq!(Shape::new(&[Point::default(); 2]), None);
+        assert_eq!(Shape::new(&[Point::default(); CORNERS_MAX + 1]), None);
     }
 }
