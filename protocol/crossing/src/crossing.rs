@@ -259,9 +259,13 @@ impl<const N: usize> Crossing<N> {
         self.traffic.elapse(setup, time);
         self.call_pause = self.call_pause.saturating_sub(time);
         self.wanted = self.wanted.saturating_sub(time);
+        // A wait that ended meanwhile ended within this step, and not before it.
+        let waited = self.obligation.map_or(Millis::ZERO, |it| it.wait);
+        let shown = self.sign.max(waited);
         self.sign = self.sign.saturating_sub(time);
         let newest = setup.sensors.age_max.saturating_add(Millis(1));
-        self.quiet = self.quiet.saturating_add(time).min(newest);
+        let quiet = self.quiet.saturating_add(time.saturating_sub(shown));
+        self.quiet = quiet.min(newest);
         self.own.elapse(setup.position, time);
         if let Some(task) = &mut self.task {
             task.presence.elapse(setup.position, time);
@@ -436,11 +440,8 @@ impl<const N: usize> Crossing<N> {
 
     /// Whether the robot itself has somebody on the road, or cannot tell any more. Without sensors: whether others say so.
     fn sees_somebody(&self, setup: &Setup) -> bool {
-        if self.occupancy.has_sources() {
-            !self.occupancy.sees_nobody(setup)
-        } else {
-            self.occupancy.was_seen()
-        }
+        let knows_nothing = self.occupancy.has_sources() && !self.occupancy.sees_nobody(setup);
+        self.occupancy.was_seen() || knows_nothing
     }
 
     /// Whether somebody who is escorted is too far behind the body.

@@ -14,6 +14,9 @@ use crate::setup::{Sensors, Setup};
 /// Capacity for sources of one robot.
 pub const SOURCES: usize = 4;
 
+/// Capacity of a [`Coverage`] for parts.
+const PARTS: usize = 32;
+
 /// For how long a person on the road counts as wanting the corridor after they were seen there last.
 pub const LINGER: Millis = Millis(1_000);
 
@@ -24,10 +27,8 @@ struct Source {
     age: Option<Millis>,
     /// What its newest frame covers.
     covers: Coverage,
-    /// What all of its counted frames cover.
-    counted: Coverage,
-    /// How many consecutive frames were empty, saturating.
-    empty: u8,
+    /// In how many consecutive frames each part was covered and nobody on the road, saturating.
+    empty: [u8; PARTS],
     /// What it covered when it had somebody on the road, until that is empty again.
     owed: Coverage,
 }
@@ -44,6 +45,19 @@ impl Source {
     fn is_fresh(&self, sensors: &Sensors) -> bool {
         self.age.is_some_and(|age| age <= sensors.gap_max)
     }
+
+    /// The parts that are known to be empty.
+    fn clear(&self, sensors: &Sensors) -> Coverage {
+        let parts = self.empty.iter().enumerate();
+        let clear = parts.filter(|(_, empty)| **empty > sensors.miss_max);
+        clear.fold(Coverage::NONE, |all, (part, _)| {
+            all.union(Coverage(1 << part))
+        })
+    }
+
+    const fn start_anew(&mut self) {
+        self.empty = [0; PARTS];
+    }
 }
 
 impl Occupancy {
@@ -59,7 +73,7 @@ impl Occupancy {
         for source in &mut self.sources {
             source.age = source.age.map(|age| age.saturating_add(time).min(oldest));
             if source.age.is_some() && !source.is_fresh(&setup.sensors) {
-                (source.empty, source.counted) = (0, Coverage::NONE);
+                source.start_anew();
             }
         }
     }
@@ -69,19 +83,19 @@ impl Occupancy {
         let source = self.sources.get_mut(usize::from(frame.source));
         let source = source.ok_or(FrameDrop::NoSuchSource)?;
         if frame.age > setup.sensors.age_max {
-            source.empty = 0;
+            source.start_anew();
             return Err(FrameDrop::Stale);
         }
         if let Some(age) = source.age.filter(|age| frame.age >= *age) {
             // One that was on its way while others overtook it: those were not consecutive.
             if frame.age > age {
-                source.empty = 0;
+                source.start_anew();
             }
             return Err(FrameDrop::OutOfOrder);
         }
         let gap = source.age.map(|age| age.saturating_sub(frame.age));
         if gap.is_none_or(|gap| gap > setup.sensors.gap_max) {
-            source.empty = 0;
+            source.start_anew();
         }
         (source.age, source.covers) = (Some(frame.age), frame.covers);
         Ok(())
@@ -92,12 +106,14 @@ impl Occupancy {
         let Some(source) = self.sources.get_mut(usize::from(frame.source)) else {
             return;
         };
-        source.counted = if source.empty == 0 {
-            frame.covers
-        } else {
-            source.counted.intersection(frame.covers)
-        };
-        source.empty = source.empty.saturating_add(1);
+        for (part, empty) in source.empty.iter_mut().enumerate() {
+            let is_covered = frame.covers.has(Coverage(1 << part));
+            *empty = if is_covered {
+                empty.saturating_add(1)
+            } else {
+                0
+            };
+        }
     }
 
     /// A frame that was admitted has somebody on the road.
@@ -128,7 +144,7 @@ impl Occupancy {
     /// A source delivered something that is no frame.
     pub(crate) fn doubt(&mut self, source: u8) {
         if let Some(source) = self.sources.get_mut(usize::from(source)) {
-            source.empty = 0;
+            source.start_anew();
         }
     }
 
@@ -141,7 +157,7 @@ impl Occupancy {
     /// Starts the count anew.
     pub(crate) fn start_anew(&mut self) {
         for source in &mut self.sources {
-            (source.empty, source.counted) = (0, Coverage::NONE);
+            source.start_anew();
         }
     }
 
@@ -162,9 +178,8 @@ impl Occupancy {
     #[must_use]
     pub fn is_clear(&self, setup: &Setup) -> bool {
         let sensors = &setup.sensors;
-        let empty = self.sources.iter();
-        let empty = empty.filter(|it| it.is_fresh(sensors) && it.empty > sensors.miss_max);
-        setup.ground.road.is_some() && covers_all(setup, empty.map(|source| source.counted))
+        let fresh = self.sources.iter().filter(|it| it.is_fresh(sensors));
+        setup.ground.road.is_some() && covers_all(setup, fresh.map(|it| it.clear(sensors)))
     }
 
     /// Whether the robot's own sensors all work and have had nobody on the road for more than `miss_max` frames, in what
@@ -173,9 +188,7 @@ impl Occupancy {
     pub fn sees_nobody(&self, setup: &Setup) -> bool {
         let sensors = &setup.sensors;
         let mut known = self.sources.iter().filter(|source| source.age.is_some());
-        known.all(|it| {
-            it.is_fresh(sensors) && it.empty > sensors.miss_max && it.counted.has(it.owed)
-        })
+        known.all(|it| it.is_fresh(sensors) && it.clear(sensors).has(it.covers.union(it.owed)))
     }
 
     /// Whether somebody was seen or reported on the road within the last [`LINGER`].

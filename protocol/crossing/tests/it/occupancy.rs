@@ -215,3 +215,16 @@ fn a_source_that_looks_away_sees_nobody_leave() {
     }
     assert!(scene.crossing.occupancy().sees_nobody(&scene.setup));
 }
+
+/// A lorry hides a part for one frame: that part is counted anew, and not lost for ever.
+#[test]
+fn parts_are_counted_each_for_itself() {
+    let mut scene = watch();
+    (0..NEEDED).for_each(|_| drop(scene.look(100, &[])));
+    scene.pass(100);
+    scene.frame(0, 0, 0b01, &[]);
+    for frame in 1..=NEEDED {
+        scene.look(100, &[]);
+        assert_eq!(scene.is_clear(), frame == NEEDED, "frame {frame}");
+    }
+}
