@@ -3,5 +3,7 @@
 
 mod occupancy;
 mod scene;
+mod team;
 mod tracks;
 mod traffic;
+mod whole;
