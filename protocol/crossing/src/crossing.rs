@@ -238,7 +238,8 @@ impl<const N: usize> Crossing<N> {
         if self.obligation.map(|it| it.about) == about {
             return;
         }
-        if self.obligation.is_some() && about.is_none() {
+        // A duty that ends because its task goes on leaves the body where it is.
+        if self.obligation.is_some() && about.is_none() && executing(robot).is_none() {
             out.put(Output::Release);
         }
         self.obligation = about.map(|about| Obligation {
@@ -651,6 +652,14 @@ impl<const N: usize> Crossing<N> {
     #[must_use]
     pub const fn waits_for_clear(&self) -> bool {
         self.obligation.is_some()
+    }
+}
+
+/// The maneuver of another robot's session that the robot executes.
+fn executing(robot: &Robot) -> Option<Maneuver> {
+    match robot.phase() {
+        Phase::Following(following) => following.executing(),
+        _ => None,
     }
 }
 

@@ -110,8 +110,13 @@ impl Team {
         }
     }
 
-    /// What a crossing machine is told.
-    pub(crate) fn tell(&mut self, robot: usize, input: Input<'_>) {
+    /// What a crossing machine is told, and what comes of it.
+    pub(crate) fn hear(&mut self, robot: usize, input: Input<'_>) {
+        self.tell(robot, input);
+        self.settle();
+    }
+
+    fn tell(&mut self, robot: usize, input: Input<'_>) {
         let member = &mut self.robots[robot];
         let out = member.crossing.step(&member.setup, input);
         self.carry_out(robot, &out);
