@@ -37,6 +37,8 @@ struct Seat {
     part: Part,
     /// Its leg is to be commanded again, as soon as that is not too soon.
     again: bool,
+    /// It said that it has left its place.
+    has_left: bool,
     /// Until then it is too soon.
     pause: Millis,
     presence: Presence,
@@ -47,6 +49,7 @@ impl Seat {
         station: None,
         part: Part::Done,
         again: false,
+        has_left: false,
         pause: Millis::ZERO,
         presence: Presence::NOWHERE,
     };
@@ -250,7 +253,7 @@ impl Lead {
         if let Some(seat) = seat
             && seat.part == Part::Holds
         {
-            seat.part = Part::Commanded(1);
+            (seat.part, seat.has_left) = (Part::Commanded(1), true);
         }
     }
 
@@ -275,7 +278,7 @@ impl Lead {
         if let Some(it) = self.at(seat)
             && holds
         {
-            it.part = Part::Holds;
+            (it.part, it.has_left) = (Part::Holds, false);
         }
         self.open(setup, plan, view, out);
     }
@@ -357,7 +360,7 @@ impl Lead {
         if attempts >= ATTEMPTS {
             return out.tell(Event::LeaveRequested);
         }
-        it.part = Part::Commanded(attempts + 1);
+        (it.part, it.has_left) = (Part::Commanded(attempts + 1), false);
         it.pause = AGAIN;
         out.put(Output::Order(station, leg));
     }
@@ -496,14 +499,15 @@ impl Lead {
         true
     }
 
-    /// Commands guards back that are known to be elsewhere, while nobody may be on the road.
+    /// Commands guards back that have left their place, while nobody may be on the road.
     fn return_guards(&mut self, setup: &Setup, plan: &Plan, view: &View, out: &mut impl Sink) {
         if view.corridor != Corridor::Clear {
             return;
         }
         for seat in 0..self.seats.len() {
             let is_away = |it: &Seat| {
-                it.part == Part::Holds && it.pause == Millis::ZERO && it.presence.is_elsewhere()
+                let is_away = it.part == Part::Holds && it.presence.is_elsewhere() || it.has_left;
+                is_away && it.pause == Millis::ZERO
             };
             let holds = self
                 .leg(plan, seat)
