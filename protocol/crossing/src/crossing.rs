@@ -116,8 +116,8 @@ pub struct Crossing<const N: usize = 64> {
     /// Whether the protocol knows that the robot itself sees somebody on the road.
     is_person_told: bool,
     task: Option<Task>,
-    /// Where its own body is, and since when that is known.
-    pose: Option<Pose>,
+    /// Where its own body is, and how long ago that was measured.
+    pose: Option<(Pose, Millis)>,
     /// Whether its body is at the place of its plan.
     own: Presence,
     lead: Option<Lead>,
@@ -268,6 +268,10 @@ impl<const N: usize> Crossing<N> {
         let quiet = self.quiet.saturating_add(time.saturating_sub(shown));
         self.quiet = quiet.min(newest);
         self.own.elapse(setup.position, time);
+        let known = self
+            .pose
+            .map(|(pose, age)| (pose, age.saturating_add(time)));
+        self.pose = known.filter(|(_, age)| *age < setup.position.lease);
         if let Some(task) = &mut self.task {
             task.presence.elapse(setup.position, time);
         }
@@ -358,14 +362,18 @@ impl<const N: usize> Crossing<N> {
     }
 
     fn is_at(&mut self, setup: &Setup, pose: Option<Pose>, age: Millis, out: &mut Outputs) {
-        self.pose = pose.filter(|_| age < setup.position.lease);
+        let is_news = age < setup.position.lease && self.pose.is_none_or(|(_, known)| age <= known);
+        if pose.is_none() || is_news {
+            self.pose = pose.map(|pose| (pose, age));
+        }
         if let Some(place) = setup.plan.as_ref().and_then(|plan| plan.own_place) {
             self.own.learn(setup.position, place, pose, age);
         }
-        if let Some(task) = &mut self.task
-            && let Some(place) = task.place
-        {
-            task.presence.learn(setup.position, place, pose, age);
+        if let Some(task) = &mut self.task {
+            task.place = task.place.or(self.pose.map(|(pose, _)| pose.at));
+            if let Some(place) = task.place {
+                task.presence.learn(setup.position, place, pose, age);
+            }
         }
         self.watch_task(setup, out);
         self.guard_corridor(setup, out);
@@ -386,10 +394,10 @@ impl<const N: usize> Crossing<N> {
 
     fn start(&mut self, setup: &Setup, maneuver: Maneuver, place: Option<Point>) {
         // Without a place, the maneuver is done where the body stands.
-        let place = place.or(self.pose.map(|pose| pose.at));
+        let place = place.or(self.pose.map(|(pose, _)| pose.at));
         let mut presence = Presence::NOWHERE;
-        if let (Some(place), Some(pose)) = (place, self.pose) {
-            presence.learn(setup.position, place, Some(pose), Millis::ZERO);
+        if let (Some(place), Some((pose, age))) = (place, self.pose) {
+            presence.learn(setup.position, place, Some(pose), age);
         }
         self.task = Some(Task {
             maneuver,
@@ -447,7 +455,7 @@ impl<const N: usize> Crossing<N> {
 
     /// Whether somebody who is escorted is too far behind the body.
     fn is_person_behind(&self, setup: &Setup) -> bool {
-        let (Some(task), Some(pose)) = (&self.task, self.pose) else {
+        let (Some(task), Some((pose, _))) = (&self.task, self.pose) else {
             return false;
         };
         let Some(target) = task.place else {
@@ -474,9 +482,8 @@ impl<const N: usize> Crossing<N> {
             self.own = Presence::NOWHERE;
             if let Some(place) = plan.own_place {
                 out.put(Output::WalkTo(place));
-                if let Some(pose) = self.pose {
-                    self.own
-                        .learn(setup.position, place, Some(pose), Millis::ZERO);
+                if let Some((pose, age)) = self.pose {
+                    self.own.learn(setup.position, place, Some(pose), age);
                 }
             }
             self.lead = Some(Lead::new(plan, self.turned));

@@ -2,6 +2,7 @@
 #![allow(clippy::wildcard_imports, reason = "scripts use the whole vocabulary")]
 
 mod occupancy;
+mod position;
 mod scene;
 mod team;
 mod tracks;
