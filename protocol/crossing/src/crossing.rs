@@ -333,8 +333,10 @@ impl<const N: usize> Crossing<N> {
             if let (RoadUser::Vehicle, Some(velocity)) = (sighting.what, sighting.velocity) {
                 let number = u32::try_from(number).unwrap_or(u32::MAX);
                 let vehicle = crate::input::Vehicle {
-                    // Apart from those of stations.
-                    key: u32::MAX - sighting.id.unwrap_or(number) % 4_096,
+                    // Apart from those of stations and of other sources.
+                    key: u32::MAX
+                        - u32::from(frame.source) * 4_096
+                        - sighting.id.unwrap_or(number) % 4_096,
                     at: sighting.at,
                     error_cm: sighting.error_cm,
                     velocity,

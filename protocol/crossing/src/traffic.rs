@@ -10,18 +10,24 @@ use crate::ground::{Point, Shape};
 use crate::input::Vehicle;
 use crate::setup::Setup;
 
-/// Capacity for vehicles. A further one takes the place of one that is no hindrance, or else is one itself.
-pub const VEHICLES: usize = 16;
+/// Capacity for vehicles. A further one takes the place of one that stands or goes away, or else is a hindrance.
+pub const VEHICLES: usize = 32;
 
 /// What is known of the vehicles around.
 #[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
 pub struct Traffic {
     vehicles: [Option<(Vehicle, Millis)>; VEHICLES],
+    /// There are too many: this one counts as one that cannot stop.
+    further: Option<(u32, Millis)>,
 }
 
 impl Traffic {
     /// Lets time pass.
     pub(crate) fn elapse(&mut self, setup: &Setup, time: Millis) {
+        let left = self
+            .further
+            .map(|(key, left)| (key, left.saturating_sub(time)));
+        self.further = left.filter(|(_, left)| *left > Millis::ZERO);
         for slot in &mut self.vehicles {
             if let Some((_, age)) = slot {
                 *age = age.saturating_add(time);
@@ -46,13 +52,16 @@ impl Traffic {
             }
             return;
         }
+        if !may_hinder(setup, &vehicle) {
+            return;
+        }
         let is_free = |slot: &Option<(Vehicle, Millis)>| {
-            slot.is_none_or(|(vehicle, age)| !is_hindrance(setup, &vehicle, age))
+            slot.is_none_or(|(vehicle, _)| !may_hinder(setup, &vehicle))
         };
-        let empty = self.vehicles.iter().position(Option::is_none);
-        let place = empty.or_else(|| self.vehicles.iter().position(is_free));
-        if let Some(place) = place {
+        if let Some(place) = self.vehicles.iter().position(is_free) {
             self.vehicles[place] = Some((vehicle, age));
+        } else {
+            self.further = Some((vehicle.key, setup.traffic.keep));
         }
     }
 
@@ -61,8 +70,16 @@ impl Traffic {
     pub fn hindrance(&self, setup: &Setup) -> Option<u32> {
         let mut vehicles = self.vehicles.iter().flatten();
         let hindering = vehicles.find(|(vehicle, age)| is_hindrance(setup, vehicle, *age));
-        hindering.map(|(vehicle, _)| vehicle.key)
+        let key = hindering.map(|(vehicle, _)| vehicle.key);
+        key.or(self.further.map(|(key, _)| key))
     }
+}
+
+/// Whether a vehicle moves on a line that leads over the crossing.
+fn may_hinder(setup: &Setup, vehicle: &Vehicle) -> bool {
+    let crossing = setup.ground.crossing.or(setup.ground.road);
+    let is_moving = vehicle.velocity.length_cm() > u32::from(setup.traffic.standing_cmps);
+    is_moving && crossing.is_some_and(|crossing| comes(setup, &crossing, vehicle))
 }
 
 /// Whether a vehicle could no longer stop comfortably, as reported `age` ago.
@@ -70,11 +87,11 @@ fn is_hindrance(setup: &Setup, vehicle: &Vehicle, age: Millis) -> bool {
     let Some(crossing) = setup.ground.crossing.or(setup.ground.road) else {
         return false;
     };
-    let rules = &setup.traffic;
-    let speed = u64::from(vehicle.velocity.length_cm());
-    if speed <= u64::from(rules.standing_cmps) || !comes(setup, &crossing, vehicle) {
+    if !may_hinder(setup, vehicle) {
         return false;
     }
+    let rules = &setup.traffic;
+    let speed = u64::from(vehicle.velocity.length_cm());
     let gone = speed.saturating_mul(u64::from(age.0)) / 1_000 + u64::from(vehicle.error_cm);
     let left = u64::from(crossing.distance_cm(vehicle.at)).saturating_sub(gone);
     let reacting = speed.saturating_mul(u64::from(rules.reaction.0)) / 1_000;

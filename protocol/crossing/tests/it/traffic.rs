@@ -90,3 +90,55 @@ fn a_late_report_says_nothing_new() {
     scene.tell(Input::Vehicle(vehicle(-1_900, 200, 0, 0), Millis(0)));
     assert_eq!(scene.crossing.hindered(&scene.setup), None);
 }
+
+#[test]
+fn too_many_vehicles_hinder() {
+    let mut setup = street();
+    setup.watches = false;
+    let mut scene = Scene::new(setup);
+    let numbered = |key: u32, vehicle| Vehicle { key, ..vehicle };
+    let far = vehicle(-60_000, 200, 1_389, 0);
+    let count = u32::try_from(traffic::VEHICLES).unwrap();
+    // Vehicles that stand take nobody's place.
+    (0..count).for_each(|key| {
+        scene.tell(Input::Vehicle(
+            numbered(key, vehicle(-900, 200, 0, 0)),
+            Millis(0),
+        ));
+    });
+    for key in 0..=count {
+        assert_eq!(
+            scene.crossing.hindered(&scene.setup),
+            None,
+            "{key} vehicles"
+        );
+        scene.tell(Input::Vehicle(numbered(100 + key, far), Millis(0)));
+    }
+    let further = Some(Hindrance::Vehicle(100 + count));
+    assert_eq!(scene.crossing.hindered(&scene.setup), further);
+    scene.pass(5_001);
+    assert_eq!(scene.crossing.hindered(&scene.setup), None);
+}
+
+/// Two cameras number from 1: the one that stands does not take the place of the one that comes.
+#[test]
+fn vehicles_of_two_sources_are_two() {
+    let mut scene = Scene::new(street());
+    let car = |at| Sighting {
+        what: RoadUser::Vehicle,
+        at,
+        ..person(1, 0, 0)
+    };
+    scene.look(100, &[walking(car(Point::new(-1_900, 200)), 1_389, 0)]);
+    scene.frame(
+        1,
+        0,
+        0b11,
+        &[walking(car(Point::new(2_900, 200)), 1_389, 0)],
+    );
+    let hindered = scene.crossing.hindered(&scene.setup);
+    assert!(
+        matches!(hindered, Some(Hindrance::Vehicle(_))),
+        "{hindered:?}"
+    );
+}
