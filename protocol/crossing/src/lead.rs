@@ -186,7 +186,7 @@ impl Lead {
                 self.again(station);
                 self.command_again(setup, plan, view, out);
             }
-            Notice::FollowerGone(station, _) => self.miss(station, out),
+            Notice::FollowerGone(station, _) => self.miss(plan, station, out),
             // The session ends once the road is clear.
             Notice::Yielded(_) | Notice::SessionEnded(..) => return false,
             _ => {}
@@ -366,11 +366,15 @@ impl Lead {
     }
 
     /// A follower is gone, and with it a part of the plan that nobody else does.
-    fn miss(&mut self, station: StationId, out: &mut impl Sink) {
-        if let Some(seat) = self.seat_of(station).and_then(|seat| self.at(seat)) {
+    fn miss(&mut self, plan: &Plan, station: StationId, out: &mut impl Sink) {
+        let Some(gone) = self.seat_of(station) else {
+            return;
+        };
+        let had_part = plan.roles.is_empty() || gone < plan.roles.len();
+        if let Some(seat) = self.at(gone) {
             *seat = Seat::EMPTY;
         }
-        if self.seats.iter().any(|seat| seat.station.is_some()) {
+        if had_part && self.seats.iter().any(|seat| seat.station.is_some()) {
             out.tell(Event::LeaveRequested);
         }
     }
@@ -518,3 +522,6 @@ impl Lead {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
