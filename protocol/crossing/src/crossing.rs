@@ -217,6 +217,9 @@ impl<const N: usize> Crossing<N> {
             Phase::Following(following) => following.sees_people,
             _ => false,
         };
+        // What was finished or failed is not told again.
+        let runs = executing(robot);
+        self.task = self.task.filter(|task| runs == Some(task.maneuver));
         if let Some(task) = &mut self.task {
             task.is_reported = match robot.phase() {
                 Phase::Following(following) => following.job.is_some_and(|job| {
@@ -387,7 +390,7 @@ impl<const N: usize> Crossing<N> {
             (BodyReport::InPosition(id), Some(task)) if is_own(id, task) => task.has_arrived = true,
             (BodyReport::Completed(id), Some(task)) if is_own(id, task) => task.is_completed = true,
             (BodyReport::Gone, Some(task)) => {
-                task.is_completed = false;
+                (task.has_arrived, task.is_completed) = (false, false);
                 task.presence = Presence::NOWHERE;
             }
             _ => {}

@@ -354,3 +354,17 @@ fn a_stage_that_takes_people_on_the_road_waits_for_the_leader() {
     });
     assert!(team.robots[0].body.at.distance_cm(Point::new(0, -1_500)) <= 200);
 }
+
+/// The protocol is told once.
+#[test]
+fn a_follower_says_once_that_it_has_completed() {
+    let mut team = team(plan(&[leg(TaskType::MOVE, Point::new(100, 800))]), false);
+    team.people = vec![person(1, 100, -100)];
+    team.pass_until("done", |it| {
+        it.told(1, |event| matches!(event, Event::ManeuverCompleted(_))) > 0
+    });
+    team.pass(400);
+    let told = team.told(1, |event| matches!(event, Event::ManeuverCompleted(_)));
+    let reported = team.told(1, |event| matches!(event, Event::InPosition(_)));
+    assert_eq!((told, reported), (1, 1));
+}
