@@ -146,8 +146,4 @@ impl Scene {
         }
         count
     }
-
-    pub(crate) fn calls(&self) -> usize {
-        self.told(|event| matches!(event, Event::PedestrianDetected(_)))
-    }
 }

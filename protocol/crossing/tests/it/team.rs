@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 use crossguard_crossing::*;
 use crossguard_protocol::{
-    Config, Decimetres, Event, ManeuverId, Millis, Notice, Phase, Rmcm, Robot, StationId,
+    Config, Decimetres, Event, ManeuverId, Millis, Phase, Rmcm, Robot, StationId,
 };
 
 /// A tick, in milliseconds.
@@ -60,6 +60,7 @@ pub(crate) struct Member {
     last: u32,
 }
 
+#[allow(clippy::large_enum_variant, reason = "a short queue, in a test")]
 enum Item {
     Protocol(usize, crossguard_protocol::Input),
     Order(usize, StationId, Leg),
@@ -185,7 +186,7 @@ impl Team {
                         };
                         self.legs.insert(key(command.to, id), leg);
                     }
-                    self.to_others(robot, crossguard_protocol::Input::Rmcm(rmcm));
+                    self.broadcast(robot, crossguard_protocol::Input::Rmcm(rmcm));
                 }
                 Said::StartManeuver(maneuver) => {
                     let station = self.robots[robot].robot.station();
@@ -226,7 +227,7 @@ impl Team {
         self.carry_out(robot, &out);
     }
 
-    fn to_others(&mut self, from: usize, input: crossguard_protocol::Input) {
+    fn broadcast(&mut self, from: usize, input: crossguard_protocol::Input) {
         for robot in (0..self.robots.len()).filter(|robot| *robot != from) {
             self.queue.push_back(Item::Protocol(robot, input));
         }
@@ -242,7 +243,7 @@ impl Team {
             }
         }
         let distance = Decimetres(50);
-        self.to_others(from, crossguard_protocol::Input::Ram { ram, distance });
+        self.broadcast(from, crossguard_protocol::Input::Ram { ram, distance });
     }
 
     fn pose(&self, robot: usize) -> Option<Pose> {
@@ -359,10 +360,4 @@ impl Team {
 fn key(station: StationId, id: ManeuverId) -> (u32, u16, u16, u8) {
     let number = id.session.number.0;
     (station.0, number.boot, number.count, id.request.0)
-}
-
-/// Whether a notice says that a session ended.
-#[allow(dead_code, reason = "for scripts to come")]
-pub(crate) fn is_end(notice: Notice) -> bool {
-    matches!(notice, Notice::SessionEnded(..))
 }

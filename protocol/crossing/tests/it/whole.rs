@@ -1,7 +1,7 @@
 //! Whole crossings: from the person who waits to the robots that are idle again.
 
 use crossguard_crossing::*;
-use crossguard_protocol::{Event, HelpRequest, List, Millis, Phase, StationId, TaskSet, TaskType};
+use crossguard_protocol::{Event, HelpRequest, List, Millis, Phase, TaskSet, TaskType};
 
 use crate::scene::*;
 use crate::team::*;
@@ -201,13 +201,13 @@ fn go_ends_when_a_guard_is_not_at_its_place_any_more() {
             body.at = body.at.plus(Way {
                 east_cm: 300,
                 north_cm: 0,
-            })
+            });
         }),
         ("jumps", |body| {
             body.at = body.at.plus(Way {
                 east_cm: 3_000,
                 north_cm: 0,
-            })
+            });
         }),
         ("is lost", |body| body.is_lost = true),
     ];
@@ -367,4 +367,120 @@ fn a_follower_says_once_that_it_has_completed() {
     let told = team.told(1, |event| matches!(event, Event::ManeuverCompleted(_)));
     let reported = team.told(1, |event| matches!(event, Event::InPosition(_)));
     assert_eq!((told, reported), (1, 1));
+}
+
+/// A leader that waits for a person, and no helper, or one.
+fn alone(helpers: usize) -> Team {
+    let mut it = team(plan(&[leg(TaskType::BLOCK, POST)]), true);
+    it.robots.truncate(1 + helpers);
+    it
+}
+
+fn calls(team: &Team) -> usize {
+    team.told(0, |it| matches!(it, Event::PedestrianDetected(_)))
+}
+
+#[test]
+fn a_call_ends_when_the_person_leaves() {
+    for helpers in [0, 1] {
+        let mut team = alone(helpers);
+        team.people = vec![person(1, 460, -100)];
+        team.pass(1_300);
+        assert_eq!(calls(&team), 1);
+        team.people[0] = walking(team.people[0], 140, 0);
+        team.pass_until("idle", Team::is_idle);
+        assert!(!team.shows_go());
+        assert_eq!(team.first(0, |it| matches!(it, Output::Go(_))), None);
+        team.pass(5_000);
+        assert_eq!(calls(&team), 1);
+    }
+}
+
+#[test]
+fn a_call_is_repeated_while_the_person_waits_and_nobody_helps() {
+    let mut team = alone(0);
+    team.people = vec![person(1, 100, -100)];
+    team.pass(30_000);
+    assert!((2..=4).contains(&calls(&team)), "{} calls", calls(&team));
+}
+
+#[test]
+fn nobody_is_called_for_people_who_pass_vehicles_and_stale_sensors() {
+    let passer_by = walking(person(1, -800, -80), 140, 0);
+    let car = Sighting {
+        what: RoadUser::Vehicle,
+        ..person(1, 100, -80)
+    };
+    let rider = Sighting {
+        what: RoadUser::Bicyclist,
+        ..walking(person(1, -2_000, -80), 400, 0)
+    };
+    for who in [passer_by, car, rider] {
+        let mut team = alone(1);
+        team.people = vec![who];
+        team.pass(10_000);
+        assert_eq!(calls(&team), 0, "{who:?}");
+    }
+    let mut team = alone(1);
+    team.people = vec![person(1, 100, -100)];
+    team.sensor = |now, people| (now < 200).then(|| people.to_vec());
+    team.pass(10_000);
+    assert_eq!(calls(&team), 0, "a frame, and silence");
+}
+
+/// A follower whose leader fell silent while it did this: its session is over.
+fn left_alone(task: TaskType, sees: bool) -> Team {
+    let mut team = team(plan(&[leg(task, Point::new(100, 800))]), sees);
+    team.people = vec![person(1, 100, -100)];
+    team.pass_until("a maneuver", |it| it.robots[1].body.to.is_some());
+    team.people.clear();
+    team.robots[0].hangs_until = u32::MAX;
+    if !sees {
+        team.sensor = |_, _| None;
+    }
+    team
+}
+
+#[test]
+fn a_guard_that_knows_nothing_of_the_road_waits_for_a_person() {
+    for task in [TaskType::BLOCK, TaskType::MOVE] {
+        let mut team = left_alone(task, false);
+        team.pass(60_000);
+        assert!(team.robots[1].robot.duty().is_some());
+        // The word waits for the body.
+        team.hear(1, Input::BodyIsFree(false));
+        team.hear(1, Input::SaidClear);
+        team.pass(1_000);
+        assert!(team.robots[1].robot.duty().is_some());
+        team.hear(1, Input::BodyIsFree(true));
+        team.pass(100);
+        assert_eq!(team.robots[1].robot.duty(), None);
+        assert!(!team.robots[1].crossing.waits_for_clear());
+    }
+}
+
+#[test]
+fn a_robot_that_guarded_nobody_is_free_when_its_body_is() {
+    let mut team = left_alone(TaskType::INITIAL_POS, false);
+    team.pass(12_000);
+    assert_eq!(team.robots[1].robot.duty(), None);
+}
+
+/// The sign of its leader may show go for `t_safety` yet: what it sees before counts for nothing.
+#[test]
+fn a_guard_with_sensors_is_free_once_they_have_had_nobody_on_the_road() {
+    let mut team = left_alone(TaskType::BLOCK, true);
+    team.pass_until("a duty", |it| it.robots[1].robot.duty().is_some());
+    let t_safety = team.robots[1].setup.t_safety.0;
+    team.pass(t_safety + 300);
+    assert!(team.robots[1].robot.duty().is_some());
+    team.pass(600);
+    assert_eq!(team.robots[1].robot.duty(), None);
+    let mut team = left_alone(TaskType::BLOCK, true);
+    team.people = vec![person(1, 100, 300)];
+    team.pass(30_000);
+    assert!(team.robots[1].robot.duty().is_some());
+    team.people[0] = walking(team.people[0], 0, 200);
+    team.pass(4_000);
+    assert_eq!(team.robots[1].robot.duty(), None);
 }
