@@ -26,6 +26,8 @@ extern crate std;
 mod crossing;
 mod ground;
 mod input;
+#[cfg(any(test, feature = "laws"))]
+pub mod laws;
 mod lead;
 pub mod occupancy;
 mod plan;
