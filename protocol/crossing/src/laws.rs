@@ -12,6 +12,8 @@
 //! | [`more_against`] | a person, a malformed or a stale frame make nothing safer |
 //! | [`one_more_vehicle`] | nor does a vehicle that was not known before |
 
+#![expect(clippy::missing_panics_doc, reason = "laws assert")]
+
 #[cfg(test)]
 mod tests;
 
