@@ -18,7 +18,7 @@ use crossguard_endpoint::ras::area::Area;
 use serde::Deserialize;
 
 use crate::site::Place;
-use crate::site_file::{Purpose, SiteFile, Spot};
+use crate::site_file::{Purpose, SiteFile, Spot, between};
 use crate::zone::{WaitingRules, Zone};
 
 /// Most corners of a polygon.
@@ -129,9 +129,9 @@ impl ZoneTable {
                 count: layout.kerbs.len(),
             });
         };
-        self.polygon_m = Some(between(near, far, pavement_m));
+        self.polygon_m = Some(corners(near, far, pavement_m));
         if self.road_m.is_none() {
-            self.road_m = Some(between(near, far, 0.0));
+            self.road_m = Some(corners(near, far, 0.0));
         }
         let crossed = layout.places.values();
         let crossed = crossed.filter(|spot| spot.purpose == Purpose::Cross);
@@ -211,33 +211,9 @@ impl ZoneTable {
     }
 }
 
-/// The area between two kerbs, and so many metres behind them.
-fn between(near: [Place; 2], far: [Place; 2], behind_m: f64) -> Vec<[f64; 2]> {
-    let middle = |[a, b]: [Place; 2]| {
-        Place::new(
-            f64::midpoint(a.east, b.east),
-            f64::midpoint(a.north, b.north),
-        )
-    };
-    let behind = |kerb: [Place; 2], other: [Place; 2]| {
-        let [a, b] = kerb;
-        let (along_e, along_n) = (b.east - a.east, b.north - a.north);
-        let length = along_e.hypot(along_n).max(f64::MIN_POSITIVE);
-        let (own, other) = (middle(kerb), middle(other));
-        let (away_e, away_n) = (own.east - other.east, own.north - other.north);
-        // Across the kerb, away from the other one.
-        let side = if along_n * away_e - along_e * away_n < 0.0 {
-            -1.0
-        } else {
-            1.0
-        };
-        let (east, north) = (side * along_n / length, -side * along_e / length);
-        kerb.map(|end| [end.east + behind_m * east, end.north + behind_m * north])
-    };
-    let ([a, b], [c, d]) = (behind(near, far), behind(far, near));
-    let runs_alike = (b[0] - a[0]) * (d[0] - c[0]) + (b[1] - a[1]) * (d[1] - c[1]) > 0.0;
-    let (c, d) = if runs_alike { (d, c) } else { (c, d) };
-    vec![a, b, c, d]
+fn corners(near: [Place; 2], far: [Place; 2], behind_m: f64) -> Vec<[f64; 2]> {
+    let corners = between(near, far, behind_m);
+    corners.map(|Place { east, north }| [east, north]).to_vec()
 }
 
 fn within(
@@ -354,25 +330,6 @@ mod tests {
         }
         let escort = escort.unwrap().map(|place| (place.east, place.north));
         assert_eq!(escort, [(1.0, 8.0), (1.0, -1.0)]);
-    }
-
-    #[test]
-    fn kerbs_in_any_direction_enclose_the_road() {
-        let kerb = |a: [f64; 2], b: [f64; 2]| [Place::new(a[0], a[1]), Place::new(b[0], b[1])];
-        let (near, far) = (kerb([0.0, 0.0], [8.0, 8.0]), kerb([-4.0, 4.0], [4.0, 12.0]));
-        let turned = |[a, b]: [Place; 2]| [b, a];
-        for (near, far) in [
-            (near, far),
-            (turned(near), far),
-            (near, turned(far)),
-            (far, near),
-        ] {
-            let road = polygon("road_m", between(near, far, 0.0)).unwrap();
-            assert!((road.size_m2() - 64.0).abs() < 1e-6, "{road:?}");
-            let wide = polygon("polygon_m", between(near, far, 2.0)).unwrap();
-            let width_m = 32.0_f64.sqrt() + 4.0;
-            assert!((wide.size_m2() - width_m * 128.0_f64.sqrt()).abs() < 1e-6);
-        }
     }
 
     #[test]
