@@ -26,7 +26,7 @@ from std_msgs.msg import Empty, String
 from crossguard_msgs.action import Maneuver
 from crossguard_msgs.msg import Corridor, Event, Follower, Person, Session, Status
 
-VERSION = 1
+BODY_PORT_VERSION, OPERATOR_PORT_VERSION = 2, 1
 TURN_S = 0.02
 SHOWN_S = 0.3  # a corridor is shown no longer than this after its line
 STATUS_S = 1.0
@@ -61,8 +61,8 @@ def is_visible(environment):
 class Port:
     """Lines of JSON, from and to `crossguard run`."""
 
-    def __init__(self, address):
-        self.address, self.link, self.text, self.heard = address, None, b"", 0.0
+    def __init__(self, address, version):
+        self.address, self.version, self.link, self.text, self.heard = address, version, None, b"", 0.0
 
     def connect(self):
         """Whether it is connected now. It said hello, then."""
@@ -77,7 +77,7 @@ class Port:
             return False
         link.setblocking(False)
         self.link, self.text, self.heard = link, b"", time.monotonic()
-        return self.say("hello", crossguard=VERSION)
+        return self.say("hello", crossguard=self.version)
 
     def close(self):
         if self.link:
@@ -116,8 +116,9 @@ class Body:
     """The body port: each act is a goal of the action `maneuver`, and poses are the heartbeat of the body."""
 
     def __init__(self, node, address, silence_s):
-        self.node, self.port, self.silence_s = node, Port(address), silence_s
-        self.goal = self.hold = None  # the newest one
+        self.node, self.port, self.silence_s = node, Port(address, BODY_PORT_VERSION), silence_s
+        self.goal = None  # the newest one
+        self.waits = None  # the one that goes on after a wait
         self.pose = self.place = None  # not said yet; where and when it was before
         self.client = ActionClient(node, Maneuver, "~/maneuver")
         self.beat = node.create_publisher(Empty, "~/beat", 1)
@@ -149,10 +150,10 @@ class Body:
             self.act(line)
         if lines:
             self.beat.publish(Empty())
-        if self.goal and time.monotonic() - self.port.heard > self.silence_s:
-            done = self.goal["done"]
+        goal = self.goal or self.waits
+        if goal and time.monotonic() - self.port.heard > self.silence_s:
             self.stand()
-            done(False)
+            goal["done"](False)
         if self.pose:
             self.port.say("pose", **self.pose)
             self.pose = None
@@ -177,6 +178,13 @@ class Body:
                        self.port.say("fault", text=f"the body did not finish {policy}"))
         elif kind == "go":
             self.begin(goal, lambda is_done: None)
+        elif kind == "wait" and self.goal:
+            goal = self.goal
+            self.stand()
+            self.waits = goal
+        elif kind == "go-on" and self.waits:
+            self.waits["asked"].resumes = True
+            self.begin(self.waits["asked"], self.waits["done"])
         elif kind in ("stop", "halt") or kind == "release" and self.holds():
             self.stand()
         elif kind == "refused":
@@ -216,7 +224,7 @@ class Body:
             end(False)
 
     def stand(self):
-        goal, self.goal = self.goal, None
+        goal, self.goal, self.waits = self.goal, None, None
         if goal and goal["handle"] and goal["handle"].accepted:
             goal["handle"].cancel_goal_async()
 
@@ -225,7 +233,7 @@ class Operator:
     """The operator port: commands and people go in; corridor, status and events come out."""
 
     def __init__(self, node, address):
-        self.node, self.port = node, Port(address)
+        self.node, self.port = node, Port(address, OPERATOR_PORT_VERSION)
         self.robot = self.said = self.offset = None
         self.told = self.asked = 0.0
         self.drops = {}

@@ -1,4 +1,4 @@
-//! The lines of the body port, version 1: one JSON object each, with its kind under `type`.
+//! The lines of the body port, version 2: one JSON object each, with its kind under `type`.
 
 use crossguard_codec::{Target, TaskParameters};
 use crossguard_protocol::{FallbackPolicy, Maneuver};
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::site::{Place, Site};
 
 /// The version that both sides say in `hello`.
-pub const VERSION: u8 = 1;
+pub const VERSION: u8 = 2;
 
 /// What the kit says to a body.
 #[derive(Clone, PartialEq, Debug, Serialize)]
@@ -17,6 +17,8 @@ pub(super) enum ToBody {
     Start(Start),
     Stop { id: String, why: String },
     FallBack { id: String, policy: &'static str },
+    Wait,
+    GoOn,
     Go { to: At },
     Halt,
     Release,
