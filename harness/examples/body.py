@@ -20,8 +20,8 @@ while True:
     *lines, text = text.split(b"\n")
     for line in map(json.loads, lines):
         if line["type"] not in ("beat", "release"): waits = line["type"] == "wait"
-        to = line.get("to") and [line["to"]["east_m"], line["to"]["north_m"]]
-        if line["type"] == "start": begin, target, speed, done = place, to or place, line["speed_mps"] or 0.5, (line["report"], {"id": line["id"]})
+        to = line.get("to") and [line["to"]["eastM"], line["to"]["northM"]]
+        if line["type"] == "start": begin, target, speed, done = place, to or place, line["speedMps"] or 0.5, (line["report"], {"id": line["id"]})
         if line["type"] == "go": target, speed, done = to, 0.5, None
         if line["type"] in ("stop", "halt", "refused"): target = None
         if line["type"] == "fall-back":
@@ -31,6 +31,6 @@ while True:
         step, way = (time.monotonic() - last) * speed * pace, math.dist(place, target)
         place = target if way <= step else [a + (b - a) * step / way for a, b in zip(place, target)]
     last = time.monotonic()
-    say("pose", east_m=place[0], north_m=place[1], speed_mps=speed if target and place != target and not waits else 0.0)
+    say("pose", eastM=place[0], northM=place[1], speedMps=speed if target and place != target and not waits else 0.0)
     if target == place:
         target, done = None, done and say(done[0], **done[1])

@@ -79,6 +79,7 @@ pub struct Options {
 
 /// What came of a demonstration.
 #[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Outcome {
     /// What happened.
     pub scenario: Scenario,

@@ -14,6 +14,7 @@ use crate::serial::request_is_newer;
 
 /// The history of a run. Sorted, so that the order of unrelated events does not tell states apart.
 #[derive(Clone, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct History {
     commands: Vec<CommandRecord>,
     confirmed: Vec<(SessionId, Confirmation)>,
@@ -25,6 +26,7 @@ pub struct History {
 /// What became of one command.
 #[expect(clippy::struct_excessive_bools, reason = "each is an independent fact")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct CommandRecord {
     /// The follower that it was sent to.
     pub to: StationId,

@@ -28,7 +28,10 @@ use crate::words::words;
 /// | `t_offer` 3 s, `t_help` 10 s, `t_leave` 5 s | What a helper, a person at the kerb and a follower put up with; the paper says nothing of it. |
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+#[cfg_attr(
+    feature = "serde",
+    serde(rename_all = "camelCase", default, deny_unknown_fields)
+)]
 pub struct Settings {
     /// Interval of RAM in a session; a leader bumps its heartbeat at the same pace. 100 ms by default,
     /// the shortest interval of CAM (EN 302 637-2, clause 6.1.3).
@@ -82,6 +85,34 @@ pub struct Settings {
     pub first_request: RequestId,
     /// First heartbeat of a session; 0 by default.
     pub first_heartbeat: Heartbeat,
+}
+
+/// [`Settings`] as configuration files spell them: in snake_case, where JSON is in camelCase.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(remote = "Settings", default = "Settings::default", deny_unknown_fields)]
+pub struct SettingsInFiles {
+    ram_period: Millis,
+    t_select: Millis,
+    t_offer: Millis,
+    t_help: Millis,
+    t_ack: Millis,
+    n_ack: u8,
+    t_safety: Millis,
+    t_lease: Millis,
+    t_leave: Millis,
+    t_farewell: Millis,
+    t_lock: Millis,
+    t_cross: Millis,
+    t_exec: [Millis; TaskType::COUNT],
+    drift_ppm: u32,
+    delay_max: Millis,
+    capabilities: TaskSet,
+    guarding: TaskSet,
+    holding: TaskSet,
+    fallback: [FallbackPolicy; TaskType::COUNT],
+    first_request: RequestId,
+    first_heartbeat: Heartbeat,
 }
 
 impl Default for Settings {

@@ -15,6 +15,7 @@ use crate::words::words;
 /// What a Robot Awareness Message says about coordination.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 pub struct Ram {
     /// The station that sent it.
     pub station: StationId,
@@ -29,7 +30,10 @@ pub struct Ram {
 /// A robot's part in a session, as its RAM tells.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(rename_all_fields = "camelCase", rename_all = "camelCase")
+)]
 #[repr(u8)]
 pub enum Coordination {
     /// `helpStatus = none`: no part. It releases nobody from anything.

@@ -63,6 +63,7 @@ use robot::Follow;
 
 /// What valid logs hold.
 #[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Validated {
     /// How many robots.
     pub robots: usize,

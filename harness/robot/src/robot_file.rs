@@ -7,12 +7,12 @@ mod zone;
 use std::net::{SocketAddr, SocketAddrV4};
 use std::path::{Path, PathBuf};
 
-use crossguard_codec::{IdentifierClash, Identifiers, NoMapPlace, SignalMeans};
+use crossguard_codec::{IdentifierClash, Identifiers, IdentifiersInFiles, NoMapPlace, SignalMeans};
 use crossguard_endpoint::ras::clustering;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
 use crossguard_endpoint::station::Security;
-use crossguard_protocol::{BrokenInequality, Config, Settings, StationId};
+use crossguard_protocol::{BrokenInequality, Config, Settings, SettingsInFiles, StationId};
 use serde::Deserialize;
 
 use crate::application::{Application, Traits};
@@ -119,9 +119,9 @@ struct RobotTable {
     body: Option<BodyTable>,
     operator: Option<OperatorTable>,
     link: LinkTable,
-    #[serde(default)]
+    #[serde(default, with = "SettingsInFiles")]
     protocol: Settings,
-    #[serde(default)]
+    #[serde(default, with = "IdentifiersInFiles")]
     identifiers: Identifiers,
     #[serde(default)]
     people: clustering::Settings,

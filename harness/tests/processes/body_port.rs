@@ -218,7 +218,7 @@ fn a_body_that_is_not_understood_is_counted_and_a_second_one_is_refused() {
         "{\"type\": \"hello\", \"crossguard\": 2}",
         "{\"type\": \"dance\"}",
         "no json",
-        "{\"type\": \"pose\", \"east_m\": 1e30, \"north_m\": 0}",
+        "{\"type\": \"pose\", \"eastM\": 1e30, \"northM\": 0}",
         "{\"type\": \"completed\", \"id\": \"1#1.0/0\"}",
         "{\"type\": \"fault\", \"text\": \"hot motor\"}",
     ] {

@@ -80,7 +80,7 @@ fn a_program_commands_and_watches_a_crossing_whatever_others_say() {
         (&"open".into(), &"leader".into())
     );
     assert!(
-        open["open_ms"].as_u64().is_some_and(|left| left > 0),
+        open["openMs"].as_u64().is_some_and(|left| left > 0),
         "{open}"
     );
     let ended = until(&mut program, |line| line["notice"] == "sessionEnded");

@@ -1,8 +1,8 @@
 //! The file of a scenario: its form, and what is checked before it is one. An error names its line.
 
 use crossguard_protocol::{
-    Config, HelpRequest, Inequality, MAX_FOLLOWERS, Millis, Settings, StationId, TaskNames,
-    TaskSet, TaskType, Urgency,
+    Config, HelpRequest, Inequality, MAX_FOLLOWERS, Millis, Settings, SettingsInFiles, StationId,
+    TaskNames, TaskSet, TaskType, Urgency,
 };
 use serde::Deserialize;
 
@@ -32,7 +32,7 @@ struct File {
     #[serde(default)]
     cooperative: bool,
     channel: ChannelSetup,
-    #[serde(default)]
+    #[serde(default, with = "SettingsInFiles")]
     protocol: Settings,
     timed: Option<Section>,
     properties: Vec<toml::Spanned<String>>,

@@ -134,7 +134,7 @@ class Body:
         speed = math.dist(place, before[0]) / (now - before[1]) if before and now > before[1] else 0.0
         z, w = message.pose.orientation.z, message.pose.orientation.w
         heading = 90.0 - math.degrees(2 * math.atan2(z, w))
-        self.pose = dict(east_m=place[0], north_m=place[1], heading_deg=heading % 360.0, speed_mps=speed)
+        self.pose = dict(eastM=place[0], northM=place[1], headingDeg=heading % 360.0, speedMps=speed)
 
     def turn(self, late_s):
         if late_s > self.silence_s:  # it was held: what has come meanwhile is of no use any more
@@ -162,15 +162,15 @@ class Body:
         kind, to = line["type"], line.get("to")
         goal = Maneuver.Goal(has_target=bool(to))
         if to:
-            goal.target.x, goal.target.y = to["east_m"], to["north_m"]
+            goal.target.x, goal.target.y = to["eastM"], to["northM"]
             goal.latitude, goal.longitude = to["latitude"], to["longitude"]
         if kind == "start":
             report, maneuver = line["report"], line["id"]
             goal.task, goal.hold = line["task"], report == "in-position"
-            goal.speed = line["speed_mps"] or 0.0
-            goal.pedestrian_distance = line["pedestrian_distance_m"] or 0.0
-            goal.has_heading = line["heading_deg"] is not None
-            goal.heading = math.radians(90.0 - (line["heading_deg"] or 0.0))
+            goal.speed = line["speedMps"] or 0.0
+            goal.pedestrian_distance = line["pedestrianDistanceM"] or 0.0
+            goal.has_heading = line["headingDeg"] is not None
+            goal.heading = math.radians(90.0 - (line["headingDeg"] or 0.0))
             self.begin(goal, lambda is_done: self.port.say(report if is_done else "failed", id=maneuver))
         elif kind == "fall-back":
             goal.policy, policy = line["policy"], line["policy"]
@@ -245,7 +245,7 @@ class Operator:
         node.create_subscription(BatteryState, "~/battery", self.charge, 10)
 
     def trusts(self):
-        return bool(self.robot and self.robot["trusts_ros_graph"])
+        return bool(self.robot and self.robot["trustsRosGraph"])
 
     def say(self, kind, **more):
         if not self.robot:
@@ -305,31 +305,31 @@ class Operator:
         """Tells a state: its corridor if no newer one is known, and the rest when it changes or a second is over."""
         now = time.monotonic()
         # A line that waited, here or in the socket, is older than the quickest one would be.
-        passed = now - line["at_us"] / 1e6
+        passed = now - line["atUs"] / 1e6
         self.offset = passed if self.offset is None else min(passed, self.offset)
-        left = min(line.get("open_ms", 0) / 1e3, SHOWN_S) - (passed - self.offset)
+        left = min(line.get("openMs", 0) / 1e3, SHOWN_S) - (passed - self.offset)
         if is_newest:
-            corridor = Corridor(station=line["station"], open=left > 0, road_occupied=line["road_occupied"],
+            corridor = Corridor(station=line["station"], open=left > 0, road_occupied=line["roadOccupied"],
                                 valid_for=Duration(seconds=max(left, 0.0)).to_msg())
             corridor.header.stamp = self.node.now()
             self.corridor.publish(corridor)
-        what = {name: value for name, value in line.items() if name not in ("at_us", "open_ms")}
+        what = {name: value for name, value in line.items() if name not in ("atUs", "openMs")}
         if what == self.said and now - self.told < STATUS_S:
             return
         self.said, self.told = what, now
         executes = line.get("executes", {})
         status = Status(robot=self.robot["robot"], corridor=line.get("corridor", Status.CORRIDOR_CLEAR),
                         task=task_of(executes.get("task")), request=executes.get("request", 0),
-                        yields_to=line.get("yields_to", 0), duty=line.get("duty", ""),
-                        duty_request=line.get("duty_request", 0))
+                        yields_to=line.get("yieldsTo", 0), duty=line.get("duty", ""),
+                        duty_request=line.get("dutyRequest", 0))
         for name in ("station", "boot", "state", "role", "availability"):
             setattr(status, name, line[name])
         status.header.stamp = self.node.now()
         status.in_session, status.session = self.session(line.get("session"))
-        _, status.duty_session = self.session(line.get("duty_session"))
+        _, status.duty_session = self.session(line.get("dutySession"))
         status.followers = [
-            Follower(station=it["station"], has_joined=it["has_joined"], task=task_of(it.get("task")),
-                     progress=it.get("progress", ""), has_lease=it["has_lease"]) for it in line.get("followers", [])]
+            Follower(station=it["station"], has_joined=it["hasJoined"], task=task_of(it.get("task")),
+                     progress=it.get("progress", ""), has_lease=it["hasLease"]) for it in line.get("followers", [])]
         self.status.publish(status)
 
 

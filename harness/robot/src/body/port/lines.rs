@@ -28,6 +28,7 @@ pub(super) enum ToBody {
 
 /// A maneuver that begins.
 #[derive(Clone, PartialEq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub(super) struct Start {
     id: String,
     task: String,
@@ -41,6 +42,7 @@ pub(super) struct Start {
 
 /// A place, on the site and on earth.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub(super) struct At {
     east_m: f64,
     north_m: f64,
@@ -50,7 +52,11 @@ pub(super) struct At {
 
 /// What a body says to the kit. Fields that are not named here are left alone.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
-#[serde(tag = "type", rename_all = "kebab-case")]
+#[serde(
+    rename_all_fields = "camelCase",
+    tag = "type",
+    rename_all = "kebab-case"
+)]
 pub(super) enum FromBody {
     Hello {
         crossguard: u8,

@@ -79,11 +79,11 @@ fn acts_go_out_as_lines_and_what_the_body_says_comes_in() {
         (&"1#1.0/0".into(), &"in-position".into())
     );
     assert!(
-        (line["to"]["east_m"].as_f64().unwrap() - 6.0).abs() < 1e-6,
+        (line["to"]["eastM"].as_f64().unwrap() - 6.0).abs() < 1e-6,
         "{line}"
     );
-    assert_eq!(line["heading_deg"], 90.0);
-    let said = "{\"type\": \"pose\", \"east_m\": 6.1, \"north_m\": 5}\n{\"type\": \"in-position\", \"id\": \"1#1.0/0\"}";
+    assert_eq!(line["headingDeg"], 90.0);
+    let said = "{\"type\": \"pose\", \"eastM\": 6.1, \"northM\": 5}\n{\"type\": \"in-position\", \"id\": \"1#1.0/0\"}";
     writeln!(other, "{said}").unwrap();
     let there = Report::InPosition(maneuver(TaskType::BLOCK).id);
     assert_eq!(report(&mut body), Some(there));
