@@ -74,7 +74,8 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// Takes an event off what may still happen.
+    /// Takes an event off what may still happen. One without a bound may happen at any time: a bound that is forgotten
+    /// makes the state space larger.
     pub(crate) fn spend(&mut self, event: Event) {
         let bound = match event {
             Event::PedestrianDetected(_) => &mut self.detections,
@@ -85,15 +86,7 @@ impl Bounds {
             | Event::IdentityChanged(..) => &mut self.disturbances,
             Event::OutOfPosition(_) => &mut self.drifts,
             Event::PersonOnRoad => &mut self.sightings,
-            Event::InPosition(_)
-            | Event::ManeuverCompleted(_)
-            | Event::TaskCompleted
-            | Event::RoadClear
-            | Event::AllAnswered
-            | Event::EpochRenewed(_)
-            | Event::AvailabilityChanged(Availability::Available)
-            | Event::OpenCorridor
-            | Event::CloseCorridor => return,
+            _ => return,
         };
         *bound -= 1;
     }
