@@ -4,7 +4,7 @@ use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::{all, all_but_validity, keeps_the_state_valid};
 use crossguard_protocol::{EventKind, OutputKind, Phase, Robot, Role};
 
-use super::stage::{From, becomes, steps_of_others};
+use super::stage::{From, becomes, steps_with_those_of_leaders};
 
 const FROM: From = From::stage(Role::Follower);
 
@@ -12,7 +12,7 @@ fn sees_people(robot: &Robot) -> bool {
     matches!(robot.phase(), Phase::Following(following) if following.sees_people)
 }
 
-steps_of_others! { FROM, all;
+steps_with_those_of_leaders! { FROM, all;
     @each |step| { "ignored": step.is_ignored() } {
         hears_an_answer(Kind::Answer);
         detects_a_pedestrian(Kind::Local(EventKind::PedestrianDetected));

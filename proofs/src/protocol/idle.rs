@@ -4,11 +4,11 @@ use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::all;
 use crossguard_protocol::{EventKind, OutputKind, Role};
 
-use super::stage::{From, becomes, steps_of_others};
+use super::stage::{From, becomes, steps_with_those_of_leaders};
 
 const FROM: From = From::stage(Role::None);
 
-steps_of_others! { FROM, all;
+steps_with_those_of_leaders! { FROM, all;
     @each |step| { "ignored": step.is_ignored() } {
         hears_a_farewell(Kind::RamNone);
         hears_a_command(Kind::Command);

@@ -34,16 +34,13 @@ pub(super) const IGNORED: [Kind; 10] = [
 /// are passed. [`conduct`] marks the outcomes.
 macro_rules! of_each_input {
     ($laws:expr $(; $($timers:tt)+)?) => {
-        $crate::protocol::stage::steps! { super::FROM, $laws;
+        $crate::protocol::stage::steps_with_those_of_leaders! { super::FROM, $laws;
             @each |step| { "a step": step.before.role() == Role::Leader } {
                 hears_a_follower(Kind::RamFollower);
                 hears_a_farewell(Kind::RamNone);
                 hears_an_offer(Kind::RamOfferHelp);
                 hears_a_leader(Kind::RamLeader);
                 hears_an_answer(Kind::Answer);
-                commands(Kind::Local(EventKind::CommandManeuver));
-                opens_the_corridor(Kind::Local(EventKind::OpenCorridor));
-                closes_the_corridor(Kind::Local(EventKind::CloseCorridor));
                 completes_the_task(Kind::Local(EventKind::TaskCompleted));
                 leaves(Kind::Local(EventKind::LeaveRequested));
                 changes_its_availability(Kind::Local(EventKind::AvailabilityChanged));

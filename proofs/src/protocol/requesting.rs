@@ -4,7 +4,7 @@ use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::{all, ignores};
 use crossguard_protocol::{EndReason, EventKind, NoticeKind, OutputKind, Role, TimerKind};
 
-use super::stage::{From, becomes, steps_of_others};
+use super::stage::{From, becomes, steps_with_those_of_leaders};
 
 /// How many offers the requester has heard, at most: one of the station that a message is about, and
 /// another.
@@ -29,7 +29,7 @@ pub(super) const IGNORED: [Kind; 10] = [
     Kind::Local(EventKind::PersonOnRoad),
 ];
 
-steps_of_others! { FROM, all, ignores;
+steps_with_those_of_leaders! { FROM, all, ignores;
     @each |step| { "ignored": step.is_ignored() } {
         hears_a_command(IGNORED[0], ignores);
         hears_an_answer(IGNORED[1], ignores);
