@@ -246,6 +246,8 @@ const fn key_of(inequality: Inequality) -> &'static str {
         Inequality::CrossingWithinLimits => "t_cross",
         Inequality::FarewellRepeated => "t_farewell",
         Inequality::LockOutlastsTask | Inequality::HeartbeatsInNumberSpace => "t_lock",
+        Inequality::NamedTasksGuard => "guarding",
+        Inequality::BlockHolds => "holding",
         Inequality::TimerInRange => "protocol",
     }
 }
