@@ -235,6 +235,16 @@ pub enum Impossibility {
     /// Timers contradict each other.
     #[error("[protocol] {0}")]
     Settings(#[from] BrokenInequality),
+    /// Nobody crosses so fast.
+    #[error(
+        "[protocol] t_cross is {t_cross_s} s: a slow walker (0.9 m/s) is between the kerbs of the site for {walk_s:.1} s"
+    )]
+    CrossingTime {
+        /// `t_cross`, in seconds.
+        t_cross_s: f64,
+        /// How long a slow walker is on the carriageway, in seconds.
+        walk_s: f64,
+    },
     /// Identifiers contradict each other.
     #[error("[identifiers] {0}")]
     Identifiers(#[from] IdentifierClash),
@@ -466,12 +476,17 @@ impl RobotTable {
             .zone
             .map(|zone| zone.check(&layout, confidence_min, autopilot));
         let (zone, kerbs) = zone.transpose()?.unzip();
+        let config = Config::new(self.protocol)?;
+        let t_cross_s = f64::from(config.settings().t_cross.0) / 1_000.0;
+        if let Some(walk_s) = layout.walk_s().filter(|walk_s| *walk_s > t_cross_s) {
+            return Err(Impossibility::CrossingTime { t_cross_s, walk_s });
+        }
         // On a site of one's own the crossing is where its places are.
         let crossing = Path::new("crossing");
         let own = (self.autopilot && self.site_file.is_some()).then_some(crossing);
         let plan = self.plan_file.as_deref().or(own);
         let plan = plan
-            .map(|name| PlanFile::open(name, layout.at(site)))
+            .map(|name| PlanFile::open_for(name, layout.at(site), config.settings()))
             .transpose()?;
         let traits = traits::check(self.job, self.dimensions_m, &self.battery)?;
         Ok(RobotFile {
@@ -491,7 +506,7 @@ impl RobotTable {
             body_port: self.body.map(|body| body.check(folder)).transpose()?,
             operator_port: self.operator.map(|it| it.check(folder)).transpose()?,
             link: self.link.check()?,
-            config: Config::new(self.protocol)?,
+            config,
             identifiers: self.identifiers,
             awareness: Awareness {
                 clustering: self.people,
@@ -548,3 +563,6 @@ impl LinkTable {
         self.sends.map_or(Ok(link), |_| Err(Impossibility::Link))
     }
 }
+
+#[cfg(test)]
+mod tests;

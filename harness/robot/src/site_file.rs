@@ -135,6 +135,9 @@ struct SpotTable {
 /// How far the carriageway goes on beside the crossing unless the site says it, in metres.
 const ALONG_M: f64 = 10.0;
 
+/// How fast crossings are designed for elderly people and small children, in m/s; for others it is 1.2 m/s.
+const SLOW_MPS: f64 = 0.9;
+
 /// The street of the demonstrations.
 const STREET: &str = include_str!("../plans/street.toml");
 
@@ -177,6 +180,12 @@ impl SiteFile {
             return None;
         };
         Some(Carriageway::new(near, far, self.along_m))
+    }
+
+    /// How long a slow walker is on the carriageway, in seconds; `None` where the site does not have two kerbs.
+    #[must_use]
+    pub fn walk_s(&self) -> Option<f64> {
+        self.carriageway().map(|road| road.width_m() / SLOW_MPS)
     }
 
     /// The lane that a place is on.

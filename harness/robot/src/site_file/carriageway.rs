@@ -10,7 +10,7 @@
 
 use crate::site::Place;
 
-/// The carriageway at a crossing, by its corners, counter-clockwise.
+/// The carriageway at a crossing, by its corners, counter-clockwise: the first two are of one kerb.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Carriageway {
     /// The part between the kerbs of the site.
@@ -29,6 +29,20 @@ impl Carriageway {
             crossing: between(near, far, 0.0),
             whole: between(longer(near), longer(far), 0.0),
         }
+    }
+
+    /// How wide it is where people cross, at the widest, in metres.
+    #[must_use]
+    pub fn width_m(&self) -> f64 {
+        let [a, b, c, d] = self.crossing;
+        let across = |a: Place, b: Place, to: Place| turn(a, b, to) / a.distance(b);
+        let ways = [
+            across(a, b, c),
+            across(a, b, d),
+            across(c, d, a),
+            across(c, d, b),
+        ];
+        ways.into_iter().fold(0.0, f64::max)
     }
 
     /// Whether the lines of the kerbs do not meet in it.
@@ -90,6 +104,7 @@ mod tests {
             corners(road.whole),
             [(-13.0, 0.0), (15.0, 0.0), (15.0, 7.0), (-13.0, 7.0)]
         );
+        assert_eq!(street.walk_s(), Some(7.0 / 0.9));
         let one = SiteFile {
             kerbs: street.kerbs[..1].to_vec(),
             ..street
@@ -113,6 +128,7 @@ mod tests {
         ] {
             let road = Carriageway::new(near, far, 5.0);
             assert!(road.is_convex());
+            assert!((road.width_m() - width_m).abs() < 1e-6);
             for (corners, expected) in [
                 (road.crossing, length_m * width_m),
                 (road.whole, (length_m + 10.0) * width_m),
