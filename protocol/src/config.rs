@@ -90,7 +90,11 @@ pub struct Settings {
 /// [`Settings`] as configuration files spell them: in snake_case, where JSON is in camelCase.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
-#[serde(remote = "Settings", default = "Settings::default", deny_unknown_fields)]
+#[serde(
+    remote = "Settings",
+    default = "Settings::default",
+    deny_unknown_fields
+)]
 pub struct SettingsInFiles {
     ram_period: Millis,
     t_select: Millis,

@@ -29,7 +29,7 @@ use crate::site::{CrossingReference, NoCrossing, Place, Site};
 use crate::site_file::SiteFile;
 use crate::street::{Road, Street};
 use crate::transport::{Framing, Halves, Link};
-use crate::zone::{Watched, Zone};
+use crate::zone::Zone;
 
 use self::body::BodyTable;
 pub use self::body::NoBody;
@@ -361,10 +361,16 @@ impl RobotFile {
     #[must_use]
     pub fn road(&self) -> Road {
         match &self.zone {
-            Some(zone) => Road::Watched(Watched::new(zone.clone())),
-            None if self.autopilot => Road::Own(Street::default()),
+            Some(zone) => Road::Watched(zone.clone()),
+            None if self.autopilot => Road::Own(self.street()),
             None => Road::Unknown,
         }
+    }
+
+    /// A simulated street, which people cross where it has them escorted.
+    fn street(&self) -> Street {
+        let kerbs = self.plan().and_then(|plan| plan.kerbs);
+        kerbs.map_or_else(Street::default, |[from, to]| Street::between(from, to))
     }
 
     /// What it does when it leads, if it leads by itself.

@@ -59,7 +59,9 @@ fn a_program_commands_and_watches_a_crossing_whatever_others_say() {
     let mut spoils = [connect(&ari), connect(&ari), connect(&ari)];
     writeln!(spoils[0].get_mut(), "no json").unwrap();
     // It may be sent away meanwhile.
-    let _ = spoils[1].get_mut().write_all(&[b'x'; 10_000]);
+    let _ = spoils[1]
+        .get_mut()
+        .write_all("x".repeat(100_000).as_bytes());
     writeln!(
         spoils[2].get_mut(),
         "{{\"type\": \"hello\", \"crossguard\": 1}}"

@@ -159,16 +159,16 @@ impl<const N: usize> Crossing<N> {
         match input {
             Input::Elapsed(time) => self.elapse(setup, time, &mut out),
             Input::Frame(frame) => self.frame(setup, &frame, &mut out),
-            Input::BadFrame(source) => {
-                self.occupancy.doubt(source);
-                out.put(Output::Dropped(source, FrameDrop::Malformed));
+            Input::BadFrame => {
+                self.occupancy.start_anew();
+                out.put(Output::Dropped(FrameDrop::Malformed));
             }
             Input::Heard(sighting, age) => self.heard(setup, sighting, age),
             Input::Vehicle(vehicle, age) => {
                 self.traffic.hear(setup, vehicle, age);
                 self.guard_corridor(setup, &mut out);
             }
-            Input::Pose(pose, age) => self.is_at(setup, pose, age, &mut out),
+            Input::Pose(pose, age) => self.is_at(setup, pose, age),
             Input::FollowerAt(station, pose, age) => {
                 if let (Some(plan), Some(lead)) = (&setup.plan, &mut self.lead) {
                     lead.follower_is_at(setup, plan, station, pose, age);
@@ -208,6 +208,7 @@ impl<const N: usize> Crossing<N> {
         let is_own = matches!(self.standing, Standing::Requesting | Standing::Leading);
         if was_own && !is_own {
             self.end_call();
+            self.lead = None;
         }
         self.corridor = match robot.phase() {
             Phase::Leading(leading) => leading.corridor,
@@ -310,12 +311,12 @@ impl<const N: usize> Crossing<N> {
         if let Err(why) = self.occupancy.admit(setup, frame) {
             let mut people = frame.sightings.iter();
             let is_person = |it: &Sighting| it.what != RoadUser::Vehicle;
-            if why == FrameDrop::OutOfOrder
+            if matches!(why, FrameDrop::OutOfOrder | FrameDrop::Stale)
                 && people.any(|it| is_person(it) && may_be_on_road(setup, it))
             {
-                self.occupancy.occupy();
+                self.occupancy.occupy(setup);
             }
-            return out.put(Output::Dropped(frame.source, why));
+            return out.put(Output::Dropped(why));
         }
         let mut is_occupied = false;
         self.tracks
@@ -324,6 +325,10 @@ impl<const N: usize> Crossing<N> {
             });
         if is_occupied {
             self.occupancy.owe(setup, frame);
+            // The word of a person was said before this.
+            if let Some(obligation) = &mut self.obligation {
+                obligation.is_said_clear = false;
+            }
         } else if frame.age < self.quiet {
             self.occupancy.count(frame);
             if self.occupancy.settle(setup) {
@@ -362,11 +367,11 @@ impl<const N: usize> Crossing<N> {
                 is_occupied |= may_be_on_road(setup, person);
             });
         if is_occupied {
-            self.occupancy.occupy();
+            self.occupancy.occupy(setup);
         }
     }
 
-    fn is_at(&mut self, setup: &Setup, pose: Option<Pose>, age: Millis, out: &mut Outputs) {
+    fn is_at(&mut self, setup: &Setup, pose: Option<Pose>, age: Millis) {
         let is_news = age < setup.position.lease && self.pose.is_none_or(|(_, known)| age <= known);
         if pose.is_none() || is_news {
             self.pose = pose.map(|pose| (pose, age));
@@ -380,8 +385,6 @@ impl<const N: usize> Crossing<N> {
                 task.presence.learn(setup.position, place, pose, age);
             }
         }
-        self.watch_task(setup, out);
-        self.guard_corridor(setup, out);
     }
 
     fn body_reports(&mut self, report: BodyReport) {
@@ -419,7 +422,7 @@ impl<const N: usize> Crossing<N> {
     fn watch_task(&mut self, setup: &Setup, out: &mut Outputs) {
         let sees_somebody = self.sees_somebody(setup);
         if self.standing == Standing::Following && self.occupancy.has_sources() {
-            if self.occupancy.was_seen() && !self.is_person_told {
+            if self.occupancy.owes() && !self.is_person_told {
                 out.tell(Event::PersonOnRoad);
             } else if self.is_person_told && !sees_somebody && self.obligation.is_none() {
                 out.tell(Event::RoadClear);
@@ -598,7 +601,8 @@ impl<const N: usize> Crossing<N> {
     /// Calls for help when somebody waits to cross, and ends the call when everybody has left before they were let
     /// across.
     fn watch_zone(&mut self, setup: &Setup, out: &mut Outputs) {
-        if let Some(urgency) = self.tracks.urgency()
+        if setup.calls
+            && let Some(urgency) = self.tracks.urgency()
             && self.standing == Standing::Free
             && !self.is_called
             && self.call_pause == Millis::ZERO
@@ -639,7 +643,13 @@ impl<const N: usize> Crossing<N> {
     fn end_call(&mut self) {
         (self.is_called, self.has_opened) = (false, false);
         self.call_pause = CALL_PERIOD;
-        self.lead = None;
+    }
+
+    /// It is somewhere else: what it knew of people and vehicles says nothing of this place.
+    pub fn come_elsewhere(&mut self) {
+        self.tracks = Tracks::default();
+        self.occupancy = Occupancy::default();
+        self.traffic = Traffic::default();
     }
 
     /// The people that it knows of.

@@ -16,8 +16,10 @@ pub enum RoadUser {
     WheelchairUser,
     /// A person on a bicycle.
     Bicyclist,
-    /// Somebody or something else that is no vehicle.
-    Other,
+    /// A person on a motorcycle.
+    Motorcyclist,
+    /// An animal.
+    Animal,
     /// A vehicle.
     Vehicle,
 }
@@ -92,8 +94,8 @@ pub enum Input<'a> {
     Elapsed(Millis),
     /// A source delivered a frame.
     Frame(Frame<'a>),
-    /// A source delivered something that is no frame.
-    BadFrame(u8),
+    /// A source delivered something that is no frame, which may have been of any source.
+    BadFrame,
     /// Another station reports somebody who is no vehicle. It may add people, and takes none away.
     Heard(Sighting, Millis),
     /// A vehicle was heard or seen, so long ago.
@@ -137,11 +139,22 @@ pub enum FrameDrop {
     Malformed,
 }
 
+impl FrameDrop {
+    /// Its name in counters.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Stale => "stale",
+            Self::OutOfOrder => "out of order",
+            Self::NoSuchSource => "no such source",
+            Self::Malformed => "malformed",
+        }
+    }
+}
+
 /// What keeps people from crossing.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Hindrance {
-    /// The plan is not there yet.
-    Stage,
     /// A guard is not at its place, or nobody knows where it is.
     GuardElsewhere(StationId),
     /// The leader itself is not at its place.
@@ -150,8 +163,6 @@ pub enum Hindrance {
     NoSight,
     /// A vehicle can no longer stop comfortably: its key.
     Vehicle(u32),
-    /// Nobody wants to cross.
-    NobodyWaits,
 }
 
 /// What the crossing machine puts out.
@@ -174,7 +185,7 @@ pub enum Output {
     /// To the body: it need not hold any more.
     Release,
     /// To the log: a frame was dropped.
-    Dropped(u8, FrameDrop),
+    Dropped(FrameDrop),
     /// To the log: why an open corridor is closed.
     Hindered(Hindrance),
 }

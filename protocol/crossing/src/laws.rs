@@ -98,7 +98,7 @@ fn sighting(source: &mut impl Source) -> Sighting {
         0 => RoadUser::Pedestrian,
         1 => RoadUser::WheelchairUser,
         2 => RoadUser::Bicyclist,
-        3 => RoadUser::Other,
+        3 => RoadUser::Animal,
         _ => RoadUser::Vehicle,
     };
     Sighting {
@@ -175,7 +175,7 @@ fn setup(source: &mut impl Source) -> Setup {
         stages: core::iter::once(Stage::everybody(Leg {
             task: arbitrary::Any::any(source),
             to: point(source),
-            speed_cmps: 100,
+            speed_mmps: 1_000,
             heading_ddeg: None,
         }))
         .collect(),
@@ -195,7 +195,7 @@ fn observation(source: &mut impl Source) -> Told {
             let look = look(source);
             return Told::Frame(look, source.flag().then(|| sighting(source)));
         }
-        5 => Input::BadFrame(source.u8(0)),
+        5 => Input::BadFrame,
         6 => Input::Heard(sighting(source), millis(source, 100)),
         7 => {
             let key = source.number(u32::MAX, 1);
@@ -329,7 +329,7 @@ fn is_never_safer(
         let told = calm(source, step);
         let mut next = more.clone();
         let out = told.to(&mut next, setup);
-        let is_late = |it: &Output| matches!(it, Output::Dropped(_, FrameDrop::OutOfOrder));
+        let is_late = |it: &Output| matches!(it, Output::Dropped(FrameDrop::OutOfOrder));
         if out.iter().any(is_late) {
             continue;
         }
@@ -394,7 +394,7 @@ pub fn more_against(source: &mut impl Source) {
     };
     let against = match source.number(3, 0) {
         0 => Told::Frame(look(source), Some(on_road)),
-        1 => Told::Input(Input::BadFrame(source.u8(0))),
+        1 => Told::Input(Input::BadFrame),
         2 => Told::Input(Input::Heard(on_road, millis(source, 100))),
         _ => {
             let age = setup.sensors.age_max.saturating_add(Millis(1));

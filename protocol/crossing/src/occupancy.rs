@@ -17,9 +17,6 @@ pub const SOURCES: usize = 4;
 /// Capacity of a [`Coverage`] for parts.
 const PARTS: usize = 32;
 
-/// For how long a person on the road counts as wanting the corridor after they were seen there last.
-pub const LINGER: Millis = Millis(1_000);
-
 /// What is known of one source.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 struct Source {
@@ -126,7 +123,7 @@ impl Occupancy {
             };
             source.owed = source.owed.union(parts);
         }
-        self.occupy();
+        self.occupy(setup);
     }
 
     /// Whether its own sensors have had nobody on the road for more than `miss_max` frames; what they covered before
@@ -149,9 +146,9 @@ impl Occupancy {
     }
 
     /// Somebody is on the road.
-    pub(crate) fn occupy(&mut self) {
+    pub(crate) fn occupy(&mut self, setup: &Setup) {
         self.start_anew();
-        self.seen = LINGER;
+        self.seen = setup.sensors.linger;
     }
 
     /// Starts the count anew.
@@ -191,7 +188,15 @@ impl Occupancy {
         known.all(|it| it.is_fresh(sensors) && it.clear(sensors).has(it.covers.union(it.owed)))
     }
 
-    /// Whether somebody was seen or reported on the road within the last [`LINGER`].
+    /// Whether the robot's own sensors had somebody on the road, and have not had nobody there since.
+    #[must_use]
+    pub fn owes(&self) -> bool {
+        self.sources
+            .iter()
+            .any(|source| source.owed != Coverage::NONE)
+    }
+
+    /// Whether somebody was seen or reported on the road within the last `linger`.
     #[must_use]
     pub fn was_seen(&self) -> bool {
         self.seen > Millis::ZERO

@@ -17,8 +17,8 @@ pub struct Leg {
     pub task: TaskType,
     /// Where it leads.
     pub to: Point,
-    /// How fast, in cm/s.
-    pub speed_cmps: u16,
+    /// How fast, in mm/s.
+    pub speed_mmps: u16,
     /// Which way to face there, in tenths of a degree clockwise from north, if that matters.
     pub heading_ddeg: Option<u16>,
 }

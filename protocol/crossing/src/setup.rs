@@ -22,6 +22,9 @@ pub struct Sensors {
     pub age_max: Millis,
     /// Longest time from one frame of a source to its next; 500 ms by default. A longer one starts the count anew.
     pub gap_max: Millis,
+    /// For how long a person on the road counts as wanting the corridor after they were seen there last; 1 s by
+    /// default.
+    pub linger: Millis,
 }
 
 impl Default for Sensors {
@@ -32,6 +35,7 @@ impl Default for Sensors {
             speed_max_cmps: 400,
             age_max: Millis(500),
             gap_max: Millis(500),
+            linger: Millis(1_000),
         }
     }
 }
@@ -119,7 +123,9 @@ impl Default for PositionRules {
 pub struct Setup {
     /// Whether the robot has sensors of its own for people: without frames it lets nobody cross then.
     pub watches: bool,
-    /// What is assumed of them.
+    /// Whether it calls for help when somebody waits, or somebody else tells of them.
+    pub calls: bool,
+    /// What is assumed of its sensors.
     pub sensors: Sensors,
     /// When somebody waits.
     pub waiting: WaitingRules,
@@ -146,6 +152,7 @@ impl Default for Setup {
     fn default() -> Self {
         Self {
             watches: false,
+            calls: false,
             sensors: Sensors::default(),
             waiting: WaitingRules::default(),
             traffic: TrafficRules::default(),
@@ -169,14 +176,17 @@ impl Default for Setup {
 impl Setup {
     /// The same, beside a protocol with these settings.
     #[must_use]
-    pub fn with(self, config: &Config) -> Self {
+    pub fn with(mut self, config: &Config) -> Self {
+        self.learn(config);
+        self
+    }
+
+    /// The protocol beside it has these settings.
+    pub fn learn(&mut self, config: &Config) {
         let settings = config.settings();
-        Self {
-            guarding: settings.guarding,
-            holding: settings.holding,
-            t_safety: settings.t_safety,
-            ..self
-        }
+        self.guarding = settings.guarding;
+        self.holding = settings.holding;
+        self.t_safety = settings.t_safety;
     }
 
     /// The maneuvers that guard people on their way: escorts.

@@ -47,6 +47,8 @@ pub(crate) const OTHERS: u8 = u8::MAX;
 
 /// What somebody does at a crossing.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 pub enum Conduct {
     /// Is somewhere else.
     Elsewhere,

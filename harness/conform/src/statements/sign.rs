@@ -5,7 +5,7 @@ use crossguard_protocol::{Command, Coordination, Heartbeat, Progress, SessionId,
 
 use super::{Met, due, met_when, news};
 use crate::bench::Terms;
-use crate::exchange::{Exchange, Happening, Message, RamSeen, session_of};
+use crate::exchange::{Exchange, Happening, Message, RamSeen, following, session_of};
 use crate::subject::Local;
 
 statements! {

@@ -11,7 +11,7 @@
 //! they state is added. Clocks of several machines are taken as they are.
 //!
 //! A person who stepped on the road under go may be seen there a moment after the team was freed: that breaks P1 as
-//! well, until [`STAYS_US`] after go.
+//! well, until a second of the robots' own time after go.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -24,7 +24,7 @@ use crossguard_protocol::{
 use crossguard_robot::trace::Entry;
 
 use super::fault::Fault;
-use super::ground::{Ground, Metres, STAYS_US, distance, seconds};
+use super::ground::{Ground, Metres, distance, seconds};
 use super::targets;
 
 /// How far a guard may be from its place, and an escort ahead of its person, besides the stated error of its
@@ -91,7 +91,11 @@ impl Crossing {
     ) -> Result<(), Fault> {
         self.ground.lives(robot, at_us);
         match entry {
-            Entry::Started { .. } | Entry::Stopped { .. } => self.forget(robot),
+            Entry::Started { speed, .. } => {
+                self.ground.move_at(speed.unwrap_or(1.0));
+                self.forget(robot);
+            }
+            Entry::Stopped { .. } => self.forget(robot),
             Entry::Zone(outline) => self.ground.outline(robot, outline),
             Entry::People(sight) => {
                 self.ground.see(robot, at_us, sight);
@@ -210,7 +214,8 @@ impl Crossing {
                     {
                         word = Some("task completed".to_owned());
                         let go_us = self.go.values().map(|go| go.until_us.min(at_us)).max();
-                        let freed = go_us.map(|go_us| (robot.to_owned(), go_us + STAYS_US));
+                        let freed =
+                            go_us.map(|go_us| (robot.to_owned(), go_us + self.ground.stays_us()));
                         self.freed = freed.or(self.freed.take());
                     }
                 }

@@ -17,7 +17,7 @@ use crossguard_robot::sight::{Degrees, Outline, Sight};
 /// Metres to the east and to the north of the first place in the logs.
 pub(super) type Metres = [f64; 2];
 
-/// For how long somebody who is not seen any more is taken to be there, in µs.
+/// For how long somebody who is not seen any more is taken to be there, in µs of the robots' own time.
 pub(super) const STAYS_US: u64 = 1_000_000;
 
 /// Largest speed on foot, and error of a place.
@@ -37,6 +37,8 @@ pub(super) struct Ground {
     roads: BTreeMap<String, Carriageway>,
     watchers: BTreeMap<String, Watcher>,
     has_sights: bool,
+    /// How many times as fast as real the fastest robot moves; 0 before any has said it.
+    speed: f64,
 }
 
 /// What a robot sees.
@@ -106,6 +108,7 @@ impl Ground {
     /// The sensors of a robot have these people now, and no others.
     pub(super) fn see(&mut self, robot: &str, at_us: u64, sight: &Sight) {
         self.has_sights = true;
+        let (pace, stays_us) = (self.pace(), self.stays_us());
         let on_foot = sight
             .people
             .iter()
@@ -114,7 +117,7 @@ impl Ground {
         let watcher = self.watchers.entry(robot.to_owned()).or_default();
         let lost_us = watcher.awake_us;
         let before = std::mem::take(&mut watcher.people);
-        let came_from = came_from(&places, &before, at_us);
+        let came_from = came_from(&places, &before, at_us, pace);
         let roads = &self.roads;
         watcher.people = (places.iter().zip(&came_from))
             .map(|(at, from)| Person {
@@ -133,9 +136,45 @@ impl Ground {
             lost_us: Some(person.lost_us.unwrap_or(lost_us)),
             ..*person
         }));
-        let stays = |since_us: u64| at_us.saturating_sub(since_us) <= STAYS_US;
+        let stays = |since_us: u64| at_us.saturating_sub(since_us) <= stays_us;
         watcher.people.retain(|it| it.lost_us.is_none_or(stays));
         watcher.awake_us = at_us;
+    }
+
+    /// A robot moves this many times as fast as real.
+    pub(super) fn move_at(&mut self, speed: f64) {
+        self.speed = self.speed.max(speed);
+    }
+
+    /// How many times as fast as real people walk.
+    fn pace(&self) -> f64 {
+        self.speed.max(1.0)
+    }
+
+    /// For how long somebody who is not seen any more is taken to be there, in µs.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "a second at most"
+    )]
+    pub(super) fn stays_us(&self) -> u64 {
+        (STAYS_US as f64 / self.pace()) as u64
+    }
+
+    /// Whether another robot, which has nobody on the road, saw somebody beside it later who may be this person.
+    fn is_seen_off_road(&self, person: &Person, by: &str) -> bool {
+        let others = self.watchers.iter().filter(|(other, _)| *other != by);
+        let mut clear = others.filter(|(_, it)| it.people.iter().all(|seen| !seen.is_on_road));
+        clear.any(|(_, watcher)| {
+            watcher.people.iter().any(|seen| {
+                let passed_us = seen.sighted_us.saturating_sub(person.sighted_us);
+                let walked_m = ON_FOOT_MAX_MPS * self.pace() * seconds(passed_us);
+                seen.lost_us.is_none()
+                    && seen.sighted_us > person.sighted_us
+                    && distance(seen.at, person.at) <= walked_m + PLACE_ERROR_M
+            })
+        })
     }
 
     /// Who is on the carriageway.
@@ -143,7 +182,9 @@ impl Ground {
         self.watchers.iter().flat_map(move |(by, watcher)| {
             let is_there = move |person: &&Person| {
                 let seen_us = person.lost_us.unwrap_or(watcher.awake_us);
-                person.is_on_road && at_us.saturating_sub(seen_us) <= STAYS_US
+                person.is_on_road
+                    && at_us.saturating_sub(seen_us) <= self.stays_us()
+                    && !self.is_seen_off_road(person, by)
             };
             let people = watcher.people.iter().filter(is_there);
             people.map(|person| OnRoad { at: person.at, by })
@@ -152,13 +193,13 @@ impl Ground {
 }
 
 /// Where each of the people was before, the nearest pairs first. Nobody walks faster than on foot.
-fn came_from(places: &[Metres], before: &[Person], at_us: u64) -> Vec<Option<usize>> {
+fn came_from(places: &[Metres], before: &[Person], at_us: u64, pace: f64) -> Vec<Option<usize>> {
     let mut pairs = Vec::new();
     for (now, place) in places.iter().enumerate() {
         for (was, person) in before.iter().enumerate() {
             let far = distance(*place, person.at);
             let passed_us = at_us.saturating_sub(person.sighted_us).min(STAYS_US);
-            if far <= ON_FOOT_MAX_MPS * seconds(passed_us) + PLACE_ERROR_M {
+            if far <= ON_FOOT_MAX_MPS * pace * seconds(passed_us) + PLACE_ERROR_M {
                 pairs.push((far, now, was));
             }
         }
@@ -266,6 +307,6 @@ mod tests {
         };
         let before = [was([0.0, 0.0]), was([1.0, 0.0])];
         let places = [[0.9, 0.0], [5.0, 0.0]];
-        assert_eq!(came_from(&places, &before, 200_000), [Some(1), None]);
+        assert_eq!(came_from(&places, &before, 200_000, 1.0), [Some(1), None]);
     }
 }

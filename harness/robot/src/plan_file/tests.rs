@@ -44,7 +44,8 @@ fn every_shipped_plan_fits_the_street_and_the_crossing_is_that_of_the_paper() {
         (built.kerbs, built.crossing_s)
     );
     for stage in 0..2 {
-        assert_eq!(plan.leg(stage, 0), built.leg(stage, 0));
+        let leg = |plan: &Plan| plan.lead().leg(stage, 0, false);
+        assert_eq!(leg(&plan), leg(&built));
     }
 }
 
@@ -67,12 +68,13 @@ fn a_team_has_as_many_guards_as_there_are_followers_besides_the_escort() {
 #[test]
 fn two_dogs_go_to_two_places() {
     let plan = parse(TWO_DOGS).unwrap().plan(StationId(1), 2);
-    let [first, second] = [0, 1].map(|seat| plan.leg(0, seat).unwrap().to);
-    assert!(first.distance(second) >= APART_M);
-    let block = plan.leg(1, 1).unwrap();
+    let plan = plan.lead();
+    let [first, second] = [0, 1].map(|seat| plan.leg(0, seat, false).unwrap().to);
+    assert!(f64::from(first.distance_cm(second)) >= APART_M * 100.0);
+    let block = plan.leg(1, 1, false).unwrap();
     assert_eq!(
-        (block.task, block.heading_deg),
-        (TaskType::BLOCK, Some(90.0))
+        (block.task, block.heading_ddeg),
+        (TaskType::BLOCK, Some(900))
     );
 }
 

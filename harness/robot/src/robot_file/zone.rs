@@ -12,14 +12,16 @@
 //! ```
 //!
 //! Where the site has its kerbs, `pavement_m = 2.5` is enough instead of the shapes: people cross between the kerbs, and
-//! wait up to that far behind them.
+//! wait up to that far behind them. The carriageway goes on beside the crossing then, as far as the site says.
 
+use crossguard_crossing::{Sensors, WaitingRules};
 use crossguard_endpoint::ras::area::Area;
+use crossguard_protocol::Millis;
 use serde::Deserialize;
 
 use crate::site::Place;
 use crate::site_file::{Purpose, SiteFile, Spot, between};
-use crate::zone::{WaitingRules, Zone};
+use crate::zone::Zone;
 
 /// Most corners of a polygon.
 const CORNERS_MAX: usize = 64;
@@ -38,6 +40,9 @@ pub(super) struct ZoneTable {
     place_m: Option<[f64; 2]>,
     radius_m: Option<f64>,
     road_m: Option<Vec<[f64; 2]>>,
+    /// The part of the carriageway between the kerbs of the site.
+    #[serde(skip)]
+    crossing_m: Option<Vec<[f64; 2]>>,
     escort_m: Option<[[f64; 2]; 2]>,
     dwell_s: Option<f64>,
     speed_max_mps: Option<f64>,
@@ -130,8 +135,10 @@ impl ZoneTable {
             });
         };
         self.polygon_m = Some(corners(near, far, pavement_m));
-        if self.road_m.is_none() {
-            self.road_m = Some(corners(near, far, 0.0));
+        if let (None, Some(carriageway)) = (&self.road_m, layout.carriageway()) {
+            let corners = |corners: [Place; 4]| corners.map(|at| [at.east, at.north]).to_vec();
+            self.crossing_m = Some(corners(carriageway.crossing));
+            self.road_m = Some(corners(carriageway.whole));
         }
         let crossed = layout.places.values();
         let crossed = crossed.filter(|spot| spot.purpose == Purpose::Cross);
@@ -173,42 +180,66 @@ impl ZoneTable {
             Ok([place(from)?, place(to)?])
         });
         let default = WaitingRules::default();
-        let or = |value: Option<f64>, default: f64| value.unwrap_or(default);
         let minute = "0 to 60 s";
+        let time = |field, value: Option<f64>, default: Millis, most: f64, wanted| match value {
+            Some(seconds) => within(field, seconds, 0.0..=most, wanted).map(millis),
+            None => Ok(default),
+        };
         let rules = WaitingRules {
-            dwell_s: within(
-                "dwell_s",
-                or(self.dwell_s, default.dwell_s),
-                0.0..=60.0,
-                minute,
-            )?,
-            speed_max_mps: within(
-                "speed_max_mps",
-                or(self.speed_max_mps, default.speed_max_mps),
-                0.05..=2.0,
-                "0.05 to 2 m/s",
-            )?,
-            approach_s: within(
+            dwell: time("dwell_s", self.dwell_s, default.dwell, 60.0, minute)?,
+            speed_max_cmps: match self.speed_max_mps {
+                Some(speed) => centi(within("speed_max_mps", speed, 0.05..=2.0, "0.05 to 2 m/s")?),
+                None => default.speed_max_cmps,
+            },
+            approach: time(
                 "approach_s",
-                or(self.approach_s, default.approach_s),
-                0.0..=10.0,
+                self.approach_s,
+                default.approach,
+                10.0,
                 "0 to 10 s",
             )?,
-            clear_s: within(
-                "clear_s",
-                or(self.clear_s, default.clear_s),
-                0.0..=60.0,
-                minute,
-            )?,
+            clear: time("clear_s", self.clear_s, default.clear, 60.0, minute)?,
+            confidence_min: percent(confidence_min),
         };
         let zone = Zone {
             waiting,
             road,
+            crossing: self.crossing_m.map(Area::Polygon),
             rules,
-            confidence_min,
+            sensors: Sensors::default(),
         };
         Ok((zone, kerbs.transpose()?))
     }
+}
+
+/// Milliseconds.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "checked to be small and not negative"
+)]
+fn millis(seconds: f64) -> Millis {
+    Millis((seconds * 1e3).round() as u32)
+}
+
+/// Hundredths.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "checked to be small and not negative"
+)]
+fn centi(value: f64) -> u16 {
+    (value * 100.0).round() as u16
+}
+
+/// Percent.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "checked to be from 0 to 1"
+)]
+fn percent(share: f64) -> u8 {
+    (share * 100.0).round() as u8
 }
 
 fn corners(near: [Place; 2], far: [Place; 2], behind_m: f64) -> Vec<[f64; 2]> {
@@ -304,10 +335,11 @@ mod tests {
         assert_eq!(kerbs, Some([Place::new(0.0, -1.0), Place::new(0.0, 8.0)]));
         assert!(corners.waiting.unwrap().contains([4.0, 9.0]) && corners.road.is_none());
         let rules = WaitingRules {
-            dwell_s: 2.0,
-            speed_max_mps: 0.3,
-            approach_s: 0.0,
-            clear_s: 5.0,
+            dwell: Millis(2_000),
+            speed_max_cmps: 30,
+            approach: Millis(0),
+            clear: Millis(5_000),
+            ..WaitingRules::default()
         };
         assert_eq!(corners.rules, rules);
         assert!(zone(ROAD, false).unwrap().0.waiting.is_none());
@@ -323,7 +355,9 @@ mod tests {
             ([1.0, 3.0], true, true),
             ([1.0, -2.6], false, false),
             ([1.0, 9.6], false, false),
-            ([5.1, 3.0], false, false),
+            // The carriageway goes on beside the crossing.
+            ([5.1, 3.0], false, true),
+            ([15.1, 3.0], false, false),
         ] {
             let found = (waiting.contains(place), road.contains(place));
             assert_eq!(found, (waits, is_on_road), "{place:?}");

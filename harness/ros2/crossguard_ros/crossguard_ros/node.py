@@ -24,7 +24,7 @@ from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Empty, String
 
 from crossguard_msgs.action import Maneuver
-from crossguard_msgs.msg import Corridor, Event, Follower, Person, Session, Status
+from crossguard_msgs.msg import Corridor, Event, Follower, People, Session, Status
 
 BODY_PORT_VERSION, OPERATOR_PORT_VERSION = 2, 1
 TURN_S = 0.02
@@ -43,6 +43,14 @@ TASKS = {
 def task_of(number):
     """What a task is called."""
     return "" if number is None else TASKS.get(number, f"task{number}")
+
+
+def perceived(person):
+    """Somebody in a frame; what the source does not say is left out."""
+    at, by = person.position, person.velocity
+    said = {"class": person.kind, "error_m": person.error}
+    return dict(id=person.id, position_m=[at.x, at.y], velocity_mps=[by.x, by.y], confidence=person.confidence,
+                **{name: value for name, value in said.items() if value})
 
 
 def is_visible(environment):
@@ -241,7 +249,7 @@ class Operator:
         self.status = node.create_publisher(Status, "~/status", 1)
         self.events = node.create_publisher(Event, "~/event", 100)
         node.create_subscription(String, "~/command", lambda it: self.say("command", line=it.data), 10)
-        node.create_subscription(Person, "~/perceived", self.perceive, 10)
+        node.create_subscription(People, "~/people", self.look, 10)
         node.create_subscription(BatteryState, "~/battery", self.charge, 10)
 
     def trusts(self):
@@ -255,10 +263,10 @@ class Operator:
         else:
             self.port.say(kind, **more)
 
-    def perceive(self, person):
-        at, by = person.position, person.velocity
-        self.say("person", id=person.id, position_m=[at.x, at.y], velocity_mps=[by.x, by.y],
-                 confidence=person.confidence, **({"class": person.kind} if person.kind else {}))
+    def look(self, frame):
+        covers = [[it.x, it.y] for it in frame.covers.points]
+        self.say("frame", source=frame.source, unix_s=frame.stamp.sec + frame.stamp.nanosec / 1e9,
+                 people=[perceived(it) for it in frame.people], **({"covers_m": covers} if covers else {}))
 
     def charge(self, battery):
         if math.isfinite(battery.percentage):

@@ -13,6 +13,7 @@ pub(crate) fn rectangle(west: i32, south: i32, east: i32, north: i32) -> Option<
 pub(crate) fn street() -> Setup {
     Setup {
         watches: true,
+        calls: true,
         ground: Ground {
             road: rectangle(-3_000, 0, 3_000, 700),
             crossing: rectangle(-300, 0, 500, 700),

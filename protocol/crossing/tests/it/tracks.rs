@@ -91,7 +91,7 @@ fn a_step_on_the_road_and_back_is_no_crossing() {
 
 #[test]
 fn vehicles_animals_and_riders_do_not_wait_and_a_cyclist_who_stands_does() {
-    for what in [RoadUser::Vehicle, RoadUser::Other] {
+    for what in [RoadUser::Vehicle, RoadUser::Animal] {
         for north in [-100, 300] {
             let mut scene = watch();
             let mut standing = Sighting {

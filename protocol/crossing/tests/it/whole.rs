@@ -13,7 +13,7 @@ fn leg(task: TaskType, to: Point) -> Leg {
     Leg {
         task,
         to,
-        speed_cmps: 100,
+        speed_mmps: 1_000,
         heading_ddeg: None,
     }
 }

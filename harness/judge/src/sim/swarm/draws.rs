@@ -262,7 +262,10 @@ impl Draws {
         let mut stages: Vec<_> = stages.collect();
         // Who escorts for the second time has to come back first.
         if let [stage] = &stages[..]
-            && stage.is_escort()
+            && stage
+                .parts
+                .iter()
+                .any(|(_, leg)| leg.task == TaskType::MOVE)
         {
             let back = Stage::everybody(Leg::new(TaskType::INITIAL_POS, self.place()));
             stages.insert(0, back);

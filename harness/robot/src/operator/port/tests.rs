@@ -140,8 +140,8 @@ fn each_line_is_an_order_or_is_refused_and_counted() {
             Ok(Some(Order::Stop)),
         ),
         (
-            r#"{"type": "person", "nobody": true}"#,
-            Ok(Some(Order::Perceived(None))),
+            r#"{"type": "frame", "people": []}"#,
+            Err("a frame wants either 'at_s'"),
         ),
         (HELLO, Ok(None)),
         (r#"{"type": "command", "line": " "}"#, Ok(None)),
