@@ -11,7 +11,7 @@ use thiserror::Error;
 
 /// The identifiers of RAM and RMCM.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase", default, deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct Identifiers {
     /// Those of the robot awareness message.
     pub ram: MessageIdentifiers,
@@ -39,7 +39,7 @@ pub enum Dictionary {
 
 /// The identifiers of one message.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase", deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct MessageIdentifiers {
     /// `protocolVersion` of the header: the version of the message's format; 1 by default.
     pub protocol_version: u8,
@@ -49,31 +49,6 @@ pub struct MessageIdentifiers {
     pub btp_port: u16,
     /// ITS-AID (PSID) that its certificates are for; 16480 for RAM and 16481 for RMCM by default.
     pub its_aid: u32,
-}
-
-/// [`Identifiers`] as configuration files spell them: in snake_case, where JSON is in camelCase.
-#[derive(Deserialize)]
-#[serde(
-    remote = "Identifiers",
-    default = "Identifiers::default",
-    deny_unknown_fields
-)]
-pub struct IdentifiersInFiles {
-    #[serde(with = "MessageIdentifiersInFiles")]
-    ram: MessageIdentifiers,
-    #[serde(with = "MessageIdentifiersInFiles")]
-    rmcm: MessageIdentifiers,
-    robot_station_type: u8,
-    dictionary: Dictionary,
-}
-
-#[derive(Deserialize)]
-#[serde(remote = "MessageIdentifiers", deny_unknown_fields)]
-struct MessageIdentifiersInFiles {
-    protocol_version: u8,
-    message_id: u8,
-    btp_port: u16,
-    its_aid: u32,
 }
 
 /// The largest messageId that TS 102 894-2 v2.4.1 assigns.
@@ -180,7 +155,7 @@ mod tests {
 
     #[test]
     fn a_configuration_names_only_what_it_changes() {
-        let json = r#"{"robotStationType": 10}"#;
+        let json = r#"{"robot_station_type": 10}"#;
         let identifiers: Identifiers = serde_json::from_str(json).unwrap();
         assert_eq!(
             identifiers,

@@ -99,9 +99,7 @@ pub use containers::position_of;
 pub use distance::distance;
 pub use error::{DecodeError, EncodeError, FieldPath, ViewError};
 pub use heard::{Heard, Unheard};
-pub use identifiers::{
-    Dictionary, IdentifierClash, Identifiers, IdentifiersInFiles, MessageIdentifiers,
-};
+pub use identifiers::{Dictionary, IdentifierClash, Identifiers, MessageIdentifiers};
 #[cfg(feature = "std")]
 pub use message::encode;
 pub use message::{Message, Pdu, Received, decode, encode_into};

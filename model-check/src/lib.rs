@@ -38,7 +38,6 @@
 //! - [`model::portable`] takes states from one process to another, for `crossguard-workers`.
 //! - [`monitor`] judges running robots by the same rules; [`universe`], [`transitions`] and [`fsm`] are one
 //!   robot against everything, and the diagram of that.
-//! - [`crossing`] is the application from the sensor to the sign, with people, sensors and bodies.
 //! - [`paper`] is the paper's text as it stands, which fails.
 //!
 //! There are no features.
@@ -49,7 +48,6 @@
 mod canonical;
 pub mod check;
 pub mod confinement;
-pub mod crossing;
 mod exploration;
 pub mod export;
 pub mod fair;

@@ -51,7 +51,7 @@ fn sent_at(busy_permyriad: u16) -> usize {
     while began.elapsed() < SETTLING + COUNTED {
         turn += 1;
         let speed_mps = turn % 5;
-        let pose = json!({"type": "pose", "eastM": 0, "northM": 0, "speedMps": speed_mps});
+        let pose = json!({"type": "pose", "east_m": 0, "north_m": 0, "speed_mps": speed_mps});
         writeln!(moves, "{pose}").unwrap();
         let Ok((length, robot)) = unit.recv_from(&mut buffer) else {
             continue;

@@ -80,10 +80,6 @@ impl Follow {
         &self.config
     }
 
-    pub(super) const fn identifiers(&self) -> &Identifiers {
-        &self.identifiers
-    }
-
     /// The log ends here although the robot had not stopped.
     pub(super) const fn cut_off(&mut self) {
         self.is_cut_off = true;

@@ -113,16 +113,6 @@ pub(super) const COMMANDS: &[Command] = &[
         |words, _| nothing(words).map(|()| Line::Order(Order::InPosition)),
     ),
     Command::new(
-        "out-of-position",
-        "the body is not at that place any more",
-        |words, _| nothing(words).map(|()| Line::Order(Order::OutOfPosition)),
-    ),
-    Command::new(
-        "person-on-road",
-        "this robot itself sees somebody on the road: it stays until 'clear', however the session ends",
-        |words, _| event(words, Event::PersonOnRoad),
-    ),
-    Command::new(
         "done",
         "the maneuver that runs is finished, or the fallback that runs",
         |words, _| nothing(words).map(|()| Line::Order(Order::Finish { well: true })),

@@ -14,7 +14,7 @@ export class Timeline {
     const names = this.robots.map((robot, lane) => html("li", {}, key(lane), robot.name));
     this.picture = svg("svg", { height: this.height, role: "img", "aria-label": "States of the robots over time; the trials below say the same in numbers" });
     this.frame = html("div", { class: "tracks" }, this.picture);
-    const legend = [["idle", "Idle"], ["help", "HelpRequested"], ["role", "RoleEstablished"], ["exec", "ManeuverExecuting"], ["open", "corridor open"], ["waits", "people wait"], ["crosses", "people on the road"]];
+    const legend = [["idle", "Idle"], ["help", "HelpRequested"], ["role", "RoleEstablished"], ["exec", "ManeuverExecuting"], ["open", "corridor open"], ["waits", "people wait"]];
     const swatch = (kind) => svg("svg", { class: "key", width: 18, height: 12, viewBox: "0 0 18 12", "aria-hidden": "true" }, svg("rect", { width: 18, height: 12, class: kind }));
     id("timeline").append(html("div", { class: "timeline" }, html("ul", { class: "who" }, names), this.frame),
       html("ul", { class: "legend" }, legend.map(([kind, words]) => html("li", {}, swatch(kind), words)),
@@ -51,7 +51,6 @@ export class Timeline {
         block(from, to, bottom - ROW * part, ROW * part, kind, `${robot.name}: ${state} ${text}`, part > 0.6 ? text : "");
       }
       for (const [from, to] of robot.waiting) block(from, to, bottom + 1, 3, "waits", "people wait");
-      for (const [from, to] of robot.crossing) block(from, to, bottom + 1, 3, "crosses", "people on the road");
       for (const [from, to, why] of robot.corridor) block(from, to, bottom + 4, 3, "open", `corridor open; closed: ${why || "end of the log"}`);
     });
     const [from, to] = this.player.span;
@@ -59,8 +58,7 @@ export class Timeline {
     for (let at = Math.ceil(from / 1e6 / step) * step; at * 1e6 <= to; at += step) {
       const x = this.x(at * 1e6);
       shapes.push(svg("line", { x1: x, y1: this.height - 18, x2: x, y2: this.height - 12, class: "tick" }));
-      const label = `${Number(at.toFixed(3))} s`;
-      if (x + 3 + label.length * 7 < this.width) shapes.push(svg("text", { x: x + 3, y: this.height - 3, class: "tick-text" }, label));
+      if (x < this.width - 40) shapes.push(svg("text", { x: x + 3, y: this.height - 3, class: "tick-text" }, `${Number(at.toFixed(3))} s`));
     }
     if (this.verdict.at !== null) {
       const x = Math.min(Math.max(this.x(this.verdict.at), 6), this.width - 6);

@@ -262,10 +262,7 @@ impl Draws {
         let mut stages: Vec<_> = stages.collect();
         // Who escorts for the second time has to come back first.
         if let [stage] = &stages[..]
-            && stage
-                .parts
-                .iter()
-                .any(|(_, leg)| leg.task == TaskType::MOVE)
+            && stage.is_escort()
         {
             let back = Stage::everybody(Leg::new(TaskType::INITIAL_POS, self.place()));
             stages.insert(0, back);
