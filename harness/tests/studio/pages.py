@@ -31,6 +31,8 @@ OUTSIDE = """() => [...document.querySelectorAll('svg[role=img]')].flatMap((of) 
     const box = of.getBoundingClientRect();
     const is_outside = (b) => b.left < box.left - 1 || b.right > box.right + 1 || b.top < box.top - 1 || b.bottom > box.bottom + 1;
     return [...of.querySelectorAll('text')].filter((it) => is_outside(it.getBoundingClientRect())).map((it) => it.textContent); })"""
+# Pictures are drawn anew in the frame after the one that has the new width.
+DRAWN = "() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)))"
 SERIOUS = """() => axe.run().then((all) => all.violations.filter((it) => ['serious', 'critical'].includes(it.impact))
     .map((it) => `${it.id}: ${it.nodes.slice(0, 5).map((node) => node.html + node.failureSummary).join(' | ')}`))"""
 
@@ -77,6 +79,7 @@ class Studio:
             self.page.emulate_media(color_scheme=scheme)
             for width in (820, 1280):
                 self.page.set_viewport_size({"width": width, "height": 900})
+                self.page.evaluate(DRAWN)
                 assert self.page.evaluate("document.documentElement.scrollWidth") <= width, (width, scheme)
                 for cut in (CUT, OUTSIDE):
                     assert self.page.evaluate(cut) == [], (width, scheme, self.page.evaluate(cut))

@@ -58,7 +58,8 @@ export class Timeline {
     for (let at = Math.ceil(from / 1e6 / step) * step; at * 1e6 <= to; at += step) {
       const x = this.x(at * 1e6);
       shapes.push(svg("line", { x1: x, y1: this.height - 18, x2: x, y2: this.height - 12, class: "tick" }));
-      if (x < this.width - 40) shapes.push(svg("text", { x: x + 3, y: this.height - 3, class: "tick-text" }, `${Number(at.toFixed(3))} s`));
+      const label = `${Number(at.toFixed(3))} s`;
+      if (x + 3 + label.length * 7 < this.width) shapes.push(svg("text", { x: x + 3, y: this.height - 3, class: "tick-text" }, label));
     }
     if (this.verdict.at !== null) {
       const x = Math.min(Math.max(this.x(this.verdict.at), 6), this.width - 6);
