@@ -1,7 +1,8 @@
 //! A sequence chart, line by line as things happen.
 //!
 //! Each robot has a column. Messages are drawn when they arrive, in one line for all who hear them; of the RAM that
-//! repeat what is known only the first is drawn.
+//! repeat what is known only the first is drawn. The order is that of cause and effect: a message goes before what its
+//! sender does next, and go before the people who see it.
 
 mod gather;
 mod lines;
@@ -24,7 +25,7 @@ use gather::Gathering;
 pub(crate) use gather::{Arrow, ArrowHead, Mark};
 use lines::LEFT;
 pub use words::text_of;
-use words::{note_of_input, note_of_output, shown, shows_something};
+use words::{note_of_input, note_of_output, people, road_users, shown, shows_something};
 
 /// How far apart columns are, of two robots and of more.
 const SPACING: usize = 50;
@@ -46,6 +47,8 @@ pub struct Chart {
     /// The newest RAM that was drawn, without what changes with every RAM, by sender and receiver.
     drawn: HashMap<(usize, usize), (Ram, Option<SignalsShown>)>,
     gathering: Gathering,
+    /// What people do who see a sign show go, before the record says so.
+    on_go: Vec<(u64, usize, String)>,
 }
 
 #[derive(Debug)]
@@ -58,6 +61,10 @@ struct Lane {
     is_stranger: bool,
     /// Until when its sign shows go, if it does.
     go_until_us: Option<u64>,
+    /// Notes of its last step that come after a message which it is about to send.
+    held: Vec<String>,
+    /// Who is at the crossing as far as it sees and hears.
+    present: [String; 2],
 }
 
 /// By how much records of different robots may come out of order, in microseconds.
@@ -74,6 +81,8 @@ impl Chart {
             identifiers,
             is_stranger: false,
             go_until_us: None,
+            held: Vec::new(),
+            present: <[String; 2]>::default(),
         };
         Self {
             spacing: if robots.len() > 2 {
@@ -152,6 +161,26 @@ impl Chart {
         self.drawn(marks)
     }
 
+    /// Adds what somebody does who sees a sign show go. The record of it may be read later, and goes before.
+    pub fn note_on_go(&mut self, at_us: u64, robot: &str, text: &str) -> Vec<String> {
+        let lane = self.lanes.iter().position(|lane| lane.name == robot);
+        self.on_go
+            .extend(lane.map(|lane| (at_us, lane, text.to_owned())));
+        self.go_on(at_us);
+        let marks = self.gathering.due(at_us);
+        self.drawn(marks)
+    }
+
+    /// Adds what people do who see go, if a record says that a sign shows it.
+    fn go_on(&mut self, record_us: u64) {
+        if self.lanes.iter().any(|lane| lane.go_until_us.is_some()) {
+            for (at_us, lane, text) in self.on_go.drain(..) {
+                self.gathering
+                    .add(at_us.max(record_us), Mark::Note { lane, text });
+            }
+        }
+    }
+
     fn drawn(&self, marks: Vec<(u64, Mark)>) -> Vec<String> {
         let line = |(at_us, mark)| {
             #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
@@ -170,9 +199,13 @@ impl Chart {
 
     /// What is complete when a record comes, each with its time in microseconds.
     pub(crate) fn gathered(&mut self, record: &Record) -> Vec<(u64, Mark)> {
+        if let Some(arrow) = self.sent(record) {
+            self.gathering.add(record.at_us, arrow);
+        }
         for mark in self.marks(record) {
             self.gathering.add(record.at_us, mark);
         }
+        self.go_on(record.at_us);
         self.gathering.due(record.at_us)
     }
 
@@ -184,8 +217,32 @@ impl Chart {
     /// What a record adds, by itself.
     pub(crate) fn marks(&mut self, record: &Record) -> Vec<Mark> {
         let mut marks = self.signs_that_ended(record);
-        marks.extend(self.marks_of(record));
+        let lane = self.lanes.iter().position(|lane| lane.name == record.robot);
+        let held = lane.map(|lane| std::mem::take(&mut self.lanes[lane].held));
+        let held = held.unwrap_or_default().into_iter();
+        let held = held.filter_map(|text| Some(Mark::Note { lane: lane?, text }));
+        // What a step puts out after a message comes after it.
+        if matches!(record.entry, Entry::Sent { .. }) {
+            marks.extend(self.marks_of(record));
+            marks.extend(held);
+        } else {
+            marks.extend(held);
+            marks.extend(self.marks_of(record));
+        }
         marks
+    }
+
+    /// A message on its way: it is drawn where it was sent if it is heard soon.
+    fn sent(&self, record: &Record) -> Option<Mark> {
+        let Entry::Sent { octets, .. } = &record.entry else {
+            return None;
+        };
+        let from = self
+            .lanes
+            .iter()
+            .position(|lane| lane.name == record.robot)?;
+        let heard = overhear(&self.lanes[from].identifiers, octets).ok()?;
+        Some(arrow(from, Vec::new(), &heard))
     }
 
     /// The signs that went to stop by themselves before a record: nothing has renewed them.
@@ -251,12 +308,19 @@ impl Chart {
                 }
                 self.keep_sign(lane, record.at_us, outputs);
                 let mut notes: Vec<_> = note_of_input(input).into_iter().collect();
-                notes.extend(outputs.iter().filter_map(note_of_output));
+                let (mut held, mut is_sending) = (Vec::new(), false);
+                for output in outputs.iter() {
+                    is_sending |= matches!(output, Output::SendRmcm(_));
+                    let to = if is_sending { &mut held } else { &mut notes };
+                    to.extend(note_of_output(output));
+                }
                 let after = state.state();
                 if self.lanes[lane].state != after {
                     self.lanes[lane].state = after;
-                    notes.push(format!("[{after:?}] {}", state.role()));
+                    let to = if is_sending { &mut held } else { &mut notes };
+                    to.push(format!("[{after:?}] {}", state.role()));
                 }
+                self.lanes[lane].held = held;
                 notes.into_iter().map(note).collect()
             }
             Entry::Heard { octets, .. } => self.arrow(lane, octets, false),
@@ -271,15 +335,25 @@ impl Chart {
                 .map(|(cause, count)| note(format!("! dropped, {cause}: {count} more")))
                 .collect(),
             Entry::Sent { octets, .. } => self.arrows_to_strangers(lane, octets),
+            Entry::People(sight) => self.is_new(lane, 0, people(sight)),
+            Entry::Around(around) => self.is_new(lane, 1, road_users(around)),
             Entry::Started { .. }
             | Entry::Zone(_)
-            | Entry::People(_)
-            | Entry::Around(_)
             | Entry::Channel(_)
             | Entry::Clock(_)
             | Entry::ClockQuality(_)
             | Entry::Stopped { .. } => Vec::new(),
         }
+    }
+
+    /// What a robot knows of people (0) or road users (1), unless it is what it knew.
+    fn is_new(&mut self, lane: usize, which: usize, text: String) -> Vec<Mark> {
+        let known = &mut self.lanes[lane].present[which];
+        if *known == text {
+            return Vec::new();
+        }
+        known.clone_from(&text);
+        vec![Mark::Note { lane, text }]
     }
 
     /// Gives a robot that starts its column, that of the station that others heard before, or a new
@@ -296,6 +370,8 @@ impl Chart {
             identifiers,
             is_stranger: false,
             go_until_us: None,
+            held: Vec::new(),
+            present: <[String; 2]>::default(),
         };
         match seat {
             Some(seat) => self.lanes[seat] = lane,
@@ -315,6 +391,8 @@ impl Chart {
                 identifiers: Identifiers::default(),
                 is_stranger: true,
                 go_until_us: None,
+                held: Vec::new(),
+                present: <[String; 2]>::default(),
             });
             return Some(self.lanes.len() - 1);
         }
@@ -360,16 +438,7 @@ impl Chart {
         if heard.service == Service::Ram && !self.is_news(from, to, heard, is_lost) {
             return None;
         }
-        let text = text_of(heard);
-        // What is lost is recorded as a packet, and what is heard without its headers.
-        let mut packet = DefaultHasher::new();
-        (heard.from, heard.generation_delta_time, &text).hash(&mut packet);
-        Some(Mark::Arrow(Arrow {
-            packet: packet.finish(),
-            from,
-            to: vec![ArrowHead { lane: to, is_lost }],
-            text,
-        }))
+        Some(arrow(from, vec![ArrowHead { lane: to, is_lost }], heard))
     }
 
     /// Whether a RAM says something that was not drawn before.
@@ -393,6 +462,20 @@ impl Chart {
         }
         is_news
     }
+}
+
+/// A message from a column to others.
+fn arrow(from: usize, to: Vec<ArrowHead>, heard: &Heard) -> Mark {
+    let text = text_of(heard);
+    // What is lost is recorded as a packet, and what is heard without its headers.
+    let mut packet = DefaultHasher::new();
+    (heard.from, heard.generation_delta_time, &text).hash(&mut packet);
+    Mark::Arrow(Arrow {
+        packet: packet.finish(),
+        from,
+        to,
+        text,
+    })
 }
 
 /// A RAM without what changes from one to the next.
@@ -421,6 +504,7 @@ const fn addressee(input: &Input) -> Option<StationId> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::{Swarm, run};
 
     #[test]
     fn a_chart_fits_a_terminal_or_there_is_none() {
@@ -436,5 +520,32 @@ mod tests {
         let wide = chart().within(usize::MAX).unwrap();
         assert_eq!(wide.header(), chart().header());
         assert!(chart().within(50).is_none());
+    }
+
+    #[test]
+    fn causes_stand_before_what_they_lead_to() {
+        let mut records = Vec::new();
+        let mut watch = |record: Record| records.push(record);
+        let _ = run(&Swarm::quiet(2), Some(&mut watch));
+        let (mut chart, mut lines) = (Chart::growing(), Vec::new());
+        let opens = |output: &Output| matches!(output, Output::CorridorOpened(_));
+        for record in &records {
+            if matches!(&record.entry, Entry::Step { outputs, .. } if outputs.iter().any(opens)) {
+                // The pedestrian looks at the sign before the record of it is read.
+                let text = "~ steps on the road";
+                lines.extend(chart.note_on_go(record.at_us, &record.robot, text));
+            }
+            lines.extend(chart.lines(record));
+        }
+        lines.extend(chart.rest());
+        let place = |what: &str| lines.iter().position(|line| line.contains(what));
+        for pair in [
+            ["RMCM command", "RMCM ack"],
+            ["RMCM ack", "> start"],
+            ["> corridor opened", "~ steps on the road"],
+        ] {
+            let places = pair.map(|what| place(what).expect(what));
+            assert!(places[0] < places[1], "{pair:?}: {lines:#?}");
+        }
     }
 }

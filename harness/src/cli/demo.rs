@@ -142,12 +142,12 @@ fn lines(chart: &mut Chart, first: &str, seen: Seen<'_>) -> Vec<String> {
         Seen::Record(record) => chart.lines(record),
         Seen::PowerLoss { at_us, robot } => chart.note(at_us, robot, "! loses power"),
         Seen::Pedestrian { at_us, is_on_road } => {
-            let text = if is_on_road {
-                "~ the pedestrian sees go and steps on the road"
+            if is_on_road {
+                let text = "~ the pedestrian sees go and steps on the road";
+                chart.note_on_go(at_us, first, text)
             } else {
-                "~ the pedestrian is across"
-            };
-            chart.note(at_us, first, text)
+                chart.note(at_us, first, "~ the pedestrian is across")
+            }
         }
     }
 }

@@ -32,6 +32,24 @@ pub(crate) struct Arrow {
     pub(crate) text: String,
 }
 
+impl Mark {
+    /// Takes over the receivers of the same packet.
+    fn join(&mut self, other: &Self) {
+        if let (Self::Arrow(known), Self::Arrow(arrow)) = (self, other) {
+            for arrival in &arrow.to {
+                if known.to.iter().all(|it| it.lane != arrival.lane) {
+                    known.to.push(*arrival);
+                }
+            }
+        }
+    }
+}
+
+/// Whether there is something to draw: of a message that nobody needs to see, there is not.
+fn is_drawn((_, mark): &(u64, Mark)) -> bool {
+    !matches!(mark, Mark::Arrow(arrow) if arrow.to.is_empty())
+}
+
 /// Where a message ends.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct ArrowHead {
@@ -46,37 +64,41 @@ pub(crate) struct ArrowHead {
 pub(crate) struct Gathering(VecDeque<(u64, Mark)>);
 
 impl Gathering {
-    /// Adds a mark, to one that waits where both are of one packet.
+    /// Adds a mark in the order of time, to one that waits where both are of one packet: that stands where it was sent.
     pub(crate) fn add(&mut self, at_us: u64, mark: Mark) {
-        if let Mark::Arrow(arrow) = &mark {
-            let waiting = self.0.iter_mut().filter_map(|(_, mark)| match mark {
-                Mark::Arrow(known) => Some(known),
-                Mark::Note { .. } => None,
-            });
-            for known in waiting {
-                if (known.packet, known.from) == (arrow.packet, arrow.from) {
-                    for arrival in &arrow.to {
-                        if known.to.iter().all(|it| it.lane != arrival.lane) {
-                            known.to.push(*arrival);
-                        }
-                    }
-                    return;
-                }
+        let mut mark = mark;
+        if let Some(place) = self.of_packet(&mark) {
+            let (known_us, known) = &mut self.0[place];
+            known.join(&mark);
+            if at_us >= *known_us {
+                return;
             }
+            mark = known.clone();
+            self.0.remove(place);
         }
-        self.0.push_back((at_us, mark));
+        let place = self.0.partition_point(|(before_us, _)| *before_us <= at_us);
+        self.0.insert(place, (at_us, mark));
+    }
+
+    /// Where a mark of the same packet waits.
+    fn of_packet(&self, mark: &Mark) -> Option<usize> {
+        let Mark::Arrow(arrow) = mark else {
+            return None;
+        };
+        let is_same = |(_, known): &(u64, Mark)| matches!(known, Mark::Arrow(known) if (known.packet, known.from) == (arrow.packet, arrow.from));
+        self.0.iter().position(is_same)
     }
 
     /// The marks that nothing can belong to any more at this time.
     pub(crate) fn due(&mut self, now_us: u64) -> Vec<(u64, Mark)> {
         let is_due = |(at_us, _): &&(u64, Mark)| at_us.saturating_add(WINDOW_US) <= now_us;
         let due = self.0.iter().take_while(is_due).count();
-        self.0.drain(..due).collect()
+        self.0.drain(..due).filter(is_drawn).collect()
     }
 
     /// All marks that wait.
     pub(crate) fn rest(&mut self) -> Vec<(u64, Mark)> {
-        self.0.drain(..).collect()
+        self.0.drain(..).filter(is_drawn).collect()
     }
 }
 
@@ -122,5 +144,30 @@ mod tests {
         gathering.add(30_000, arrow(7, 1, false));
         assert_eq!(gathering.rest().len(), 2);
         assert_eq!(gathering.rest(), []);
+    }
+
+    #[test]
+    fn a_message_stands_where_it_was_sent_and_nobody_sees_one_that_nobody_hears() {
+        let mut gathering = Gathering::default();
+        let Mark::Arrow(heard) = arrow(7, 1, false) else {
+            unreachable!()
+        };
+        let sent = |packet| {
+            let (to, heard) = (Vec::new(), heard.clone());
+            Mark::Arrow(Arrow {
+                packet,
+                to,
+                ..heard
+            })
+        };
+        gathering.add(10, arrow(7, 1, false));
+        gathering.add(5, note("what the sender did next"));
+        gathering.add(4, sent(7));
+        gathering.add(3, sent(8));
+        let rest = gathering.rest();
+        assert!(
+            matches!(&rest[..], [(4, Mark::Arrow(_)), (5, Mark::Note { .. })]),
+            "{rest:?}"
+        );
     }
 }

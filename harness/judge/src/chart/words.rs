@@ -1,7 +1,10 @@
 //! What happens, in a few words.
 
-use crossguard_codec::{Heard, PublicSignal, SignalsShown};
+use crossguard_codec::{Heard, Kind, PublicSignal, SignalsShown};
 use crossguard_protocol::{Coordination, Event, Farewell, Input, Notice, Output, Ram};
+use crossguard_robot::around::Around;
+use crossguard_robot::sight::Sight;
+use crossguard_robot::zone::Conduct;
 
 /// A message in a few words: what it says to the protocol, where its commands take place, and what its sender
 /// shows to people.
@@ -77,6 +80,42 @@ fn ram_text(ram: &Ram) -> String {
     };
     let duty = if ram.on_duty { ", on duty" } else { "" };
     format!("RAM {part}{farewell}{duty}")
+}
+
+/// The people at a crossing, by what a robot's sensors have.
+pub(super) fn people(sight: &Sight) -> String {
+    let of = |conduct| {
+        sight
+            .people
+            .iter()
+            .filter(move |it| it.conduct == conduct)
+            .count()
+    };
+    let counts = [
+        (of(Conduct::Waiting), "waiting"),
+        (of(Conduct::OnRoad), "on the road"),
+        (of(Conduct::Across), "across"),
+    ];
+    let counts = counts.into_iter().filter(|(count, _)| *count > 0);
+    let counts: Vec<_> = counts
+        .map(|(count, what)| format!("{count} {what}"))
+        .collect();
+    if counts.is_empty() {
+        return "~ people: nobody at the crossing".to_owned();
+    }
+    format!("~ people: {}", counts.join(", "))
+}
+
+/// The road users that a robot hears, without robots and without what changes all the time.
+pub(super) fn road_users(around: &Around) -> String {
+    let others = around.kinds.iter().filter(|it| it.kind != Kind::Robot);
+    let others: Vec<_> = others
+        .map(|it| format!("{} {}", it.count, it.kind))
+        .collect();
+    if others.is_empty() {
+        return "~ hears no road users".to_owned();
+    }
+    format!("~ hears {}", others.join(", "))
 }
 
 pub(super) fn note_of_input(input: &Input) -> Option<String> {

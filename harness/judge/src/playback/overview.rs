@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crossguard_endpoint::counters::CauseName;
 use crossguard_protocol::{Role, State, StationId};
+use crossguard_robot::zone::Conduct;
 use serde::Serialize;
 
 use super::tracks::{Open, Track};
@@ -67,6 +68,8 @@ pub struct RobotOverview {
     pub corridor: Vec<(u64, u64, String)>,
     /// When people waited at its zone.
     pub waiting: Vec<(u64, u64)>,
+    /// When it had people on the road.
+    pub crossing: Vec<(u64, u64)>,
 }
 
 /// A robot's state for a while.
@@ -171,7 +174,8 @@ impl Playback {
             has_stopped: track.is_running.last() == Some(&false),
             states: self.states(track),
             corridor: corridors.collect(),
-            waiting: self.waiting(track),
+            waiting: self.times_of(track, Conduct::Waiting),
+            crossing: self.times_of(track, Conduct::OnRoad),
         }
     }
 
@@ -223,19 +227,18 @@ impl Playback {
         spans
     }
 
-    fn waiting(&self, track: &Track) -> Vec<(u64, u64)> {
+    /// The times in which a robot had somebody who does this.
+    fn times_of(&self, track: &Track, conduct: Conduct) -> Vec<(u64, u64)> {
         let mut spans: Vec<(u64, u64)> = Vec::new();
         let mut since = None;
         let end = (self.to_us, false);
-        let sights = track.sights.iter().map(|(at_us, people)| {
-            let waits = |seen: &crossguard_robot::sight::Seen| {
-                seen.conduct == crossguard_robot::zone::Conduct::Waiting
-            };
-            (*at_us, people.iter().any(waits))
-        });
-        for (at_us, waits) in sights.chain([end]) {
+        let sights = track
+            .sights
+            .iter()
+            .map(|(at_us, people)| (*at_us, people.iter().any(|seen| seen.conduct == conduct)));
+        for (at_us, is_there) in sights.chain([end]) {
             let at = self.since(at_us);
-            match (since, waits) {
+            match (since, is_there) {
                 (None, true) => since = Some(at),
                 (Some(from), false) => {
                     since = None;

@@ -14,7 +14,7 @@ export class Timeline {
     const names = this.robots.map((robot, lane) => html("li", {}, key(lane), robot.name));
     this.picture = svg("svg", { height: this.height, role: "img", "aria-label": "States of the robots over time; the trials below say the same in numbers" });
     this.frame = html("div", { class: "tracks" }, this.picture);
-    const legend = [["idle", "Idle"], ["help", "HelpRequested"], ["role", "RoleEstablished"], ["exec", "ManeuverExecuting"], ["open", "corridor open"], ["waits", "people wait"]];
+    const legend = [["idle", "Idle"], ["help", "HelpRequested"], ["role", "RoleEstablished"], ["exec", "ManeuverExecuting"], ["open", "corridor open"], ["waits", "people wait"], ["crosses", "people on the road"]];
     const swatch = (kind) => svg("svg", { class: "key", width: 18, height: 12, viewBox: "0 0 18 12", "aria-hidden": "true" }, svg("rect", { width: 18, height: 12, class: kind }));
     id("timeline").append(html("div", { class: "timeline" }, html("ul", { class: "who" }, names), this.frame),
       html("ul", { class: "legend" }, legend.map(([kind, words]) => html("li", {}, swatch(kind), words)),
@@ -51,6 +51,7 @@ export class Timeline {
         block(from, to, bottom - ROW * part, ROW * part, kind, `${robot.name}: ${state} ${text}`, part > 0.6 ? text : "");
       }
       for (const [from, to] of robot.waiting) block(from, to, bottom + 1, 3, "waits", "people wait");
+      for (const [from, to] of robot.crossing) block(from, to, bottom + 1, 3, "crosses", "people on the road");
       for (const [from, to, why] of robot.corridor) block(from, to, bottom + 4, 3, "open", `corridor open; closed: ${why || "end of the log"}`);
     });
     const [from, to] = this.player.span;
