@@ -163,7 +163,7 @@ fn robots_that_are_killed_while_they_start_never_boot_with_a_counter_twice() {
     let mut booted = Vec::new();
     for attempt in 0..24 {
         let robot = Killed(start(config));
-        std::thread::sleep(Duration::from_millis(attempt * 2));
+        std::thread::sleep(Duration::from_millis(attempt * 8));
         drop(robot);
         let log = street.log(ARI);
         let first = log.lines().next().map(serde_json::from_str::<Value>);
