@@ -468,7 +468,8 @@ impl LoggedRobots {
                 self.validated.from_strangers += 1;
                 Ok(())
             }
-            Some(sender) if self.running.contains(sender) && self.robots[sender].is_cut_off() => {
+            // It may have booted again since.
+            Some(sender) if self.validated.cut_off.contains(sender) => {
                 self.validated.beyond_logs += 1;
                 self.monitor.has_strangers();
                 Ok(())
@@ -480,10 +481,7 @@ impl LoggedRobots {
     /// A log is at its end: robots of it that run on are cut off.
     fn end(&mut self, cursor: &Cursor) {
         for robot in cursor.robots.intersection(&self.running) {
-            if let Some(follow) = self.robots.get_mut(robot) {
-                follow.cut_off();
-                self.validated.cut_off.push(robot.clone());
-            }
+            self.validated.cut_off.push(robot.clone());
         }
     }
 

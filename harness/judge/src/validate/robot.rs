@@ -39,7 +39,6 @@ pub(super) struct Follow {
     heard: VecDeque<Input>,
     counted: Counts,
     targets: Targets,
-    is_cut_off: bool,
 }
 
 impl Follow {
@@ -64,7 +63,6 @@ impl Follow {
             heard: VecDeque::new(),
             counted: Counts::default(),
             targets: Targets::default(),
-            is_cut_off: false,
         })
     }
 
@@ -78,15 +76,6 @@ impl Follow {
 
     pub(super) const fn config(&self) -> &Config {
         &self.config
-    }
-
-    /// The log ends here although the robot had not stopped.
-    pub(super) const fn cut_off(&mut self) {
-        self.is_cut_off = true;
-    }
-
-    pub(super) const fn is_cut_off(&self) -> bool {
-        self.is_cut_off
     }
 
     pub(super) const fn may_reboot_with(&self, boot: u16) -> bool {

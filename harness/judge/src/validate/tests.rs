@@ -220,3 +220,30 @@ fn a_log_that_was_cut_off_in_the_middle_of_a_line_is_valid_up_to_there() {
     assert!(cut.beyond_logs > 0);
     assert!(cut.cut_off.contains(&"R1".to_owned()));
 }
+
+/// The last lines of a log are lost with a process that is killed, although others heard what they tell of.
+#[test]
+fn what_a_killed_robot_sent_last_is_beyond_its_log_although_it_boots_again() {
+    let records = records(2);
+    let mut logs = apart(&records);
+    let half = logs[0].len() / 2;
+    logs[0].truncate(half);
+    let is_start = |it: &&Record| it.robot == "R1" && matches!(it.entry, Entry::Started { .. });
+    let mut again = records.iter().rfind(is_start).unwrap().clone();
+    let Entry::Started {
+        boot,
+        epoch,
+        unix_ms,
+        ..
+    } = &mut again.entry
+    else {
+        panic!("{again:?}");
+    };
+    *boot += 1;
+    *unix_ms += 3_600_000;
+    *epoch = epoch.map(|it| it + 1);
+    logs.push(text([&again]));
+    let cut = together(&logs).unwrap();
+    assert!(cut.beyond_logs > 0);
+    assert!(cut.cut_off.contains(&"R1".to_owned()));
+}
