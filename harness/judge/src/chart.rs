@@ -1,8 +1,8 @@
 //! A sequence chart, line by line as things happen.
 //!
-//! Each robot has a column. Messages are drawn when they arrive, in one line for all who hear them; of the RAM that
-//! repeat what is known only the first is drawn. The order is that of cause and effect: a message goes before what its
-//! sender does next, and go before the people who see it.
+//! Each robot has a column. A message is drawn where it was sent, in one line for all who hear it soon after; of the RAM
+//! that repeat what is known only the first is drawn. The order is that of cause and effect: a message goes before what
+//! its sender does next, and go before the people who see it.
 
 mod gather;
 mod lines;
@@ -48,7 +48,7 @@ pub struct Chart {
     drawn: HashMap<(usize, usize), (Ram, Option<SignalsShown>)>,
     gathering: Gathering,
     /// What people do who see a sign show go, before the record says so.
-    on_go: Vec<(u64, usize, String)>,
+    on_go: Vec<(u64, Mark)>,
 }
 
 #[derive(Debug)]
@@ -61,10 +61,27 @@ struct Lane {
     is_stranger: bool,
     /// Until when its sign shows go, if it does.
     go_until_us: Option<u64>,
-    /// Notes of its last step that come after a message which it is about to send.
-    held: Vec<String>,
-    /// Who is at the crossing as far as it sees and hears.
-    present: [String; 2],
+    /// Notes of its last step that come after a message which it is about to send, each with its time.
+    held: Vec<(u64, Mark)>,
+    /// The people whom it sees, and the road users whom it hears, as told last.
+    people: String,
+    road_users: String,
+}
+
+impl Lane {
+    fn new(name: String, station: StationId, identifiers: Identifiers) -> Self {
+        Self {
+            name,
+            station,
+            state: State::Idle,
+            identifiers,
+            is_stranger: false,
+            go_until_us: None,
+            held: Vec::new(),
+            people: String::new(),
+            road_users: String::new(),
+        }
+    }
 }
 
 /// By how much records of different robots may come out of order, in microseconds.
@@ -74,16 +91,8 @@ impl Chart {
     /// A chart of robots with these names and station ids, from left to right.
     #[must_use]
     pub fn new(robots: &[(&str, StationId)], identifiers: Identifiers) -> Self {
-        let lane = |&(name, station): &(&str, StationId)| Lane {
-            name: name.to_owned(),
-            station,
-            state: State::Idle,
-            identifiers,
-            is_stranger: false,
-            go_until_us: None,
-            held: Vec::new(),
-            present: <[String; 2]>::default(),
-        };
+        let lane =
+            |&(name, station): &(&str, StationId)| Lane::new(name.to_owned(), station, identifiers);
         Self {
             spacing: if robots.len() > 2 {
                 SPACING_OF_MANY
@@ -147,15 +156,15 @@ impl Chart {
 
     /// The lines that have not been complete so far.
     pub fn rest(&mut self) -> Vec<String> {
-        let marks = self.gathering.rest();
+        let marks = self.rest_gathered();
         self.drawn(marks)
     }
 
     /// Adds something that happens to a robot and that it does not record itself.
     pub fn note(&mut self, at_us: u64, robot: &str, text: &str) -> Vec<String> {
-        if let Some(lane) = self.lanes.iter().position(|lane| lane.name == robot) {
-            let text = text.to_owned();
-            self.gathering.add(at_us, Mark::Note { lane, text });
+        let note = self.note_at(robot, text);
+        if let Some(note) = note {
+            self.gathering.add(at_us, note);
         }
         let marks = self.gathering.due(at_us);
         self.drawn(marks)
@@ -163,20 +172,27 @@ impl Chart {
 
     /// Adds what somebody does who sees a sign show go. The record of it may be read later, and goes before.
     pub fn note_on_go(&mut self, at_us: u64, robot: &str, text: &str) -> Vec<String> {
-        let lane = self.lanes.iter().position(|lane| lane.name == robot);
-        self.on_go
-            .extend(lane.map(|lane| (at_us, lane, text.to_owned())));
+        let note = self.note_at(robot, text);
+        self.on_go.extend(note.map(|note| (at_us, note)));
         self.go_on(at_us);
         let marks = self.gathering.due(at_us);
         self.drawn(marks)
     }
 
+    fn note_at(&self, robot: &str, text: &str) -> Option<Mark> {
+        let (lane, text) = (self.lane_named(robot)?, text.to_owned());
+        Some(Mark::Note { lane, text })
+    }
+
+    fn lane_named(&self, robot: &str) -> Option<usize> {
+        self.lanes.iter().position(|lane| lane.name == robot)
+    }
+
     /// Adds what people do who see go, if a record says that a sign shows it.
     fn go_on(&mut self, record_us: u64) {
         if self.lanes.iter().any(|lane| lane.go_until_us.is_some()) {
-            for (at_us, lane, text) in self.on_go.drain(..) {
-                self.gathering
-                    .add(at_us.max(record_us), Mark::Note { lane, text });
+            for (at_us, note) in self.on_go.drain(..) {
+                self.gathering.add(at_us.max(record_us), note);
             }
         }
     }
@@ -199,36 +215,43 @@ impl Chart {
 
     /// What is complete when a record comes, each with its time in microseconds.
     pub(crate) fn gathered(&mut self, record: &Record) -> Vec<(u64, Mark)> {
-        if let Some(arrow) = self.sent(record) {
-            self.gathering.add(record.at_us, arrow);
+        let at_us = record.at_us;
+        let lane = self.lane_named(&record.robot);
+        let held = lane.map(|lane| std::mem::take(&mut self.lanes[lane].held));
+        let held = held.unwrap_or_default().into_iter().map(|(_, mark)| mark);
+        let sent = self.sent(record);
+        let ended = self.signs_that_ended(record);
+        let (now, after) = self.marks_of(record);
+        // What a step put out after a message comes after it.
+        let (before, behind) = match record.entry {
+            Entry::Sent { .. } => (now, held.collect()),
+            _ => (held.collect(), now),
+        };
+        for mark in sent.into_iter().chain(ended).chain(before).chain(behind) {
+            self.gathering.add(at_us, mark);
         }
-        for mark in self.marks(record) {
-            self.gathering.add(record.at_us, mark);
+        if let Some(lane) = lane {
+            self.lanes[lane].held = after.into_iter().map(|mark| (at_us, mark)).collect();
         }
-        self.go_on(record.at_us);
-        self.gathering.due(record.at_us)
+        self.go_on(at_us);
+        self.gathering.due(at_us)
     }
 
     /// What has not been complete so far.
     pub(crate) fn rest_gathered(&mut self) -> Vec<(u64, Mark)> {
+        let held = self.lanes.iter_mut().flat_map(|lane| lane.held.drain(..));
+        for (at_us, mark) in held.chain(self.on_go.drain(..)) {
+            self.gathering.add(at_us, mark);
+        }
         self.gathering.rest()
     }
 
     /// What a record adds, by itself.
     pub(crate) fn marks(&mut self, record: &Record) -> Vec<Mark> {
         let mut marks = self.signs_that_ended(record);
-        let lane = self.lanes.iter().position(|lane| lane.name == record.robot);
-        let held = lane.map(|lane| std::mem::take(&mut self.lanes[lane].held));
-        let held = held.unwrap_or_default().into_iter();
-        let held = held.filter_map(|text| Some(Mark::Note { lane: lane?, text }));
-        // What a step puts out after a message comes after it.
-        if matches!(record.entry, Entry::Sent { .. }) {
-            marks.extend(self.marks_of(record));
-            marks.extend(held);
-        } else {
-            marks.extend(held);
-            marks.extend(self.marks_of(record));
-        }
+        let (now, after) = self.marks_of(record);
+        marks.extend(now);
+        marks.extend(after);
         marks
     }
 
@@ -237,10 +260,7 @@ impl Chart {
         let Entry::Sent { octets, .. } = &record.entry else {
             return None;
         };
-        let from = self
-            .lanes
-            .iter()
-            .position(|lane| lane.name == record.robot)?;
+        let from = self.lane_named(&record.robot)?;
         let heard = overhear(&self.lanes[from].identifiers, octets).ok()?;
         Some(arrow(from, Vec::new(), &heard))
     }
@@ -284,7 +304,9 @@ impl Chart {
         }
     }
 
-    fn marks_of(&mut self, record: &Record) -> Vec<Mark> {
+    /// What a record adds, and what of it comes after the message that the robot is about to send.
+    fn marks_of(&mut self, record: &Record) -> (Vec<Mark>, Vec<Mark>) {
+        let mut after = Vec::new();
         if let Entry::Started {
             station,
             identifiers,
@@ -293,11 +315,11 @@ impl Chart {
         {
             self.seat(&record.robot, *station, *identifiers);
         }
-        let Some(lane) = self.lanes.iter().position(|lane| lane.name == record.robot) else {
-            return Vec::new();
+        let Some(lane) = self.lane_named(&record.robot) else {
+            return (Vec::new(), after);
         };
         let note = |text| Mark::Note { lane, text };
-        match &record.entry {
+        let now = match &record.entry {
             Entry::Step {
                 input,
                 outputs,
@@ -307,21 +329,20 @@ impl Chart {
                     self.lanes[lane].station = *station;
                 }
                 self.keep_sign(lane, record.at_us, outputs);
-                let mut notes: Vec<_> = note_of_input(input).into_iter().collect();
-                let (mut held, mut is_sending) = (Vec::new(), false);
+                let mut now: Vec<_> = note_of_input(input).map(note).into_iter().collect();
+                let mut to = &mut now;
                 for output in outputs.iter() {
-                    is_sending |= matches!(output, Output::SendRmcm(_));
-                    let to = if is_sending { &mut held } else { &mut notes };
-                    to.extend(note_of_output(output));
+                    if matches!(output, Output::SendRmcm(_)) {
+                        to = &mut after;
+                    }
+                    to.extend(note_of_output(output).map(note));
                 }
-                let after = state.state();
-                if self.lanes[lane].state != after {
-                    self.lanes[lane].state = after;
-                    let to = if is_sending { &mut held } else { &mut notes };
-                    to.push(format!("[{after:?}] {}", state.role()));
+                let state_after = state.state();
+                if self.lanes[lane].state != state_after {
+                    self.lanes[lane].state = state_after;
+                    to.push(note(format!("[{state_after:?}] {}", state.role())));
                 }
-                self.lanes[lane].held = held;
-                notes.into_iter().map(note).collect()
+                now
             }
             Entry::Heard { octets, .. } => self.arrow(lane, octets, false),
             Entry::Dropped { cause, octets, .. } if cause.layer == Layer::Simulated => {
@@ -335,25 +356,22 @@ impl Chart {
                 .map(|(cause, count)| note(format!("! dropped, {cause}: {count} more")))
                 .collect(),
             Entry::Sent { octets, .. } => self.arrows_to_strangers(lane, octets),
-            Entry::People(sight) => self.is_new(lane, 0, people(sight)),
-            Entry::Around(around) => self.is_new(lane, 1, road_users(around)),
+            Entry::People(sight) => {
+                let text = changed(&mut self.lanes[lane].people, people(sight));
+                text.map(note).into_iter().collect()
+            }
+            Entry::Around(around) => {
+                let text = changed(&mut self.lanes[lane].road_users, road_users(around));
+                text.map(note).into_iter().collect()
+            }
             Entry::Started { .. }
             | Entry::Zone(_)
             | Entry::Channel(_)
             | Entry::Clock(_)
             | Entry::ClockQuality(_)
             | Entry::Stopped { .. } => Vec::new(),
-        }
-    }
-
-    /// What a robot knows of people (0) or road users (1), unless it is what it knew.
-    fn is_new(&mut self, lane: usize, which: usize, text: String) -> Vec<Mark> {
-        let known = &mut self.lanes[lane].present[which];
-        if *known == text {
-            return Vec::new();
-        }
-        known.clone_from(&text);
-        vec![Mark::Note { lane, text }]
+        };
+        (now, after)
     }
 
     /// Gives a robot that starts its column, that of the station that others heard before, or a new
@@ -363,16 +381,7 @@ impl Chart {
         let heard = |lane: &Lane| lane.is_stranger && lane.station == station;
         let seat = self.lanes.iter().position(known);
         let seat = seat.or_else(|| self.lanes.iter().position(heard));
-        let lane = Lane {
-            name: robot.to_owned(),
-            station,
-            state: State::Idle,
-            identifiers,
-            is_stranger: false,
-            go_until_us: None,
-            held: Vec::new(),
-            present: <[String; 2]>::default(),
-        };
+        let lane = Lane::new(robot.to_owned(), station, identifiers);
         match seat {
             Some(seat) => self.lanes[seat] = lane,
             None if self.grows => self.lanes.push(lane),
@@ -384,15 +393,10 @@ impl Chart {
     fn lane_of(&mut self, station: StationId) -> Option<usize> {
         let known = self.lanes.iter().position(|lane| lane.station == station);
         if known.is_none() && self.grows {
+            let name = format!("station {station}");
             self.lanes.push(Lane {
-                name: format!("station {station}"),
-                station,
-                state: State::Idle,
-                identifiers: Identifiers::default(),
                 is_stranger: true,
-                go_until_us: None,
-                held: Vec::new(),
-                present: <[String; 2]>::default(),
+                ..Lane::new(name, station, Identifiers::default())
             });
             return Some(self.lanes.len() - 1);
         }
@@ -464,6 +468,15 @@ impl Chart {
     }
 }
 
+/// A text that is not what was told last; it is what was told last then.
+fn changed(known: &mut String, text: String) -> Option<String> {
+    if *known == text {
+        return None;
+    }
+    known.clone_from(&text);
+    Some(text)
+}
+
 /// A message from a column to others.
 fn arrow(from: usize, to: Vec<ArrowHead>, heard: &Heard) -> Mark {
     let text = text_of(heard);
@@ -522,11 +535,58 @@ mod tests {
         assert!(chart().within(50).is_none());
     }
 
-    #[test]
-    fn causes_stand_before_what_they_lead_to() {
+    /// What two robots record in a crossing.
+    fn crossing() -> Vec<Record> {
         let mut records = Vec::new();
         let mut watch = |record: Record| records.push(record);
         let _ = run(&Swarm::quiet(2), Some(&mut watch));
+        records
+    }
+
+    /// Whether a robot acknowledges a command and starts it in the step of a record.
+    fn acknowledges_and_starts(record: &Record) -> bool {
+        let starts = |output: &Output| matches!(output, Output::StartManeuver(_));
+        matches!(&record.entry, Entry::Step { outputs, .. } if outputs.iter().any(starts))
+    }
+
+    /// Facts and steps that are told record by record have the notes of a step with that step.
+    #[test]
+    fn a_record_by_itself_has_all_of_its_notes() {
+        let records = crossing();
+        let mut chart = Chart::growing();
+        let mut seen = 0;
+        for record in &records {
+            let marks = chart.marks(record);
+            if acknowledges_and_starts(record) {
+                seen += 1;
+                let is_start = |mark: &Mark| matches!(mark, Mark::Note { text, .. } if text.starts_with("> start"));
+                assert!(marks.iter().any(is_start), "{marks:?}");
+            }
+        }
+        assert!(seen > 0);
+    }
+
+    #[test]
+    fn a_log_that_ends_loses_no_note() {
+        let records = crossing();
+        let last = records.iter().position(acknowledges_and_starts).unwrap();
+        let mut chart = Chart::growing();
+        let mut lines: Vec<_> = records[..=last]
+            .iter()
+            .flat_map(|record| chart.lines(record))
+            .collect();
+        let robot = &records[last].robot;
+        lines.extend(chart.note_on_go(records[last].at_us, robot, "~ steps on the road"));
+        lines.extend(chart.rest());
+        for note in ["> start", "~ steps on the road"] {
+            let is_there = lines.iter().any(|line| line.contains(note));
+            assert!(is_there, "{note}: {lines:#?}");
+        }
+    }
+
+    #[test]
+    fn causes_stand_before_what_they_lead_to() {
+        let records = crossing();
         let (mut chart, mut lines) = (Chart::growing(), Vec::new());
         let opens = |output: &Output| matches!(output, Output::CorridorOpened(_));
         for record in &records {

@@ -59,6 +59,13 @@ impl Around {
 }
 
 impl OfKind {
+    /// How many of which kind, like `2 vehicles`.
+    #[must_use]
+    pub fn counted(&self) -> String {
+        let several = if self.count == 1 { "" } else { "s" };
+        format!("{} {}{several}", self.count, self.kind)
+    }
+
     fn of(map: &LocalDynamicMap, kind: Kind, own: &Position, now_ms: u64) -> Option<Self> {
         let distances = map
             .of_kind(kind)
@@ -94,8 +101,7 @@ impl Display for Around {
 
 impl Display for OfKind {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let several = if self.count == 1 { "" } else { "s" };
-        write!(f, "{} {}{several} (", self.count, self.kind)?;
+        write!(f, "{} (", self.counted())?;
         if let Some(Nearest { who, distance_m }) = self.nearest {
             write!(f, "nearest {who} at {distance_m:.1} m, ")?;
         }

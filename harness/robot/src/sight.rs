@@ -46,7 +46,9 @@ impl Sight {
         self.count(Conduct::OnRoad)
     }
 
-    fn count(&self, conduct: Conduct) -> usize {
+    /// How many people do this.
+    #[must_use]
+    pub fn count(&self, conduct: Conduct) -> usize {
         self.people
             .iter()
             .filter(|seen| seen.conduct == conduct)

@@ -32,6 +32,15 @@ pub(crate) struct Arrow {
     pub(crate) text: String,
 }
 
+/// Where a message ends.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct ArrowHead {
+    /// At this robot.
+    pub(crate) lane: usize,
+    /// It is lost on the way there.
+    pub(crate) is_lost: bool,
+}
+
 impl Mark {
     /// Takes over the receivers of the same packet.
     fn join(&mut self, other: &Self) {
@@ -50,31 +59,22 @@ fn is_drawn((_, mark): &(u64, Mark)) -> bool {
     !matches!(mark, Mark::Arrow(arrow) if arrow.to.is_empty())
 }
 
-/// Where a message ends.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct ArrowHead {
-    /// At this robot.
-    pub(crate) lane: usize,
-    /// It is lost on the way there.
-    pub(crate) is_lost: bool,
-}
-
 /// Marks that wait for others to belong to them, each with its time in microseconds.
 #[derive(Debug, Default)]
 pub(crate) struct Gathering(VecDeque<(u64, Mark)>);
 
 impl Gathering {
     /// Adds a mark in the order of time, to one that waits where both are of one packet: that stands where it was sent.
-    pub(crate) fn add(&mut self, at_us: u64, mark: Mark) {
-        let mut mark = mark;
+    pub(crate) fn add(&mut self, at_us: u64, mut mark: Mark) {
         if let Some(place) = self.of_packet(&mark) {
             let (known_us, known) = &mut self.0[place];
             known.join(&mark);
             if at_us >= *known_us {
                 return;
             }
-            mark = known.clone();
-            self.0.remove(place);
+            if let Some((_, known)) = self.0.remove(place) {
+                mark = known;
+            }
         }
         let place = self.0.partition_point(|(before_us, _)| *before_us <= at_us);
         self.0.insert(place, (at_us, mark));
@@ -85,7 +85,10 @@ impl Gathering {
         let Mark::Arrow(arrow) = mark else {
             return None;
         };
-        let is_same = |(_, known): &(u64, Mark)| matches!(known, Mark::Arrow(known) if (known.packet, known.from) == (arrow.packet, arrow.from));
+        let is_same = |(_, known): &(u64, Mark)| match known {
+            Mark::Arrow(known) => (known.packet, known.from) == (arrow.packet, arrow.from),
+            Mark::Note { .. } => false,
+        };
         self.0.iter().position(is_same)
     }
 

@@ -2,7 +2,7 @@
 
 use crossguard_codec::{Heard, Kind, PublicSignal, SignalsShown};
 use crossguard_protocol::{Coordination, Event, Farewell, Input, Notice, Output, Ram};
-use crossguard_robot::around::Around;
+use crossguard_robot::around::{Around, OfKind};
 use crossguard_robot::sight::Sight;
 use crossguard_robot::zone::Conduct;
 
@@ -84,17 +84,10 @@ fn ram_text(ram: &Ram) -> String {
 
 /// The people at a crossing, by what a robot's sensors have.
 pub(super) fn people(sight: &Sight) -> String {
-    let of = |conduct| {
-        sight
-            .people
-            .iter()
-            .filter(move |it| it.conduct == conduct)
-            .count()
-    };
     let counts = [
-        (of(Conduct::Waiting), "waiting"),
-        (of(Conduct::OnRoad), "on the road"),
-        (of(Conduct::Across), "across"),
+        (sight.waiting(), "waiting"),
+        (sight.on_road(), "on the road"),
+        (sight.count(Conduct::Across), "across"),
     ];
     let counts = counts.into_iter().filter(|(count, _)| *count > 0);
     let counts: Vec<_> = counts
@@ -109,9 +102,7 @@ pub(super) fn people(sight: &Sight) -> String {
 /// The road users that a robot hears, without robots and without what changes all the time.
 pub(super) fn road_users(around: &Around) -> String {
     let others = around.kinds.iter().filter(|it| it.kind != Kind::Robot);
-    let others: Vec<_> = others
-        .map(|it| format!("{} {}", it.count, it.kind))
-        .collect();
+    let others: Vec<_> = others.map(OfKind::counted).collect();
     if others.is_empty() {
         return "~ hears no road users".to_owned();
     }
@@ -153,4 +144,58 @@ pub(super) fn note_of_output(output: &Output) -> Option<String> {
         ) => format!("- {notice}"),
         _ => return None,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use crossguard_endpoint::ras::clustering::VruClass;
+    use crossguard_robot::sight::Seen;
+
+    use super::*;
+
+    #[test]
+    fn people_are_counted_by_what_they_do() {
+        let sight = |conducts: &[Conduct]| Sight {
+            people: conducts
+                .iter()
+                .map(|conduct| Seen {
+                    place: (49.0, 8.4),
+                    class: VruClass::Pedestrian,
+                    conduct: *conduct,
+                })
+                .collect(),
+        };
+        use Conduct::{Across, Elsewhere, OnRoad, Passing, Waiting};
+        for (conducts, text) in [
+            (&[][..], "~ people: nobody at the crossing"),
+            (&[Elsewhere, Passing], "~ people: nobody at the crossing"),
+            (
+                &[OnRoad, Waiting, OnRoad],
+                "~ people: 1 waiting, 2 on the road",
+            ),
+            (&[Across], "~ people: 1 across"),
+        ] {
+            assert_eq!(people(&sight(conducts)), text);
+        }
+    }
+
+    #[test]
+    fn road_users_are_counted_by_kind_and_robots_are_not() {
+        let of = |kind, count| OfKind {
+            kind,
+            count,
+            nearest: None,
+            oldest_ms: 0,
+        };
+        for (kinds, text) in [
+            (vec![], "~ hears no road users"),
+            (vec![of(Kind::Robot, 2)], "~ hears no road users"),
+            (
+                vec![of(Kind::Robot, 2), of(Kind::Vehicle, 2), of(Kind::Vru, 1)],
+                "~ hears 2 vehicles, 1 vulnerable road user",
+            ),
+        ] {
+            assert_eq!(road_users(&Around { kinds }), text);
+        }
+    }
 }

@@ -381,3 +381,45 @@ const fn stage(state: State) -> u8 {
         State::ManeuverExecuting => 3,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crossguard_endpoint::ras::clustering::VruClass;
+    use crossguard_robot::sight::{Seen, Sight};
+    use crossguard_robot::trace::{Entry, Record, Timed};
+
+    use super::*;
+    use crate::playback::Recent;
+
+    #[test]
+    fn people_who_wait_and_who_are_on_the_road_have_times_of_their_own() {
+        let mut recent = Recent::default();
+        for (at_us, conducts) in [
+            (1_000_000, &[Conduct::Waiting][..]),
+            (2_000_000, &[Conduct::Waiting, Conduct::OnRoad]),
+            (3_000_000, &[Conduct::OnRoad]),
+            (5_000_000, &[Conduct::Across]),
+        ] {
+            let seen = |conduct: &Conduct| Seen {
+                place: (49.0, 8.4),
+                class: VruClass::Pedestrian,
+                conduct: *conduct,
+            };
+            let people = conducts.iter().map(seen).collect();
+            let record = Record {
+                at_us,
+                robot: "ARI".to_owned(),
+                entry: Entry::People(Sight { people }),
+            };
+            recent.take(Timed {
+                log: 0,
+                at_us,
+                record,
+            });
+        }
+        let overview = recent.playback(None, 6_000_000).overview(&[]);
+        let robot = &overview.robots[0];
+        assert_eq!(robot.waiting, [(0, 2_000_000)]);
+        assert_eq!(robot.crossing, [(1_000_000, 4_000_000)]);
+    }
+}
