@@ -242,7 +242,13 @@ fn what_a_killed_robot_sent_last_is_beyond_its_log_although_it_boots_again() {
     *boot += 1;
     *unix_ms += 3_600_000;
     *epoch = epoch.map(|it| it + 1);
-    logs.push(text([&again]));
+    let end = Record {
+        entry: Entry::Stopped {
+            counters: Default::default(),
+        },
+        ..again.clone()
+    };
+    logs.push(text([&again, &end]));
     let cut = together(&logs).unwrap();
     assert!(cut.beyond_logs > 0);
     assert!(cut.cut_off.contains(&"R1".to_owned()));
