@@ -155,6 +155,7 @@ mod tests {
 
     #[test]
     fn people_are_counted_by_what_they_do() {
+        use Conduct::{Across, Elsewhere, OnRoad, Passing, Waiting};
         let sight = |conducts: &[Conduct]| Sight {
             people: conducts
                 .iter()
@@ -165,7 +166,6 @@ mod tests {
                 })
                 .collect(),
         };
-        use Conduct::{Across, Elsewhere, OnRoad, Passing, Waiting};
         for (conducts, text) in [
             (&[][..], "~ people: nobody at the crossing"),
             (&[Elsewhere, Passing], "~ people: nobody at the crossing"),

@@ -1,6 +1,7 @@
 //! Logs of simulated robots are valid; with one record altered they are not.
 
 use crossguard_codec::{Identifiers, RobotState, encode, ram_from};
+use crossguard_endpoint::counters::Counts;
 use crossguard_protocol::{Input, Millis, Output};
 use crossguard_robot::trace;
 
@@ -244,7 +245,7 @@ fn what_a_killed_robot_sent_last_is_beyond_its_log_although_it_boots_again() {
     *epoch = epoch.map(|it| it + 1);
     let end = Record {
         entry: Entry::Stopped {
-            counters: Default::default(),
+            counters: Counts::default(),
         },
         ..again.clone()
     };
