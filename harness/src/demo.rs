@@ -32,7 +32,7 @@ use crossguard_robot::boot::Boot;
 use crossguard_robot::capture::Capture;
 use crossguard_robot::journal::{Journal, WhenFull};
 use crossguard_robot::machine::is_at_rest;
-use crossguard_robot::perception::Feed;
+use crossguard_robot::perception::{Feed, Perception};
 use crossguard_robot::runtime::{Clock, Order, Running, Setup};
 use crossguard_robot::sign::Sign;
 use crossguard_robot::street::{Road, Street};
@@ -79,6 +79,7 @@ pub struct Options {
 
 /// What came of a demonstration.
 #[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Outcome {
     /// What happened.
     pub scenario: Scenario,
@@ -353,20 +354,14 @@ impl Demo<'_> {
         }
     }
 
-    /// Tells all robots which people their sensors report. A pipe that says something else has no more to say.
+    /// Tells all robots what their sensors report.
     fn tell_perceived(&mut self) {
-        match self.perceived.as_ref().map(Feed::due) {
-            None => {}
-            Some(Ok(people)) => {
-                for (_, robot) in &self.robots {
-                    for &vru in &people {
-                        robot.order(Order::Perceived(vru));
-                    }
-                }
+        for perception in self.perceived.iter().flat_map(Feed::due) {
+            if let Perception::Garbled(why) = &perception {
+                eprintln!("{why}");
             }
-            Some(Err(error)) => {
-                eprintln!("{error}");
-                self.perceived = None;
+            for (_, robot) in &self.robots {
+                robot.order(perception.order());
             }
         }
     }

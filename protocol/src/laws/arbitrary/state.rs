@@ -260,5 +260,6 @@ fn following(source: &mut impl Source, config: &Config) -> Following {
             request: request_id(s).next(),
             reason: Rejection::any(s),
         }),
+        sees_people: source.flag(),
     }
 }
