@@ -348,7 +348,7 @@ weakenings! {
         {
             let mut trustful = robot.clone();
             with_state(&mut trustful, |state| {
-                state["phase"]["following"]["sees_people"] = false.into();
+                state["phase"]["following"]["seesPeople"] = false.into();
             });
             let outputs = trustful.step(config, input);
             if trustful.role() != Role::Follower {
@@ -429,7 +429,9 @@ fn order_and_report<'a>(robot: &Robot, ram: &'a mut Ram) -> Option<(Order, &'a m
 pub fn with_state(robot: &mut Robot, change: impl FnOnce(&mut serde_json::Value)) {
     let mut state = serde_json::to_value(&*robot).unwrap();
     change(&mut state);
-    *robot = serde_json::from_value(state).unwrap();
+    *robot = serde_json::from_value(state.clone()).unwrap();
+    let is_read = serde_json::to_value(&*robot).unwrap() == state;
+    assert!(is_read, "there is no such field in {state}");
 }
 
 /// A leader overlooks some of what stands in the way of an open corridor.
