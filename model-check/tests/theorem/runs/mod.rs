@@ -133,10 +133,10 @@ impl<'a> Run<'a> {
             }
             0..24 => {
                 let id = following?.executing()?.id;
-                match random.random_range(0..7) {
-                    0..3 => Event::InPosition(id),
-                    3..5 => Event::ManeuverCompleted(id),
-                    5 => Event::OutOfPosition(id),
+                match random.random_range(0..9) {
+                    0..5 => Event::InPosition(id),
+                    5..7 => Event::ManeuverCompleted(id),
+                    7 => Event::OutOfPosition(id),
                     _ => Event::ManeuverFailed(id),
                 }
             }
