@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// The identifiers of RAM and RMCM. JSON is in camelCase, configuration files are in snake_case; both are read.
+/// The identifiers of RAM and RMCM. JSON is in `camelCase`, configuration files are in `snake_case`; both are read.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct Identifiers {

@@ -87,7 +87,7 @@ pub struct Settings {
     pub first_heartbeat: Heartbeat,
 }
 
-/// [`Settings`] as configuration files spell them: in snake_case, where JSON is in camelCase.
+/// [`Settings`] as configuration files spell them: in `snake_case`, where JSON is in `camelCase`.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 #[serde(
