@@ -264,6 +264,11 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
     })
 }
 
+/// How long a crossing may take. The paper's takes about 26 s; commands may have to be given again.
+fn patience(options: &Options) -> Duration {
+    Duration::from_secs_f64(60.0 + 120.0 / options.time_scale)
+}
+
 /// The station ids by which participants go, which follow from their tickets, by those of the plan.
 fn stations(
     participants: &[Participant],
@@ -289,9 +294,7 @@ impl Demo<'_> {
                 robot.order(Order::Wish(Stimulus::Event(detected)));
             }
         }
-        // The paper's crossing takes about 26 s; commands may have to be given again.
-        let patience = Duration::from_secs_f64(60.0 + 120.0 / options.time_scale);
-        let deadline = Instant::now() + patience;
+        let deadline = Instant::now() + patience(options);
         while Instant::now() < deadline && !options.stop.load(Ordering::Relaxed) {
             self.take_records(Duration::from_millis(50));
             self.strike();
@@ -406,7 +409,8 @@ impl Demo<'_> {
         for (_, robot) in &self.robots {
             robot.order(Order::Stop);
         }
-        let deadline = Instant::now() + Duration::from_secs(10);
+        // An escort that falls back waits for the pedestrian, who walks on for as long as somebody looks.
+        let deadline = Instant::now() + patience(options);
         while self.robots.iter().any(|(_, robot)| !robot.has_stopped()) && Instant::now() < deadline
         {
             self.take_records(Duration::from_millis(20));

@@ -324,8 +324,9 @@ impl LoggedRobots {
             robot,
             entry,
         } = record;
-        if let Entry::Started { unix_ms, .. } = entry {
+        if let Entry::Started { unix_ms, speed, .. } = entry {
             clock.show(at_us, unix_ms).map_err(Refusal::Clock)?;
+            self.crossing.start(&robot, speed.unwrap_or(1.0));
         }
         let crossed = self.robots.get(&robot).map_or(Ok(()), |follow| {
             let known = (follow.config(), follow.identifiers());

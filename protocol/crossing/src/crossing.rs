@@ -551,6 +551,9 @@ impl<const N: usize> Crossing<N> {
             is_wanted: !knows || self.is_wanted(),
             has_opened: self.has_opened,
             everybody_is_across: self.occupancy.is_clear(setup) && !self.is_wanted(),
+            nobody_is_lost: self.occupancy.is_clear(setup)
+                && !self.occupancy.was_seen()
+                && !self.tracks.is_somebody_lost(),
         }
     }
 

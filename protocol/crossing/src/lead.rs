@@ -19,6 +19,10 @@ const AGAIN: Millis = Millis(500);
 /// How long a leader waits before it asks again for an open corridor or an escort.
 const OPENING_PERIOD: Millis = Millis(500);
 
+/// For how long people step on the road beside an escort, which waits for each of them. Who comes later waits for its next
+/// way: a stream of people would keep it on the road.
+const STEP_ON: Millis = Millis(10_000);
+
 /// How far a follower is with its part of the stage.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 enum Part {
@@ -66,6 +70,8 @@ pub(crate) struct Lead {
     tried: Millis,
     /// After that time it gives up.
     patience: Millis,
+    /// Until then people step on the road beside an escort.
+    opened: Millis,
 }
 
 /// What the leader believes besides its plan.
@@ -82,6 +88,8 @@ pub(crate) struct View {
     pub has_opened: bool,
     /// Whether everybody who wanted to cross is known to be across.
     pub everybody_is_across: bool,
+    /// Whether the road is clear, and everybody who waited is still seen.
+    pub nobody_is_lost: bool,
 }
 
 impl Lead {
@@ -93,6 +101,7 @@ impl Lead {
             seats: seats.collect(),
             tried: Millis::ZERO,
             patience: plan.patience,
+            opened: STEP_ON,
         }
     }
 
@@ -104,6 +113,7 @@ impl Lead {
     pub(crate) fn elapse(&mut self, setup: &Setup, time: Millis) {
         self.tried = self.tried.saturating_sub(time);
         self.patience = self.patience.saturating_sub(time);
+        self.opened = self.opened.saturating_sub(time);
         for seat in self.seats.iter_mut() {
             seat.pause = seat.pause.saturating_sub(time);
             seat.presence.elapse(setup.position, time);
@@ -500,10 +510,15 @@ impl Lead {
         let is_done = plan.is_last(self.stage) && self.is_ready(plan);
         let is_over_there = plan.is_last(self.stage) && self.is_over_there(setup, plan);
         let may_try = self.tried == Millis::ZERO;
+        if view.corridor != Corridor::Open {
+            self.opened = STEP_ON;
+        }
         match view.corridor {
             Corridor::Open => {
-                // A holding team is done as soon as it holds; an escort ends its corridor by itself.
-                if is_over_there && !view.is_wanted {
+                // Who comes when the escort is over there waits for its next way; a team that holds lets everybody across.
+                let is_escorted = plan.is_escort(self.stage, setup.escorts());
+                let is_full = is_escorted && self.opened == Millis::ZERO;
+                if is_full || is_over_there && (is_escorted || !view.is_wanted) {
                     out.tell(Event::CloseCorridor);
                 }
             }
@@ -516,7 +531,12 @@ impl Lead {
                     && plan.is_escort(self.stage, setup.escorts())
                     && self.are_heard(setup, plan);
                 let is_over = is_over_there || is_escorted && view.has_opened;
-                if is_done && !lets_cross || is_over && view.everybody_is_across {
+                // Who waits by then is called for anew.
+                let is_through = is_escorted && view.has_opened && view.nobody_is_lost;
+                if is_done && !lets_cross
+                    || is_over && view.everybody_is_across
+                    || is_over_there && is_through
+                {
                     out.tell(Event::TaskCompleted);
                 } else if self.patience == Millis::ZERO {
                     out.tell(Event::LeaveRequested);

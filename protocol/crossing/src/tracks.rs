@@ -396,6 +396,13 @@ impl<const N: usize> Tracks<N> {
         self.crowd > Millis::ZERO || self.iter().any(waits)
     }
 
+    /// Whether somebody waited and has not been seen since, or there are more people than can be told apart.
+    #[must_use]
+    pub fn is_somebody_lost(&self) -> bool {
+        let is_lost = |track: &Track| track.is_lost_waiting() && !track.is_on_road();
+        self.crowd > Millis::ZERO || self.iter().any(is_lost)
+    }
+
     /// Whether somebody was on the road when last seen.
     #[must_use]
     pub fn is_on_road(&self) -> bool {

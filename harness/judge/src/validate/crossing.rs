@@ -91,10 +91,6 @@ impl Crossing {
     ) -> Result<(), Fault> {
         self.ground.lives(robot, at_us);
         match entry {
-            Entry::Started { speed, .. } => {
-                self.ground.move_at(speed.unwrap_or(1.0));
-                self.forget(robot);
-            }
             Entry::Stopped { .. } => self.forget(robot),
             Entry::Zone(outline) => self.ground.outline(robot, outline),
             Entry::People(sight) => {
@@ -127,6 +123,12 @@ impl Crossing {
             _ => {}
         }
         Ok(())
+    }
+
+    /// A robot starts, which moves so many times as fast as real.
+    pub(super) fn start(&mut self, robot: &str, speed: f64) {
+        self.ground.move_at(speed);
+        self.forget(robot);
     }
 
     /// A robot is down.

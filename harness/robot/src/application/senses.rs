@@ -36,6 +36,10 @@ pub(super) struct Said {
 impl Application {
     /// The sensors have somebody, at a place on the site, now: that adds them, and takes nobody away.
     pub fn perceive(&mut self, vru: &PerceivedVru) {
+        // In a simulation there is nobody else.
+        if matches!(self.road, Road::Known(_)) {
+            return;
+        }
         self.step(Input::Heard(sighting(vru, 0.0), Millis::ZERO));
     }
 

@@ -58,6 +58,7 @@ impl Leader {
             is_wanted: true,
             has_opened: false,
             everybody_is_across: false,
+            nobody_is_lost: false,
         };
         Self {
             setup: Setup::default(),
