@@ -91,8 +91,6 @@ mod timers;
 mod valid;
 pub mod words;
 
-#[cfg(feature = "serde")]
-pub use config::SettingsInFiles;
 pub use config::{BrokenInequality, Config, Inequality, Settings};
 pub use id::{
     Heartbeat, ManeuverId, OfferNumber, RequestId, SessionId, SessionNumber, StationId,

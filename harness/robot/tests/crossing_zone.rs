@@ -5,17 +5,14 @@ use crossguard_codec::Identifiers;
 use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{
-    Config, EndReason, Event, Input, Millis, Notice, Robot, StationId, Urgency,
-};
+use crossguard_protocol::{Config, EndReason, Event, Input, Notice, Robot, StationId, Urgency};
 use crossguard_robot::application::Application;
 use crossguard_robot::body::{Build, Simulated};
 use crossguard_robot::machine::{Machine, is_at_rest};
-use crossguard_robot::perception::SensorFrame;
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::street::Road;
-use crossguard_robot::zone::Zone;
+use crossguard_robot::zone::{Watched, Zone};
 
 const TICK_MS: u32 = 10;
 
@@ -55,7 +52,7 @@ impl Crossing {
             ..Zone::of_road(strip(0.0, 7.0))
         };
         let plan = Some(Plan::crossing(Site::default()));
-        let road = Road::Watched(zone);
+        let road = Road::Watched(Watched::new(zone));
         let helper = machine(2, Build::Quadruped, None, Road::Unknown);
         Self {
             leader: machine(1, Build::Humanoid, plan, road),
@@ -112,8 +109,7 @@ impl Crossing {
             if self.now_ms.is_multiple_of(100)
                 && let Some(vru) = &mut vru
             {
-                let frame = SensorFrame::of(&[**vru]);
-                self.leader.application_mut().look(&frame, Millis(0));
+                self.leader.application_mut().perceive(vru);
                 let [vx, vy] = vru.velocity_mps;
                 vru.position_m = [vru.position_m[0] + vx * 0.1, vru.position_m[1] + vy * 0.1];
             }

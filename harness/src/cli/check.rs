@@ -95,7 +95,6 @@ pub(super) struct Arguments {
 }
 
 #[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
 struct CheckReport {
     scenarios: Vec<ScenarioReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -104,7 +103,6 @@ struct CheckReport {
 
 /// How much of the state diagram the scenarios reach together.
 #[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
 struct Coverage {
     reached: usize,
     of: usize,

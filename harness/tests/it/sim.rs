@@ -125,13 +125,13 @@ fn the_longest_times_of_drawn_streets_are_a_real_try() {
         "roles",
         "stopped",
         "left",
-        "corridorClosed",
-        "signAfterGuard",
-        "signAfterLeader",
+        "corridor_closed",
+        "sign_after_guard",
+        "sign_after_leader",
         "untold",
     ] {
         let time = |name: &str| worst[measure][name].as_u64().unwrap();
-        let (observed, held_against) = (time("ms"), time("boundMs"));
+        let (observed, held_against) = (time("ms"), time("bound_ms"));
         assert!(observed <= held_against, "{measure}: {worst}");
         // At least half of what is possible was seen.
         assert!(observed * 2 > held_against, "{measure}: {worst}");

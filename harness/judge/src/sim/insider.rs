@@ -135,7 +135,6 @@ fn phase_of(ram: &Ram) -> Phase {
                 progress: report.progress,
             }),
             refused: None,
-            sees_people: false,
         }),
     }
 }

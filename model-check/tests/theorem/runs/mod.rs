@@ -133,16 +133,13 @@ impl<'a> Run<'a> {
             }
             0..24 => {
                 let id = following?.executing()?.id;
-                match random.random_range(0..9) {
-                    0..5 => Event::InPosition(id),
-                    5..7 => Event::ManeuverCompleted(id),
-                    7 => Event::OutOfPosition(id),
+                match random.random_range(0..6) {
+                    0..3 => Event::InPosition(id),
+                    3..5 => Event::ManeuverCompleted(id),
                     _ => Event::ManeuverFailed(id),
                 }
             }
-            24..29 if leading.is_some() => Event::OpenCorridor,
-            24..29 => Event::AllAnswered,
-            29 => Event::PersonOnRoad,
+            24..30 => Event::AllAnswered,
             30 => Event::TaskCompleted,
             31 => Event::LeaveRequested,
             32 => Event::OpenCorridor,

@@ -254,21 +254,15 @@ impl Draws {
         } else {
             6.0
         };
-        // People are escorted in the last stage, in which the corridor is open.
-        let before = [TaskType::INITIAL_POS, TaskType::BLOCK];
-        let last = [TaskType::INITIAL_POS, TaskType::BLOCK, TaskType::MOVE];
-        let mut stages = Vec::new();
-        for left in (0..self.0.random_range(1..=4)).rev() {
-            let tasks: &[TaskType] = if left == 0 { &last } else { &before };
+        let tasks = [TaskType::INITIAL_POS, TaskType::MOVE, TaskType::BLOCK];
+        let stages = (0..self.0.random_range(1..=4)).map(|_| {
             let task = *tasks.choose(&mut self.0).expect("there are tasks");
-            stages.push(Stage::everybody(Leg::new(task, self.place())));
-        }
+            Stage::everybody(Leg::new(task, self.place()))
+        });
+        let mut stages: Vec<_> = stages.collect();
         // Who escorts for the second time has to come back first.
         if let [stage] = &stages[..]
-            && stage
-                .parts
-                .iter()
-                .any(|(_, leg)| leg.task == TaskType::MOVE)
+            && stage.is_escort()
         {
             let back = Stage::everybody(Leg::new(TaskType::INITIAL_POS, self.place()));
             stages.insert(0, back);

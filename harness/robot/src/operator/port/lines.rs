@@ -14,11 +14,7 @@ use crate::around::Around;
 
 /// What the kit says to a program at the operator port.
 #[derive(Serialize)]
-#[serde(
-    rename_all_fields = "camelCase",
-    tag = "type",
-    rename_all = "kebab-case"
-)]
+#[serde(tag = "type", rename_all = "kebab-case")]
 pub(super) enum ToOperator<'a> {
     Hello {
         crossguard: u64,
@@ -102,7 +98,7 @@ pub(super) fn said(output: &Output) -> Fields {
         "request": said.request,
         "station": said.station,
         "session": said.session.map(session),
-        "openMs": said.open,
+        "open_ms": said.open,
         "text": output.to_string(),
     }))
 }
@@ -139,11 +135,11 @@ pub(super) fn condition(robot: &Robot) -> Fields {
         "followers": followers,
         "executes": executes.map(|it| json!({ "task": it.task, "request": it.id.request })),
         "corridor": corridor.name(),
-        "roadOccupied": corridor != Corridor::Clear || matches!(robot.duty(), Some(Duty::Crossing(_))),
-        "yieldsTo": leading.and_then(|it| it.yields_to),
+        "road_occupied": corridor != Corridor::Clear || matches!(robot.duty(), Some(Duty::Crossing(_))),
+        "yields_to": leading.and_then(|it| it.yields_to),
         "duty": duty,
-        "dutySession": duty_session.map(session),
-        "dutyRequest": duty_request,
+        "duty_session": duty_session.map(session),
+        "duty_request": duty_request,
     }))
 }
 
@@ -151,9 +147,9 @@ fn follower(member: &Member) -> Value {
     let order = member.order;
     Value::Object(fields(json!({
         "station": member.station,
-        "hasJoined": member.has_joined(),
+        "has_joined": member.has_joined(),
         "task": order.map(|it| it.task),
         "progress": order.and_then(|it| it.progress).map(|it| it.kind().name()),
-        "hasLease": member.lease.stands(),
+        "has_lease": member.lease.stands(),
     })))
 }
