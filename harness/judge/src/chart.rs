@@ -63,8 +63,9 @@ struct Lane {
     go_until_us: Option<u64>,
     /// Notes of its last step that come after a message which it is about to send, each with its time.
     held: Vec<(u64, Mark)>,
-    /// The people whom it sees, and the road users whom it hears, as told last.
+    /// The last note about the people that its sensors see.
     people: String,
+    /// The last note about the road users that it hears.
     road_users: String,
 }
 
@@ -377,9 +378,8 @@ impl Chart {
     /// Gives a robot that starts its column, that of the station that others heard before, or a new
     /// one.
     fn seat(&mut self, robot: &str, station: StationId, identifiers: Identifiers) {
-        let known = |lane: &Lane| lane.name == robot;
         let heard = |lane: &Lane| lane.is_stranger && lane.station == station;
-        let seat = self.lanes.iter().position(known);
+        let seat = self.lane_named(robot);
         let seat = seat.or_else(|| self.lanes.iter().position(heard));
         let lane = Lane::new(robot.to_owned(), station, identifiers);
         match seat {
@@ -468,7 +468,7 @@ impl Chart {
     }
 }
 
-/// A text that is not what was told last; it is what was told last then.
+/// A note, unless it says the same as the last one; the last one becomes this note.
 fn changed(known: &mut String, text: String) -> Option<String> {
     if *known == text {
         return None;
