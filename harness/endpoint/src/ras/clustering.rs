@@ -387,21 +387,13 @@ impl Clustering {
             .collect();
         let places: Vec<Point> = vrus.iter().map(|vru| vru.position_m).collect();
         let area = Area::around(&places, self.settings.margin_m)?;
-        let mean = |of: fn(&PerceivedVru) -> [f64; 2]| {
-            let sum = vrus.iter().fold([0.0, 0.0], |sum, vru| {
-                let [x, y] = of(vru);
-                [sum[0] + x, sum[1] + y]
-            });
-            #[expect(clippy::cast_precision_loss, reason = "a few dozen")]
-            sum.map(|it| it / vrus.len() as f64)
-        };
         Some(Cluster {
             id,
             area,
             cardinality: u8::try_from(vrus.len()).unwrap_or(u8::MAX),
             profiles: vrus.iter().fold(0, |bits, vru| bits | vru.class.bit()),
-            center: mean(|vru| vru.position_m),
-            velocity_mps: mean(|vru| vru.velocity_mps),
+            center: grouping::mean(&vrus, |vru| vru.position_m),
+            velocity_mps: grouping::mean(&vrus, |vru| vru.velocity_mps),
         })
     }
 

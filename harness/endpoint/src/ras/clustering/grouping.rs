@@ -2,7 +2,8 @@
 //!
 //! Every pair in a group is close and alike, not only neighbours: a queue of people does not become one long
 //! group, and a turn along a row of them does not either. A group of before stays together longer than
-//! strangers come together, so that it does not change with every breath of a sensor.
+//! strangers come together, so that it does not change with every breath of a sensor. Every member moves as the
+//! mean of its group does, because that is the motion which is announced.
 
 use std::collections::BTreeSet;
 
@@ -79,9 +80,31 @@ pub(super) fn groups(
     unite(&mut groups, join, size_max);
     let mut parts = Vec::new();
     for group in groups {
-        let members = group.iter().map(|vru| (vru.id, vru.position_m)).collect();
-        split(members, size_max, &mut parts);
+        split(group, size_max, &mut parts);
     }
+    let apart = parts
+        .into_iter()
+        .flat_map(|part| of_one_motion(part, stay.likeness));
+    apart
+        .map(|part| part.iter().map(|vru| vru.id).collect())
+        .collect()
+}
+
+/// The group, and apart from it each member that does not move as the mean of the group does. Members that are alike
+/// by pairs can differ so, if the slowest of them has no direction that counts and the mean has one.
+fn of_one_motion(mut group: Vec<&PerceivedVru>, likeness: Likeness) -> Vec<Vec<&PerceivedVru>> {
+    let mut parts = Vec::new();
+    loop {
+        let mean_mps = mean(&group, |vru| vru.velocity_mps);
+        let others =
+            (0..group.len()).filter(|&at| !likeness.holds(group[at].velocity_mps, mean_mps));
+        let from_mean = |at: usize| distance_m(group[at].velocity_mps, mean_mps);
+        match others.max_by(|&a, &b| from_mean(a).total_cmp(&from_mean(b))) {
+            Some(at) => parts.push(vec![group.remove(at)]),
+            None => break,
+        }
+    }
+    parts.push(group);
     parts
 }
 
@@ -98,7 +121,7 @@ fn stayed<'a>(
     for (_, group) in before {
         let members = people.iter().filter(|vru| is_in(vru, group)).copied();
         let mut members: Vec<_> = members.collect();
-        let middle = middle(&members);
+        let middle = mean(&members, |vru| vru.position_m);
         let from_middle = |vru: &PerceivedVru| distance_m(middle, vru.position_m);
         // Who is in the middle of a group has the most in common with the others.
         members.sort_by(|a, b| from_middle(a).total_cmp(&from_middle(b)));
@@ -135,11 +158,11 @@ fn unite(groups: &mut Vec<Vec<&PerceivedVru>>, join: Togetherness, size_max: usi
     }
 }
 
-fn middle(members: &[&PerceivedVru]) -> Point {
+/// The mean of what `of` tells of each member, for each axis.
+pub(super) fn mean(members: &[&PerceivedVru], of: fn(&PerceivedVru) -> [f64; 2]) -> [f64; 2] {
     #[expect(clippy::cast_precision_loss, reason = "a few dozen")]
     let count = members.len().max(1) as f64;
-    let sum = |axis: usize| members.iter().map(|vru| vru.position_m[axis]).sum::<f64>();
-    [sum(0) / count, sum(1) / count]
+    [0, 1].map(|axis| members.iter().map(|vru| of(vru)[axis]).sum::<f64>() / count)
 }
 
 fn by_place(a: Point, b: Point) -> std::cmp::Ordering {
@@ -147,21 +170,25 @@ fn by_place(a: Point, b: Point) -> std::cmp::Ordering {
 }
 
 /// Splits along the longer side, in halves of equal size, until every part is small enough.
-fn split(mut members: Vec<(u32, Point)>, size_max: usize, parts: &mut Vec<BTreeSet<u32>>) {
+fn split<'a>(
+    mut members: Vec<&'a PerceivedVru>,
+    size_max: usize,
+    parts: &mut Vec<Vec<&'a PerceivedVru>>,
+) {
     // Halving needs as many rounds as the number has bits, so this is no deep recursion.
     if members.len() > size_max {
         let extent = |axis: usize| {
-            let of = |(_, place): &(u32, Point)| place[axis];
+            let of = |vru: &&PerceivedVru| vru.position_m[axis];
             let most = members.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
             let least = members.iter().map(of).fold(f64::INFINITY, f64::min);
             most - least
         };
         let axis = usize::from(extent(1) > extent(0));
-        members.sort_by(|a, b| a.1[axis].total_cmp(&b.1[axis]));
+        members.sort_by(|a, b| a.position_m[axis].total_cmp(&b.position_m[axis]));
         let rest = members.split_off(members.len() / 2);
         split(members, size_max, parts);
         split(rest, size_max, parts);
     } else if !members.is_empty() {
-        parts.push(members.into_iter().map(|(id, _)| id).collect());
+        parts.push(members);
     }
 }

@@ -212,6 +212,23 @@ fn who_turns_off_leaves_the_cluster_and_the_others_stay() {
     assert_eq!(clustering.take_ended(), []);
 }
 
+/// Both are alike, since one of them is so slow that their directions do not count. The mean is faster, and it is
+/// 21 degrees off the other.
+#[test]
+fn who_does_not_move_as_the_mean_leaves_the_cluster() {
+    let way = |id, (east_m, speed_mps, heading_deg): (f64, f64, f64)| {
+        let (sine, cosine) = heading_deg.to_radians().sin_cos();
+        moving(id, [east_m, 0.0], [speed_mps * sine, speed_mps * cosine])
+    };
+    let of = |a, b| [way(1, (0.0, 0.425, a)), way(2, (0.8, 0.293, b))];
+    let mut clustering = perceiving(&of(130.0, 97.0));
+    assert_eq!(cardinalities(&clustering), [2]);
+    let [a, b] = of(140.0, 87.0);
+    assert!(MATCH.holds(a.velocity_mps, b.velocity_mps));
+    clustering.perceive(100, [0.0, 0.0], &[a, b]);
+    assert_eq!(cardinalities(&clustering), [1, 1]);
+}
+
 #[test]
 fn two_who_meet_and_two_who_part_do_not_change_back_and_forth() {
     let mut clustering = perceiving(&[]);
