@@ -175,7 +175,7 @@ pub struct LongPositionVector {
 
 /// Destination of a packet.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename_all_fields = "camelCase", rename_all = "camelCase")]
 pub enum Transport {
     /// To everybody who hears it.
     SingleHop {

@@ -9,9 +9,9 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// The identifiers of RAM and RMCM.
+/// The identifiers of RAM and RMCM. JSON is in `camelCase`, configuration files are in `snake_case`; both are read.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct Identifiers {
     /// Those of the robot awareness message.
     pub ram: MessageIdentifiers,
@@ -19,6 +19,7 @@ pub struct Identifiers {
     pub rmcm: MessageIdentifiers,
     /// Station type of a robot in the basic container; 12, `lightVruVehicle`, by default: the
     /// nearest that receivers know.
+    #[serde(alias = "robot_station_type")]
     pub robot_station_type: u8,
     /// The common data dictionary that VAM and CPM on the channel are built on.
     pub dictionary: Dictionary,
@@ -39,15 +40,19 @@ pub enum Dictionary {
 
 /// The identifiers of one message.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct MessageIdentifiers {
     /// `protocolVersion` of the header: the version of the message's format; 1 by default.
+    #[serde(alias = "protocol_version")]
     pub protocol_version: u8,
     /// `messageId` of the header, above 21; 240 for RAM and 241 for RMCM by default.
+    #[serde(alias = "message_id")]
     pub message_id: u8,
     /// Destination port of BTP-B, above 2026; 2998 for RAM and 2999 for RMCM by default.
+    #[serde(alias = "btp_port")]
     pub btp_port: u16,
     /// ITS-AID (PSID) that its certificates are for; 16480 for RAM and 16481 for RMCM by default.
+    #[serde(alias = "its_aid")]
     pub its_aid: u32,
 }
 
@@ -155,7 +160,7 @@ mod tests {
 
     #[test]
     fn a_configuration_names_only_what_it_changes() {
-        let json = r#"{"robot_station_type": 10}"#;
+        let json = r#"{"robotStationType": 10}"#;
         let identifiers: Identifiers = serde_json::from_str(json).unwrap();
         assert_eq!(
             identifiers,

@@ -14,7 +14,7 @@ use crate::wire::{bit_set, wire_enum};
 
 /// The state of a robot. What is `None` is unavailable.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct RobotState {
     /// Where it is.
     pub position: Position,
@@ -98,7 +98,7 @@ impl From<f64> for Measurement {
 
 /// A position with its confidence.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct Position {
     /// In degrees, north positive.
     pub latitude: Option<f64>,
@@ -126,6 +126,7 @@ impl Position {
 
 /// The ellipse that holds a position with a confidence of 95 %.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct ConfidenceEllipse {
     /// Larger half axis, in metres.
     pub semi_major: f64,
@@ -149,7 +150,7 @@ pub struct Dimensions {
 
 /// The battery of a robot.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct Battery {
     /// Percent of the usable capacity, 0..100.
     pub state_of_charge: Option<f64>,
@@ -159,7 +160,7 @@ pub struct Battery {
 
 /// What changes slowly.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct SlowState {
     /// What the robot can do besides maneuvers.
     pub capabilities: Capabilities,
@@ -194,6 +195,7 @@ pub struct PastPosition {
 
 /// What a robot shows to people.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct SignalsShown {
     /// To drivers.
     pub to_vehicles: PublicSignal,

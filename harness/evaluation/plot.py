@@ -77,7 +77,7 @@ def odds(results):
     """Loss rate against probabilities and times, for each choice of settings."""
     figure, (probability, time) = plt.subplots(2, figsize=(10, 9), sharex=True)
     middle = lambda bounds: (bounds["lower"] + bounds["upper"]) / 2
-    settings = ("ram_period_ms", "t_ack_ms", "n_ack", "t_safety_ms")
+    settings = ("ramPeriodMs", "tAckMs", "nAck", "tSafetyMs")
     varied = [name for name in settings if len({of[name] for of in results["odds"]}) > 1]
     for of in results["odds"]:
         curves = {}
@@ -86,8 +86,8 @@ def odds(results):
             for it in at["milestones"]:
                 name = it["milestone"]
                 curves.setdefault((probability, name), []).append((at["loss"], middle(it["probability"])))
-                if it.get("mean_ms") and name in ("team", "received", "acknowledged"):
-                    curves.setdefault((time, f"{name}, mean"), []).append((at["loss"], middle(it["mean_ms"])))
+                if it.get("meanMs") and name in ("team", "received", "acknowledged"):
+                    curves.setdefault((time, f"{name}, mean"), []).append((at["loss"], middle(it["meanMs"])))
         suffix = "".join(f", {name}={of[name]}" for name in varied)
         for (axes, name), points in curves.items():
             axes.plot(*zip(*points), marker=".", label=name + suffix)

@@ -1,4 +1,4 @@
-"""A body for `crossguard run` in thirty lines: python3 body.py ADDRESS [EAST NORTH [TIMES_FASTER]]"""
+"""A body for `crossguard run` in some thirty lines: python3 body.py ADDRESS [EAST NORTH [TIMES_FASTER]]"""
 import json, math, socket, sys, time
 
 address, numbers = sys.argv[1], [float(word) for word in sys.argv[2:]]
@@ -8,8 +8,8 @@ link = socket.socket(socket.AF_UNIX if host == "unix" else socket.AF_INET)
 link.connect(port if host == "unix" else (host, int(port)))
 link.settimeout(0.02)
 say = lambda type, **more: link.sendall((json.dumps({"type": type, **more}) + "\n").encode())
-say("hello", crossguard=1)
-target, speed, done, begin, text, heard, last = None, 0.0, None, place, b"", time.monotonic(), time.monotonic()
+say("hello", crossguard=2)
+target, speed, done, waits, begin, text, heard, last = None, 0.0, None, False, place, b"", time.monotonic(), time.monotonic()
 while True:
     try:
         octets = link.recv(4096)
@@ -19,17 +19,18 @@ while True:
     if time.monotonic() - heard > 0.5: target = None  # the robot is silent: stand still
     *lines, text = text.split(b"\n")
     for line in map(json.loads, lines):
-        to = line.get("to") and [line["to"]["east_m"], line["to"]["north_m"]]
-        if line["type"] == "start": begin, target, speed, done = place, to or place, line["speed_mps"] or 0.5, (line["report"], {"id": line["id"]})
+        if line["type"] not in ("beat", "release"): waits = line["type"] == "wait"
+        to = line.get("to") and [line["to"]["eastM"], line["to"]["northM"]]
+        if line["type"] == "start": begin, target, speed, done = place, to or place, line["speedMps"] or 0.5, (line["report"], {"id": line["id"]})
         if line["type"] == "go": target, speed, done = to, 0.5, None
         if line["type"] in ("stop", "halt", "refused"): target = None
         if line["type"] == "fall-back":
             ends = [begin, target or place] if line["policy"] == "escort-to-kerb" else [place]
             target, done = min(ends, key=lambda end: math.dist(end, place)), ("fallen-back", {})
-    if target:
+    if target and not waits:
         step, way = (time.monotonic() - last) * speed * pace, math.dist(place, target)
         place = target if way <= step else [a + (b - a) * step / way for a, b in zip(place, target)]
     last = time.monotonic()
-    say("pose", east_m=place[0], north_m=place[1], speed_mps=speed if target and place != target else 0.0)
+    say("pose", eastM=place[0], northM=place[1], speedMps=speed if target and place != target and not waits else 0.0)
     if target == place:
         target, done = None, done and say(done[0], **done[1])

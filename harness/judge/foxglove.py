@@ -64,7 +64,7 @@ def pose(x=0.0, y=0.0, z=0.0, turn=None):
 
 def covariance(ellipse):
     """In m², east, north and up. Half axes of 95 % are 2.45 standard deviations of a normal distribution in the plane."""
-    major, minor = (ellipse[axis] / 2.44775 for axis in ("semi_major", "semi_minor"))
+    major, minor = (ellipse[axis] / 2.44775 for axis in ("semiMajor", "semiMinor"))
     turn = math.radians(ellipse["orientation"])
     sin, cos = math.sin(turn), math.cos(turn)
     both = (major**2 - minor**2) * sin * cos

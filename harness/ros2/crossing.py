@@ -22,14 +22,15 @@ for name in ("ROS_STATIC_PEERS", "ROS_LOCALHOST_ONLY"):
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import Point, Point32, Polygon, PoseStamped, Vector3
 from rclpy.action import get_action_client_names_and_types_by_node
+from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
 from std_msgs.msg import String
 
 from crossguard_msgs.action import Maneuver
-from crossguard_msgs.msg import Corridor, Event, Status
+from crossguard_msgs.msg import Corridor, Event, People, Person, Status
 
 # In seconds, for a machine that has other things to do.
 PATIENCE = 60.0
@@ -86,7 +87,7 @@ class Heard:
 class Robot:
     """`crossguard run`, its node, and its body."""
 
-    def __init__(self, street, name, station, build, place, link, pace, lines="", options=()):
+    def __init__(self, street, name, station, build, place, link, pace, lines="", options=(), zone=""):
         self.street, self.name, self.place, self.pace = street, name, place, pace
         folder, space = street.folder, f"/{name}/crossguard"
         self.log, config = folder / f"{name}.jsonl", folder / f"{name}.toml"
@@ -94,12 +95,13 @@ class Robot:
             f'{lines}\nname = "{name}"\nstation = {station}\nbuild = "{build}"\nboot_file = "{name}.boot"\n'
             f'autopilot = true\n\n[link]\naddress = "127.0.0.1:{link[0]}"\npeers = ["127.0.0.1:{link[1]}"]\n\n'
             f'[body]\nlisten = "unix:{name}.sock"\nsilence_ms = {1000 * SILENCE_S:.0f}\n\n'
-            f'[operator]\nlisten = "unix:{name}-operator.sock"\n')
+            f'[operator]\nlisten = "unix:{name}-operator.sock"\n{zone}')
         self.corridor = Heard(street, Corridor, f"{space}/corridor")
         self.status = Heard(street, Status, f"{space}/status")
         self.events = Heard(street, Event, f"{space}/event")
         self.poses = Heard(street, PoseStamped, f"{space}/pose")
         self.commands = street.node.create_publisher(String, f"{space}/command", 10)
+        self.people = street.node.create_publisher(People, f"{space}/people", 10)
         self.run = Process(street.stack, folder, name, [CROSSGUARD, "run", "--config", config, "--log", self.log, *options],
                            stdin=subprocess.PIPE)
         self.node, self.body = self.start_node(), self.start_body()
@@ -119,6 +121,12 @@ class Robot:
 
     def command(self, line):
         self.commands.publish(String(data=line))
+
+    def look(self, people, age_s=0.0, covers=()):
+        """Has a source of its sensors say whom it saw so long ago."""
+        stamp = (self.street.node.get_clock().now() - Duration(seconds=age_s)).to_msg()
+        covers = Polygon(points=[Point32(x=x, y=y) for x, y in covers])
+        self.people.publish(People(stamp=stamp, covers=covers, people=people))
 
     def said(self, what):
         """How often its log has this."""
@@ -301,6 +309,28 @@ def a_robot_that_takes_signed_packets_only_takes_nothing_from_the_graph(stack):
             assert {it.state for it in robot.status.messages} == {Status.STATE_IDLE}
 
 
+def a_frame_of_people_reaches_the_robot(stack):
+    graph = Graph(stack)
+    robot = Robot(graph, "ari", 1, "humanoid", (0.0, -1.5), free_ports(), 1.0, zone="\n[zone]\npavement_m = 2.5\n")
+    robot.status.until("a status", lambda _: True)
+    until("a node that hears of people", lambda: robot.people.get_subscription_count() == 1)
+    somebody = Person(id=7, position=Point(x=1.0, y=3.0), velocity=Vector3(y=1.5), kind="wheelchairUser", confidence=0.9)
+    robot.look([Person(kind="nobody knows")])
+    robot.events.until("a refusal", lambda it: it.kind == Event.REFUSED and "nobody knows" in it.text)
+    robot.look([somebody], age_s=-5.0)
+    robot.events.until("a refusal", lambda it: it.kind == Event.REFUSED and "unix_s" in it.text)
+    assert not robot.said('"wheelchairUser"')
+
+    def is_seen():
+        robot.look([somebody], covers=[(-3.0, 0.0), (5.0, 0.0), (5.0, 7.0), (-3.0, 7.0)])
+        time.sleep(0.1)
+        return robot.said('"wheelchairUser"')
+
+    until("a person on the road", is_seen)
+    seen = [it for it in map(json.loads, robot.log.read_text().splitlines()[:-1]) if it["entry"] == "people"]
+    assert any(person["conduct"] == "onRoad" for it in seen for person in it["people"]), seen
+
+
 def a_graph_that_others_can_reach_is_refused(_):
     for name, value in [("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET"), ("ROS_STATIC_PEERS", "192.0.2.1")]:
         command = [BIN / "crossguard_node", "--ros-args", "-p", "body:=unix:nowhere.sock"]
@@ -311,7 +341,8 @@ def a_graph_that_others_can_reach_is_refused(_):
 CASES = [
     a_whole_crossing_is_done_by_two_bodies_of_rclpy, a_node_that_is_killed_is_an_emergency_stop,
     a_body_that_is_killed_is_an_emergency_stop, a_body_stands_when_its_robot_is_killed, a_node_that_was_held_says_nothing_old,
-    a_robot_that_takes_signed_packets_only_takes_nothing_from_the_graph, a_graph_that_others_can_reach_is_refused]
+    a_robot_that_takes_signed_packets_only_takes_nothing_from_the_graph, a_frame_of_people_reaches_the_robot,
+    a_graph_that_others_can_reach_is_refused]
 
 
 def main():

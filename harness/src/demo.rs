@@ -32,7 +32,7 @@ use crossguard_robot::boot::Boot;
 use crossguard_robot::capture::Capture;
 use crossguard_robot::journal::{Journal, WhenFull};
 use crossguard_robot::machine::is_at_rest;
-use crossguard_robot::perception::Feed;
+use crossguard_robot::perception::{Feed, Perception};
 use crossguard_robot::runtime::{Clock, Order, Running, Setup};
 use crossguard_robot::sign::Sign;
 use crossguard_robot::street::{Road, Street};
@@ -79,6 +79,7 @@ pub struct Options {
 
 /// What came of a demonstration.
 #[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Outcome {
     /// What happened.
     pub scenario: Scenario,
@@ -263,6 +264,11 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
     })
 }
 
+/// How long a crossing may take. The paper's takes about 26 s; commands may have to be given again.
+fn patience(options: &Options) -> Duration {
+    Duration::from_secs_f64(60.0 + 120.0 / options.time_scale)
+}
+
 /// The station ids by which participants go, which follow from their tickets, by those of the plan.
 fn stations(
     participants: &[Participant],
@@ -288,9 +294,7 @@ impl Demo<'_> {
                 robot.order(Order::Wish(Stimulus::Event(detected)));
             }
         }
-        // The paper's crossing takes about 26 s; commands may have to be given again.
-        let patience = Duration::from_secs_f64(60.0 + 120.0 / options.time_scale);
-        let deadline = Instant::now() + patience;
+        let deadline = Instant::now() + patience(options);
         while Instant::now() < deadline && !options.stop.load(Ordering::Relaxed) {
             self.take_records(Duration::from_millis(50));
             self.strike();
@@ -353,20 +357,14 @@ impl Demo<'_> {
         }
     }
 
-    /// Tells all robots which people their sensors report. A pipe that says something else has no more to say.
+    /// Tells all robots what their sensors report.
     fn tell_perceived(&mut self) {
-        match self.perceived.as_ref().map(Feed::due) {
-            None => {}
-            Some(Ok(people)) => {
-                for (_, robot) in &self.robots {
-                    for &vru in &people {
-                        robot.order(Order::Perceived(vru));
-                    }
-                }
+        for perception in self.perceived.iter().flat_map(Feed::due) {
+            if let Perception::Garbled(why) = &perception {
+                eprintln!("{why}");
             }
-            Some(Err(error)) => {
-                eprintln!("{error}");
-                self.perceived = None;
+            for (_, robot) in &self.robots {
+                robot.order(perception.order());
             }
         }
     }
@@ -411,7 +409,8 @@ impl Demo<'_> {
         for (_, robot) in &self.robots {
             robot.order(Order::Stop);
         }
-        let deadline = Instant::now() + Duration::from_secs(10);
+        // An escort that falls back waits for the pedestrian, who walks on for as long as somebody looks.
+        let deadline = Instant::now() + patience(options);
         while self.robots.iter().any(|(_, robot)| !robot.has_stopped()) && Instant::now() < deadline
         {
             self.take_records(Duration::from_millis(20));

@@ -21,6 +21,8 @@ shipped! {
     quick plain stable "stable";
     quick plain blocker "blocker";
     quick plain trio_corridor "trio-corridor";
+    quick plain drift "drift";
+    quick plain own_sight "own-sight";
     quick plain two_teams "two-teams";
     quick plain crossing "crossing";
     quick plain rivals "rivals";

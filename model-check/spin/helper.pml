@@ -131,8 +131,10 @@ inline take_command() {
     /* Acknowledged before it is started; the RAM reports it. */
     follower.contact = true;
     if
-    :: follower.unavailable || follower.duty -> follower.refused = m.request; send_answer(false)
+    :: follower.unavailable -> follower.refused = m.request; send_answer(false)
     :: else ->
+        /* A duty is of this session, since it offers to no other, and there is one task: it is taken up again. */
+        follower.duty = false;
         send_answer(true);
         if
         :: EXECUTES -> stop_body()

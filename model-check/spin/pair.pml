@@ -160,6 +160,7 @@ hidden Message heard;
 hidden byte i;
 hidden short present;
 hidden byte stray;
+hidden byte is_newer;
 hidden int before;
 hidden int before_too;
 

@@ -75,10 +75,18 @@ inline acknowledge() {
     leader.outstanding = 0; leader.repeats = 0
 }
 
+/* A place is taken by a newer echo than all before, and lost by one that is as new. What is over stays so, but for the
+ * leader's own limit, after which the follower may fall back. */
+#define IS_NEWS (leader.progress == NO_REPORT \
+    || (leader.progress == EXECUTING && m.says == IN_POSITION && is_newer) \
+    || (leader.progress == IN_POSITION && m.says == EXECUTING && m.beat == leader.echoed) \
+    || ((leader.progress == EXECUTING || leader.progress == IN_POSITION) && m.says > IN_POSITION) \
+    || (leader.progress == OVER_TIME && m.says == SAFE_IDLE))
+
 inline hear_follower() {
+    is_newer = (!leader.joined || m.beat > leader.echoed);
     if
-    :: !leader.joined || m.beat > leader.echoed ->
-        leader.joined = true; leader.echoed = m.beat; leader.lease = true
+    :: is_newer -> leader.joined = true; leader.echoed = m.beat; leader.lease = true
     :: else
     fi;
 #ifdef ANY_PROGRESS
@@ -90,7 +98,7 @@ inline hear_follower() {
     :: else
     fi;
     if
-    :: m.request != 0 && m.request == leader.order && ORDER_RUNS && m.says > leader.progress ->
+    :: m.request != 0 && m.request == leader.order && IS_NEWS ->
         leader.progress = m.says
     :: else
     fi

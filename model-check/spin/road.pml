@@ -4,6 +4,9 @@
 #define IS_NEEDED (on_road != 0 && task != 0 && SESSION_OF(task) == on_road \
                    && (GUARDS || body == FALLING_BACK))
 
+/* Whether a command of this session lets the body go on with what it falls back from; there is one task. */
+#define RESUMES (body == FALLING_BACK && SESSION_OF(task) == m.session)
+
 /* The body is told to begin. */
 inline start_body(command) {
     PREMISE(3, true);
@@ -14,8 +17,8 @@ inline start_body(command) {
     /* Of the commands of the session, neither this one nor a newer one was started before. */
     PREMISE(5, (started >> (NAME(m.session, 1) - 1)) & ((1 << COMMANDS) - 1));
     CHECK(5, ((started >> (NAME(m.session, command) - 1)) & ((1 << (COMMANDS - command + 1)) - 1)) == 0);
-    CHECK(W2, !IS_NEEDED);
-    CHECK(W4, body != FALLING_BACK);
+    CHECK(W2, !IS_NEEDED || RESUMES);
+    CHECK(W4, body != FALLING_BACK || RESUMES);
     started = started | BIT(m.session, command);
     task = NAME(m.session, command);
     body = UNDER_WAY

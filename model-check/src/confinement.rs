@@ -91,6 +91,7 @@ pub enum Harm {
 
 /// A row of the table.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Confinement {
     /// Which.
     pub harm: Harm,

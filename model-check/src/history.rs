@@ -1,9 +1,9 @@
 //! What has happened, as far as a property needs it and no robot's state holds it.
 
 use crossguard_protocol::{
-    Answer, Command, Confirmation, Coordination, Event, Input, ManeuverId, Notice, OfferNumber,
-    Output, Outputs, Phase, Renaming, Report, RequestId, Rmcm, Robot, SessionId, StationId,
-    TaskType, Verdict,
+    Answer, Command, Confirmation, Coordination, Event, Heartbeat, Input, ManeuverId, Notice,
+    OfferNumber, Output, Outputs, Phase, Progress, Renaming, Report, RequestId, Rmcm, Robot,
+    SessionId, StationId, TaskType, Verdict,
 };
 
 use serde::{Deserialize, Serialize};
@@ -14,6 +14,7 @@ use crate::serial::request_is_newer;
 
 /// The history of a run. Sorted, so that the order of unrelated events does not tell states apart.
 #[derive(Clone, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct History {
     commands: Vec<CommandRecord>,
     confirmed: Vec<(SessionId, Confirmation)>,
@@ -25,6 +26,7 @@ pub struct History {
 /// What became of one command.
 #[expect(clippy::struct_excessive_bools, reason = "each is an independent fact")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct CommandRecord {
     /// The follower that it was sent to.
     pub to: StationId,
@@ -42,7 +44,9 @@ pub struct CommandRecord {
     pub fell_back: bool,
     /// The follower's body has reached the place from which it guards.
     pub in_position: bool,
-    /// The leader has received a report that it has ended, or has dropped the follower.
+    /// The follower's body has left that place since it was there last.
+    pub out_of_position: bool,
+    /// The leader has received a report that it has ended, or that the body has left its place, or has dropped the follower.
     pub told: bool,
 }
 
@@ -120,9 +124,20 @@ impl History {
                 self.update(station, id, |record| record.finished = true);
             }
             Input::Local(Event::InPosition(id)) => {
-                self.update(station, id, |record| record.in_position = true);
+                self.update(station, id, |record| {
+                    record.in_position = true;
+                    // What the leader knew of another time says nothing of this one.
+                    record.told &= !record.out_of_position;
+                    record.out_of_position = false;
+                });
+            }
+            Input::Local(Event::OutOfPosition(id)) => {
+                self.update(station, id, |record| record.out_of_position = true);
             }
             _ => {}
+        }
+        if let Some((follower, id)) = told_on_its_way(after, input) {
+            self.update(follower, id, |record| record.told |= record.out_of_position);
         }
         if let Some((follower, id)) = told_end(station, input) {
             self.update(follower, id, |record| record.told = true);
@@ -207,6 +222,7 @@ impl History {
             finished: false,
             fell_back: false,
             in_position: false,
+            out_of_position: false,
             told: false,
         };
         insert_sorted(&mut self.commands, record, command_order);
@@ -244,16 +260,36 @@ impl Renamable for History {
 
 /// The command whose end a message reports to its leader, and its follower.
 pub(crate) fn told_end(leader: StationId, input: Input) -> Option<(StationId, ManeuverId)> {
+    let (follower, id, progress, _) = report_to(leader, input)?;
+    (!progress.is_running()).then_some((follower, id))
+}
+
+/// The command that a message reports to this leader as on its way, where the leader knows no later heartbeat of the
+/// follower.
+pub(crate) fn told_on_its_way(leader: &Robot, input: Input) -> Option<(StationId, ManeuverId)> {
+    let (follower, id, progress, echo) = report_to(leader.station(), input)?;
+    let Phase::Leading(leading) = leader.phase() else {
+        return None;
+    };
+    let is_newest = leading.member(follower)?.echoed == Some(echo);
+    (progress == Progress::Executing && is_newest).then_some((follower, id))
+}
+
+/// What a message of a follower in a session of this leader reports, and what it echoes.
+fn report_to(
+    leader: StationId,
+    input: Input,
+) -> Option<(StationId, ManeuverId, Progress, Heartbeat)> {
     let Input::Ram { ram, .. } = input else {
         return None;
     };
     match ram.coordination {
         Coordination::Follower {
             session,
+            echo,
             last: Some(Report { request, progress }),
-            ..
-        } if session.leader == leader && !progress.is_running() => {
-            Some((ram.station, ManeuverId { session, request }))
+        } if session.leader == leader => {
+            Some((ram.station, ManeuverId { session, request }, progress, echo))
         }
         _ => None,
     }

@@ -59,6 +59,7 @@ pub struct Persisted {
 
 /// What the body and the application of a robot do and know by its outputs alone. The properties compare it with the protocol state.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Actuation {
     /// The maneuver that runs.
     pub running: Option<ManeuverId>,

@@ -11,7 +11,7 @@ use crate::sequence::ChartStep;
 
 /// A run through a scenario.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Replay {
     /// The scenario's name.
     pub scenario: String,

@@ -9,6 +9,7 @@ use crate::transitions::Transitions;
 
 /// The result of checking one scenario.
 #[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct ScenarioReport {
     /// The scenario's name.
     pub name: String,
@@ -68,6 +69,7 @@ pub enum CutOff {
 
 /// What was found about one property, or about its premise.
 #[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct PropertyReport {
     /// The property's id; a premise has `-premise` behind it.
     pub id: String,

@@ -4,8 +4,9 @@
 //! Nothing here asks a robot's state what is so. A body observes the outputs of its robot and moves by its
 //! own actions; the pedestrian looks at signs and at nothing else.
 //!
-//! An application is truthful. It says that its body is in position when it is; that a maneuver which guards
-//! is finished, that the road is clear and that the task is done only when nobody is on the road. To be in
+//! An application is truthful. It says that its body is in position when it is, and out of it when it is not any more; that a
+//! maneuver which guards is finished, that the road is clear and that the task is done only when nobody is on the road. Where
+//! guards see for themselves, a leader may say that the task is done while all of them see somebody. To be in
 //! position and to say so is one action here, and so is to end a fallback and to say that the road is clear:
 //! between the two nothing but the robot's own knowledge could differ, and less of it.
 
@@ -31,6 +32,8 @@ pub enum Body {
     UnderWay(Maneuver),
     /// It holds the place that its maneuver is about.
     InPosition(Maneuver),
+    /// It has left that place without an end of its maneuver.
+    OutOfPosition(Maneuver),
     /// It carries out a fallback. Where that is to hold, it holds its place.
     FallingBack(Maneuver, FallbackPolicy),
     /// It did this last, and does nothing now.
@@ -66,8 +69,13 @@ impl Body {
     /// It has done something by itself, and its application has said so.
     fn after_own(self, event: Event) -> Self {
         match (event, self) {
-            (Event::InPosition(id), Self::UnderWay(maneuver)) if maneuver.id == id => {
+            (Event::InPosition(id), Self::UnderWay(maneuver) | Self::OutOfPosition(maneuver))
+                if maneuver.id == id =>
+            {
                 Self::InPosition(maneuver)
+            }
+            (Event::OutOfPosition(id), Self::InPosition(maneuver)) if maneuver.id == id => {
+                Self::OutOfPosition(maneuver)
             }
             (Event::ManeuverCompleted(id), body) if body.runs(id) => Self::Ended(id, End::Done),
             (Event::ManeuverFailed(id), body) if body.runs(id) => Self::Ended(id, End::Failed),
@@ -105,7 +113,9 @@ impl Body {
     #[must_use]
     pub const fn running(self) -> Option<Maneuver> {
         match self {
-            Self::UnderWay(maneuver) | Self::InPosition(maneuver) => Some(maneuver),
+            Self::UnderWay(maneuver)
+            | Self::InPosition(maneuver)
+            | Self::OutOfPosition(maneuver) => Some(maneuver),
             Self::Parked | Self::FallingBack(..) | Self::Ended(..) => None,
         }
     }
@@ -117,6 +127,7 @@ impl Body {
             Self::Parked => None,
             Self::UnderWay(Maneuver { id, .. })
             | Self::InPosition(Maneuver { id, .. })
+            | Self::OutOfPosition(Maneuver { id, .. })
             | Self::FallingBack(Maneuver { id, .. }, _)
             | Self::Ended(id, _) => Some(id),
         }
@@ -132,6 +143,13 @@ impl Body {
         self.running().filter(guarding).filter(is_there)
     }
 
+    /// Whether to start this is to go on with what it falls back from, for the same leader: it is where it was.
+    #[must_use]
+    pub fn resumes(self, started: Maneuver) -> bool {
+        matches!(self, Self::FallingBack(maneuver, _)
+            if maneuver.task == started.task && maneuver.id.session == started.id.session)
+    }
+
     pub(crate) fn renamed(self, to: &mut impl Renaming) -> Self {
         let mut id = |id: ManeuverId| ManeuverId {
             session: id.session.renamed(to),
@@ -142,6 +160,7 @@ impl Body {
             Self::Parked => Self::Parked,
             Self::UnderWay(m) => Self::UnderWay(maneuver(m)),
             Self::InPosition(m) => Self::InPosition(maneuver(m)),
+            Self::OutOfPosition(m) => Self::OutOfPosition(maneuver(m)),
             Self::FallingBack(m, policy) => Self::FallingBack(maneuver(m), policy),
             Self::Ended(m, end) => Self::Ended(id(m), end),
         }
@@ -154,6 +173,7 @@ impl fmt::Display for Body {
             Self::Parked => f.write_str("parked"),
             Self::UnderWay(m) => write!(f, "under way ({} {})", m.task, m.id),
             Self::InPosition(m) => write!(f, "in position ({} {})", m.task, m.id),
+            Self::OutOfPosition(m) => write!(f, "out of position ({} {})", m.task, m.id),
             Self::FallingBack(m, policy) => write!(f, "falls back from {}: {policy}", m.id),
             Self::Ended(id, end) => write!(f, "{end:?} ({id})"),
         }

@@ -10,9 +10,9 @@ use std::collections::HashSet;
 
 use crossguard_protocol::{
     Answer, Availability, Command, Config, Confirmation, Coordination, Decimetres, Ending, Event,
-    Failure, Farewell, Followers, Heartbeat, HelpRequest, Input, Millis, OfferNumber, Phase,
-    Progress, Ram, Rejection, Report, RequestId, Rmcm, Robot, SessionId, SessionNumber, Settings,
-    StationId, TaskSet, TaskType, Timer, Unavailability, UniqueNumber, Urgency, Verdict,
+    EventKind, Failure, Farewell, Followers, Heartbeat, HelpRequest, Input, Millis, OfferNumber,
+    Phase, Progress, Ram, Rejection, Report, RequestId, Rmcm, Robot, SessionId, SessionNumber,
+    Settings, StationId, TaskSet, TaskType, Timer, Unavailability, UniqueNumber, Urgency, Verdict,
 };
 
 use crate::canonical::{Names, Ranks, Renamable};
@@ -252,19 +252,15 @@ fn request(followers: u8, urgency: Urgency) -> HelpRequest {
 }
 
 fn events(robot: &Robot) -> Vec<Event> {
-    let mut events = vec![
+    let bare = EventKind::ALL.into_iter().filter_map(Event::bare);
+    let mut events: Vec<_> = bare.collect();
+    events.extend([
         Event::PedestrianDetected(request(1, Urgency::Medium)),
         Event::PedestrianDetected(request(0, Urgency::Medium)),
-        Event::TaskCompleted,
-        Event::LeaveRequested,
         Event::AvailabilityChanged(Availability::Available),
         Event::AvailabilityChanged(Availability::Unavailable(Unavailability::LocalFault)),
-        Event::RoadClear,
-        Event::AllAnswered,
-        Event::OpenCorridor,
-        Event::CloseCorridor,
         Event::IdentityChanged(ME, None),
-    ];
+    ]);
     for follower in [PEERS[0], PEERS[1], STRANGER] {
         // Three commands show everything that more would, up to the last one.
         let used = requests(robot).last().map_or(0, |request| request.0);
@@ -281,6 +277,7 @@ fn events(robot: &Robot) -> Vec<Event> {
             let id = crossguard_protocol::ManeuverId { session, request };
             events.extend([
                 Event::InPosition(id),
+                Event::OutOfPosition(id),
                 Event::ManeuverCompleted(id),
                 Event::ManeuverFailed(id),
             ]);
@@ -500,7 +497,7 @@ mod tests {
     use crate::fsm::diagram;
 
     /// Up to renaming.
-    const STATES: usize = 48_202;
+    const STATES: usize = 51_274;
 
     #[test]
     fn whatever_peers_say_every_step_of_a_robot_is_valid() {

@@ -37,6 +37,7 @@ pub struct Walk {
 
 /// What is so in one state.
 #[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct WalkFrame {
     /// The robots, in the order of their places.
     pub robots: Vec<RobotFrame>,
@@ -56,6 +57,7 @@ pub struct WalkFrame {
 
 /// One robot in one state.
 #[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 #[expect(
     clippy::struct_excessive_bools,
     reason = "facts that have nothing to do with each other"
@@ -91,7 +93,7 @@ pub struct RobotFrame {
 
 /// What a body does.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(rename_all = "camelCase")]
 #[allow(missing_docs, reason = "as in Body")]
 pub enum BodyFrame {
     Parked,
@@ -103,7 +105,7 @@ pub enum BodyFrame {
 
 /// The person at the crossing.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(rename_all = "camelCase")]
 pub enum PersonFrame {
     /// Waits for a sign that shows go.
     Waiting,
@@ -126,6 +128,7 @@ pub struct OnItsWay {
 
 /// Where a walk left its scenario.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Stray {
     /// The step, counted from 0.
     pub step: usize,
@@ -218,7 +221,7 @@ impl RobotFrame {
             timers: timers.unwrap_or_default(),
             body: match node.actuation.body {
                 Body::Parked => BodyFrame::Parked,
-                Body::UnderWay(_) => BodyFrame::UnderWay,
+                Body::UnderWay(_) | Body::OutOfPosition(_) => BodyFrame::UnderWay,
                 Body::InPosition(_) => BodyFrame::InPosition,
                 Body::FallingBack(..) => BodyFrame::FallingBack,
                 Body::Ended(..) => BodyFrame::Ended,
@@ -265,7 +268,7 @@ fn possible(model: &Model, state: &ModelState) -> Vec<ChartStep> {
 
 /// What is looked for in a scenario.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub enum Goal {
     /// The robot at a place is in a state of the paper's machine.
     Robot {
@@ -286,6 +289,7 @@ pub enum Goal {
 
 /// What a search has come to.
 #[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Search {
     /// A shortest way there; `None` where none was found.
     pub steps: Option<Vec<ChartStep>>,

@@ -48,7 +48,14 @@ fn assert_breaks(scenario: &str, rules: impl Rules + 'static, properties: &[Prop
 /// Asserts that these properties, and no others, break in a scenario without delayed messages when
 /// `rules` takes the place of the protocol.
 fn assert_breaks_alone(scenario: &str, rules: impl Rules + 'static, properties: &[PropertyId]) {
-    let mut scenario = Scenario::load(scenario).unwrap();
+    assert_breaks_alone_in(Scenario::load(scenario).unwrap(), rules, properties);
+}
+
+fn assert_breaks_alone_in(
+    mut scenario: Scenario,
+    rules: impl Rules + 'static,
+    properties: &[PropertyId],
+) {
     scenario.channel.delayed = 0;
     scenario.expected = None;
     let model = Model::with_rules(scenario, rules);
@@ -141,6 +148,12 @@ weakenings! {
     #[test]
     fn a_guard_that_stops_where_it_is_leaves_people_on_the_road_alone("bilateral", StopsInPlace, [W2] alone);
     #[test]
+    fn a_guard_that_trusts_its_leader_alone_leaves_a_person_that_it_sees("own-sight", TrustsItsLeaderAlone, [W2] alone);
+    #[test]
+    fn a_leader_that_reads_no_loss_lets_people_cross_where_no_guard_stands("drift", ReadsNoLoss, [W1] alone);
+    #[test]
+    fn a_leader_that_believes_late_ram_lets_people_cross_where_a_guard_stood("drift", BelievesOldPositions, [W1]);
+    #[test]
     fn a_leader_that_hears_no_other_goes_on_showing_go("two-teams", HearsNoLeader, [W3] alone);
     #[test]
     fn a_robot_that_forgets_its_duty_begins_something_new("bilateral", ForgetsItsDuty, [W4] alone);
@@ -154,6 +167,14 @@ weakenings! {
     fn a_follower_that_lies_speaks_for_the_others_where_one_counts_for_all("lying-follower: C2", CountsOneForAll, [C2]);
     #[test]
     fn a_corridor_rests_on_a_stranger_where_who_says_so_follows("lying-bystander", AdmitsWhoSaysThatItFollows, [C3]);
+}
+
+/// With a corridor, who is commanded away leaves people on the road alone as well.
+#[test]
+fn a_follower_that_obeys_on_duty_begins_something_new() {
+    let mut scenario = Scenario::load("blocker").unwrap();
+    scenario.corridor = false;
+    assert_breaks_alone_in(scenario, ObeysOnDuty, &[W4]);
 }
 
 /// Timers of these kinds never expire in robots of that kind.

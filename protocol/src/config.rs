@@ -28,7 +28,10 @@ use crate::words::words;
 /// | `t_offer` 3 s, `t_help` 10 s, `t_leave` 5 s | What a helper, a person at the kerb and a follower put up with; the paper says nothing of it. |
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+#[cfg_attr(
+    feature = "serde",
+    serde(rename_all = "camelCase", default, deny_unknown_fields)
+)]
 pub struct Settings {
     /// Interval of RAM in a session; a leader bumps its heartbeat at the same pace. 100 ms by default,
     /// the shortest interval of CAM (EN 302 637-2, clause 6.1.3).
@@ -70,10 +73,10 @@ pub struct Settings {
     /// The maneuvers that this robot can do; the three with names by default.
     pub capabilities: TaskSet,
     /// The maneuvers under which a pedestrian may cross; the corridor opens only for these. `move` and
-    /// `block` by default.
+    /// `block` by default, and always among them.
     pub guarding: TaskSet,
     /// The maneuvers that guard from a place: the corridor opens only once the follower has reported
-    /// that it is in position. `block` by default.
+    /// that it is in position. `block` by default, and always among them.
     pub holding: TaskSet,
     /// Fallback policy by task type; by default escort to the nearer kerb from `move`, hold until clear for
     /// `block`, stop in place for the others.
@@ -82,6 +85,38 @@ pub struct Settings {
     pub first_request: RequestId,
     /// First heartbeat of a session; 0 by default.
     pub first_heartbeat: Heartbeat,
+}
+
+/// [`Settings`] as configuration files spell them: in `snake_case`, where JSON is in `camelCase`.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(
+    remote = "Settings",
+    default = "Settings::default",
+    deny_unknown_fields
+)]
+pub struct SettingsInFiles {
+    ram_period: Millis,
+    t_select: Millis,
+    t_offer: Millis,
+    t_help: Millis,
+    t_ack: Millis,
+    n_ack: u8,
+    t_safety: Millis,
+    t_lease: Millis,
+    t_leave: Millis,
+    t_farewell: Millis,
+    t_lock: Millis,
+    t_cross: Millis,
+    t_exec: [Millis; TaskType::COUNT],
+    drift_ppm: u32,
+    delay_max: Millis,
+    capabilities: TaskSet,
+    guarding: TaskSet,
+    holding: TaskSet,
+    fallback: [FallbackPolicy; TaskType::COUNT],
+    first_request: RequestId,
+    first_heartbeat: Heartbeat,
 }
 
 impl Default for Settings {
@@ -167,6 +202,11 @@ words! {
         /// `t_lock / ram_period < 32768`: two heartbeats of a session are less than half the number
         /// space apart.
         HeartbeatsInNumberSpace = 11, "t_lock / ram_period < 32768";
+        /// `move` and `block` are in `guarding`: a robot that took them for anything else would leave people on the
+        /// road.
+        NamedTasksGuard = 12, "move and block are in guarding";
+        /// `block` is in `holding`: the corridor would open while the guard is on its way.
+        BlockHolds = 13, "block is in holding";
     }
 }
 
@@ -214,6 +254,10 @@ impl Inequality {
                     && guarding.all(|task| s.t_cross <= s.t_exec[task.value() as usize])
             }
             Self::HeartbeatsInNumberSpace => s.t_lock.0 / s.ram_period.0 < Heartbeat::HALF_SPACE,
+            Self::NamedTasksGuard => {
+                s.guarding.contains(TaskType::MOVE) && s.guarding.contains(TaskType::BLOCK)
+            }
+            Self::BlockHolds => s.holding.contains(TaskType::BLOCK),
         }
     }
 }
@@ -348,7 +392,7 @@ mod tests {
     fn each_inequality_is_refused_by_its_name_and_at_its_edge() {
         use Inequality as I;
         type Case = (Option<Inequality>, fn(&mut Settings));
-        let cases: [Case; 32] = [
+        let cases: [Case; 37] = [
             (Some(I::TimerInRange), |s| s.t_ack = Millis(0)),
             (None, |s| s.t_ack = Millis(1)),
             (Some(I::TimerInRange), |s| s.t_exec[7] = Millis(86_400_001)),
@@ -383,10 +427,10 @@ mod tests {
                 s.t_cross = Millis(60_001);
             }),
             (None, |s| {
-                (s.guarding, s.t_cross) = (TaskSet::EMPTY, Millis(298_999));
+                (s.capabilities, s.t_cross) = (TaskSet::EMPTY, Millis(298_999));
             }),
             (Some(I::CrossingWithinLimits), |s| {
-                (s.guarding, s.t_cross) = (TaskSet::EMPTY, Millis(299_000));
+                (s.capabilities, s.t_cross) = (TaskSet::EMPTY, Millis(299_000));
             }),
             (None, |s| s.t_offer = Millis(10_000)),
             (Some(I::OfferWithinHelp), |s| s.t_offer = Millis(10_001)),
@@ -397,6 +441,17 @@ mod tests {
             (None, |s| s.t_lock = Millis(3_276_799)),
             (Some(I::HeartbeatsInNumberSpace), |s| {
                 s.t_lock = Millis(3_276_800);
+            }),
+            (Some(I::NamedTasksGuard), |s| s.guarding = TaskSet::EMPTY),
+            (Some(I::NamedTasksGuard), |s| {
+                s.guarding = TaskSet::of(&[TaskType::MOVE]);
+            }),
+            (Some(I::NamedTasksGuard), |s| {
+                s.guarding = TaskSet::of(&[TaskType::BLOCK]);
+            }),
+            (Some(I::BlockHolds), |s| s.holding = TaskSet::EMPTY),
+            (None, |s| {
+                (s.guarding, s.holding) = (TaskSet(u16::MAX - 1), TaskSet(u16::MAX));
             }),
         ];
         for (i, (expected, change)) in cases.into_iter().enumerate() {

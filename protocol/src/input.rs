@@ -93,6 +93,12 @@ words! {
             "identity changed to {station}{}", NumbersFrom(*next);
         /// A larger boot counter has been persisted, as the output `RenewEpoch` asked.
         EpochRenewed(boot: u16) = 13, "boot counter renewed to {boot}";
+        /// The body does not hold the place any more from which the maneuver guards. To be told as soon as it may be so:
+        /// the leader lets nobody on the road any more.
+        OutOfPosition(id: ManeuverId) = 14, "maneuver {id} out of position";
+        /// Somebody is on the road, seen by this follower itself. Until it tells `RoadClear` it stays, however its leader
+        /// ends the session.
+        PersonOnRoad = 15;
     }
 }
 

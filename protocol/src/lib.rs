@@ -91,6 +91,8 @@ mod timers;
 mod valid;
 pub mod words;
 
+#[cfg(feature = "serde")]
+pub use config::SettingsInFiles;
 pub use config::{BrokenInequality, Config, Inequality, Settings};
 pub use id::{
     Heartbeat, ManeuverId, OfferNumber, RequestId, SessionId, SessionNumber, StationId,

@@ -132,7 +132,8 @@ impl<T: Copy, const N: usize> List<T, N> {
         }
     }
 
-    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut T> {
+    /// The items in order, to change them.
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut T> {
         self.0.iter_mut().map_while(Option::as_mut)
     }
 

@@ -1,11 +1,15 @@
 //! Stage 4, Maneuver execution: commands, acknowledgements, repetition, progress.
 
+use core::cmp::Ordering;
+
 use crate::config::Config;
 use crate::id::{ManeuverId, RequestId, SessionId, SessionNumber, StationId};
 use crate::message::{Answer, Command, Failure, Progress, Rejection, Report, Rmcm, Verdict};
 use crate::output::{EndReason, GoneReason, Ignored, Maneuver, Notice, Output, Sink, StopReason};
 use crate::robot::{Effect, Step};
-use crate::state::{Corridor, Following, Job, Member, Order, Outstanding, Phase, Refusal, Robot};
+use crate::state::{
+    Corridor, Duty, Following, Job, Member, Order, Outstanding, Phase, Refusal, Robot,
+};
 use crate::task::{Availability, TaskType};
 use crate::time::Countdown;
 
@@ -227,21 +231,19 @@ impl Member {
 
     /// Progress as the follower's RAM tells it. It names its command, so a stale RAM cannot speak
     /// for a newer one; and it proves that the command was accepted, so it also stands for an
-    /// acknowledgement that was lost.
+    /// acknowledgement that was lost. `echo` says how the heartbeat that it echoes stands to all before.
     pub(crate) fn hear_report(
         &mut self,
         step: &mut Step<'_, impl Sink>,
         session: SessionId,
         report: Report,
+        echo: Ordering,
     ) -> Effect {
         let acknowledged = self.acknowledge(step, session, report.request);
         let Some(order) = self.order.as_mut().filter(|order| {
-            // Progress only goes on, whatever a delayed RAM says; a final one stays final.
-            order.request == report.request
-                && order.is_running()
-                && order
-                    .progress
-                    .is_none_or(|known| report.progress.is_after(known))
+            // A delayed RAM undoes nothing, and a final progress stays final.
+            let is_news = |known| report.progress.is_news(known, echo);
+            order.request == report.request && order.progress.is_none_or(is_news)
         }) else {
             return acknowledged.or(Err(Ignored::NothingNew));
         };
@@ -281,10 +283,15 @@ impl Robot {
             return Err(Ignored::NotAddressed);
         }
         let station = self.station;
-        let rejection = self.rejection(step, command.task);
+        let rejection = self.rejection(step, command);
         match &mut self.phase {
             Phase::Following(following) if following.session == command.session => {
-                following.take_command(step, station, rejection, command)
+                let taken = following.take_command(step, station, rejection, command);
+                if following.executing().is_some() {
+                    // What runs now is the duty, if there was one.
+                    self.duty = None;
+                }
+                taken
             }
             // The confirmation is still under way; the leader will repeat the command.
             Phase::Offering(offering) if offering.session == command.session => {
@@ -295,20 +302,21 @@ impl Robot {
         }
     }
 
-    /// The body holds the place from which the maneuver guards.
-    pub(crate) fn reach_position(
+    /// The body holds the place from which the maneuver guards, or is on its way there, perhaps once more.
+    pub(crate) fn report_place(
         &mut self,
         step: &mut Step<'_, impl Sink>,
         id: ManeuverId,
+        progress: Progress,
     ) -> Effect {
         let following = self.executor_of(id)?;
         let Some(job) = &mut following.job else {
             return Err(Ignored::NotExecuting);
         };
-        if job.progress == Progress::InPosition {
+        if job.progress == progress {
             return Err(Ignored::NothingNew);
         }
-        job.progress = Progress::InPosition;
+        job.progress = progress;
         step.out.push(Output::SendRam);
         Ok(())
     }
@@ -356,18 +364,26 @@ impl Robot {
         Ok(())
     }
 
-    /// Why the robot must reject a command for `task`.
-    fn rejection(&self, step: &Step<'_, impl Sink>, task: TaskType) -> Option<Rejection> {
+    /// Why the robot must reject a command.
+    fn rejection(&self, step: &Step<'_, impl Sink>, command: Command) -> Option<Rejection> {
         if let Availability::Unavailable(reason) = self.availability {
             return Some(Rejection::Unavailable(reason));
         }
-        if self.duty.is_some() {
+        if self.duty.is_some_and(|duty| !duty.is_resumed_by(command)) {
             return Some(Rejection::OnDuty);
         }
-        if !step.config.settings().capabilities.contains(task) {
+        if !step.config.settings().capabilities.contains(command.task) {
             return Some(Rejection::UnsupportedTask);
         }
         None
+    }
+}
+
+impl Duty {
+    /// Whether the leader for which the robot falls back commands the same task in the same session again.
+    fn is_resumed_by(self, command: Command) -> bool {
+        matches!(self, Self::FallingBack(maneuver)
+            if (maneuver.id.session, maneuver.task) == (command.session, command.task))
     }
 }
 

@@ -3,6 +3,8 @@
 //! The codec maps these views to and from the complete messages. Sizes, positions and everything
 //! else that no rule of the protocol depends on stays there.
 
+use core::cmp::Ordering;
+
 use crate::MAX_FOLLOWERS;
 use crate::id::{Heartbeat, OfferNumber, RequestId, SessionId, SessionNumber, StationId};
 use crate::list::List;
@@ -13,6 +15,7 @@ use crate::words::words;
 /// What a Robot Awareness Message says about coordination.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 pub struct Ram {
     /// The station that sent it.
     pub station: StationId,
@@ -27,7 +30,10 @@ pub struct Ram {
 /// A robot's part in a session, as its RAM tells.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(rename_all_fields = "camelCase", rename_all = "camelCase")
+)]
 #[repr(u8)]
 pub enum Coordination {
     /// `helpStatus = none`: no part. It releases nobody from anything.
@@ -126,13 +132,17 @@ impl Progress {
         matches!(self, Self::Executing | Self::InPosition)
     }
 
-    /// Whether this progress of a command can only come after `earlier`.
+    /// Whether this progress of a command is later than the `known` one, in a RAM whose echo is so much newer than all before.
+    /// A place is left and taken again, so there the echo tells which was later. Where it cannot, the worse one counts.
     #[must_use]
-    pub(crate) const fn is_after(self, earlier: Self) -> bool {
-        match earlier {
-            Self::Executing => !matches!(self, Self::Executing),
-            Self::InPosition => !self.is_running(),
-            Self::Completed | Self::Failed(_) | Self::SafeIdle => false,
+    pub(crate) const fn is_news(self, known: Self, echo: Ordering) -> bool {
+        match (known, self) {
+            (Self::Executing, Self::InPosition) => matches!(echo, Ordering::Greater),
+            (Self::InPosition, Self::Executing) => !matches!(echo, Ordering::Less),
+            (Self::Executing | Self::InPosition, _) => !self.is_running(),
+            // The limit is the leader's own: the follower has gone on.
+            (Self::Failed(Failure::ExecutionLimit), Self::SafeIdle) => true,
+            (Self::Completed | Self::Failed(_) | Self::SafeIdle, _) => false,
         }
     }
 }

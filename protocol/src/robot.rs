@@ -13,7 +13,7 @@ use crate::claim::Claim;
 use crate::config::Config;
 use crate::id::{OfferNumber, SessionId, SessionNumber, StationId, UniqueNumber};
 use crate::input::{Decimetres, Event, Input};
-use crate::message::{Confirmation, Coordination, Farewell, Ram, Report, Rmcm};
+use crate::message::{Confirmation, Coordination, Farewell, Progress, Ram, Report, Rmcm};
 use crate::output::{Ignored, Output, Outputs, Sink};
 use crate::state::{Duty, Identity, Offer, Phase, Rival, Robot, Role, State};
 use crate::task::Availability;
@@ -183,11 +183,13 @@ impl Robot {
         match event {
             Event::PedestrianDetected(request) => self.detect_pedestrian(step, request),
             Event::CommandManeuver { follower, task } => self.command(step, follower, task),
-            Event::InPosition(id) => self.reach_position(step, id),
+            Event::InPosition(id) => self.report_place(step, id, Progress::InPosition),
+            Event::OutOfPosition(id) => self.report_place(step, id, Progress::Executing),
             Event::ManeuverCompleted(id) => self.complete_maneuver(step, id),
             Event::ManeuverFailed(id) => self.fail_maneuver(step, id),
             Event::TaskCompleted => self.complete_task(step),
             Event::RoadClear => self.clear_road(step),
+            Event::PersonOnRoad => self.see_person(),
             Event::AllAnswered => self.select_early(step),
             Event::LeaveRequested => self.leave_on_request(step),
             Event::AvailabilityChanged(availability) => {

@@ -7,6 +7,8 @@
 //! ([`Inequality::LeaseWithinSafety`](crate::Inequality::LeaseWithinSafety)). So while the lease
 //! stands, the follower cannot have fallen back for lack of contact, however messages are delayed.
 
+use core::cmp::Ordering;
+
 use crate::claim::Claim;
 use crate::config::Config;
 use crate::id::{Heartbeat, OfferNumber, SessionId, StationId};
@@ -140,7 +142,12 @@ impl Robot {
                 let heard = leading.update_member(from, |member| {
                     let echoed = member.hear_echo(step, echo, age);
                     let Some(report) = last else { return echoed };
-                    let reported = member.hear_report(step, session, report);
+                    let order = match echoed {
+                        Ok(()) => Ordering::Greater,
+                        Err(_) if member.echoed == Some(echo) => Ordering::Equal,
+                        Err(_) => Ordering::Less,
+                    };
+                    let reported = member.hear_report(step, session, report, order);
                     echoed.or(reported)
                 });
                 heard.unwrap_or(Err(Ignored::NotAFollower))
@@ -288,6 +295,7 @@ impl Following {
             contact,
             job: None,
             refused: None,
+            sees_people: false,
         }
     }
 

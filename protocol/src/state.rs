@@ -32,6 +32,7 @@ use crate::words::words;
 /// The state of one robot; the transition function is [`Robot::step`].
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 pub struct Robot {
     pub(crate) station: StationId,
     pub(crate) boot: u16,
@@ -202,6 +203,7 @@ pub struct Offer {
 /// A helper's state.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 pub struct Offering {
     /// The session it offers to.
     pub session: SessionId,
@@ -220,6 +222,7 @@ pub struct Offering {
 /// A leader's state.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 pub struct Leading {
     /// Number of the session.
     pub number: SessionNumber,
@@ -253,6 +256,7 @@ words! {
 /// A leader's record of one follower.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 pub struct Member {
     /// The follower.
     pub station: StationId,
@@ -312,6 +316,7 @@ pub struct Order {
 /// A follower's state.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 pub struct Following {
     /// The session.
     pub session: SessionId,
@@ -325,6 +330,8 @@ pub struct Following {
     pub job: Option<Job>,
     /// Newest command that it rejected, where that is newer than the job.
     pub refused: Option<Refusal>,
+    /// Whether it has seen somebody on the road itself, and has not said since then that the road is clear.
+    pub sees_people: bool,
 }
 
 /// A follower's contact with its leader.

@@ -29,10 +29,14 @@ impl Robot {
     pub(crate) fn clear_road(&mut self, step: &mut Step<'_, impl Sink>) -> Effect {
         if self.duty.take().is_some() {
             step.out.push(Output::SendRam);
+            self.forget_people();
             return Ok(());
         }
         let Phase::Leading(leading) = &mut self.phase else {
-            return Err(Ignored::NothingNew);
+            return self
+                .forget_people()
+                .then_some(())
+                .ok_or(Ignored::NothingNew);
         };
         match leading.corridor {
             Corridor::Clear => return Err(Ignored::NothingNew),
@@ -43,6 +47,26 @@ impl Robot {
             self.end_session(step, EndReason::Withdrawn(other));
         }
         Ok(())
+    }
+
+    /// This follower itself sees somebody on the road.
+    pub(crate) fn see_person(&mut self) -> Effect {
+        let Phase::Following(following) = &mut self.phase else {
+            return Err(Ignored::NotExecuting);
+        };
+        if following.sees_people {
+            return Err(Ignored::NothingNew);
+        }
+        following.sees_people = true;
+        Ok(())
+    }
+
+    /// This follower sees nobody on the road any more; whether it saw somebody.
+    fn forget_people(&mut self) -> bool {
+        match &mut self.phase {
+            Phase::Following(following) => core::mem::take(&mut following.sees_people),
+            _ => false,
+        }
     }
 
     /// Another leader goes before at the same place: nobody is let across any more, and the session ends
@@ -126,7 +150,7 @@ impl Robot {
             Phase::Following(following) => {
                 let session = following.session;
                 if let Some(maneuver) = following.executing() {
-                    if why == ReleaseReason::TaskCompleted {
+                    if why == ReleaseReason::TaskCompleted && !following.sees_people {
                         let why = StopReason::Released(why);
                         step.out.push(Output::StopManeuver(maneuver, why));
                     } else {

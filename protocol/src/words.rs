@@ -368,7 +368,7 @@ macro_rules! words {
         #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
         $(#[$attr])*
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-        #[cfg_attr(feature = "serde", serde(rename_all = $case))]
+        #[cfg_attr(feature = "serde", serde(rename_all = $case, rename_all_fields = $case))]
         pub enum $name { $(
             $(#[doc = $meaning])+
             $variant $(($($of),+))? $({ $($(#[doc = $says])+ $named: $type),+ })?,

@@ -55,7 +55,7 @@ pub(crate) fn run(root: &Path, step: &Step) -> Result<bool, NotStarted> {
 }
 
 /// The two crates that are built and tested most quickly.
-const CORE: &str = "--locked -p crossguard-protocol -p crossguard-codec";
+const CORE: &str = "--locked -p crossguard-protocol -p crossguard-crossing -p crossguard-codec";
 
 /// Checks what fails most often.
 pub(crate) fn quick(root: &Path) -> Result<bool, NotStarted> {

@@ -18,7 +18,7 @@ use crate::state::TaskProgression;
 
 /// Parameters of a command. What is `None` is left to the follower.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct TaskParameters {
     /// Where the maneuver leads.
     pub target: Option<Target>,
@@ -125,7 +125,7 @@ impl FromStr for MapPlace {
 
 /// How far a follower is with the command that it answers.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct ExecutionStatus {
     /// How far it is.
     pub progression: TaskProgression,

@@ -353,6 +353,10 @@ enum CrossguardEventKind
   CROSSGUARD_EVENT_KIND_IDENTITY_CHANGED = 12,
   // A larger boot counter has been persisted, as the output `RenewEpoch` asked. With `boot`.
   CROSSGUARD_EVENT_KIND_EPOCH_RENEWED = 13,
+  // The body does not hold the place any more from which the maneuver guards. To be told as soon as it may be so: the leader lets nobody on the road any more. With `session`, `request`.
+  CROSSGUARD_EVENT_KIND_OUT_OF_POSITION = 14,
+  // Somebody is on the road, seen by this follower itself. Until it tells `RoadClear` it stays, however its leader ends the session.
+  CROSSGUARD_EVENT_KIND_PERSON_ON_ROAD = 15,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

@@ -364,6 +364,10 @@ public:
   static Event in_position(const Maneuver &maneuver) noexcept {
     return of(CROSSGUARD_EVENT_KIND_IN_POSITION, maneuver);
   }
+  /// As soon as the body may not hold that place any more: nobody is let on the road then.
+  static Event out_of_position(const Maneuver &maneuver) noexcept {
+    return of(CROSSGUARD_EVENT_KIND_OUT_OF_POSITION, maneuver);
+  }
   static Event completed(const Maneuver &maneuver) noexcept {
     return of(CROSSGUARD_EVENT_KIND_MANEUVER_COMPLETED, maneuver);
   }
@@ -383,6 +387,8 @@ public:
   static Event open_corridor() noexcept { return Event{CROSSGUARD_EVENT_KIND_OPEN_CORRIDOR}; }
   /// The leader's application wants to hold the pedestrian back again.
   static Event close_corridor() noexcept { return Event{CROSSGUARD_EVENT_KIND_CLOSE_CORRIDOR}; }
+  /// Somebody is on the road, seen by this follower itself. Until it tells `RoadClear` it stays, however its leader ends the session.
+  static Event person_on_road() noexcept { return Event{CROSSGUARD_EVENT_KIND_PERSON_ON_ROAD}; }
   // </plain events>
   static Event available(Unavailability unavailability = CROSSGUARD_UNAVAILABILITY_NONE) noexcept {
     Event event{CROSSGUARD_EVENT_KIND_AVAILABILITY_CHANGED};

@@ -170,6 +170,10 @@ pub enum CrossguardEventKind {
     IdentityChanged = 12,
     /// A larger boot counter has been persisted, as the output `RenewEpoch` asked. With `boot`.
     EpochRenewed = 13,
+    /// The body does not hold the place any more from which the maneuver guards. To be told as soon as it may be so: the leader lets nobody on the road any more. With `session`, `request`.
+    OutOfPosition = 14,
+    /// Somebody is on the road, seen by this follower itself. Until it tells `RoadClear` it stays, however its leader ends the session.
+    PersonOnRoad = 15,
 }
 
 /// Why a robot takes no part in coordination.

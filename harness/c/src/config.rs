@@ -212,6 +212,7 @@ impl CrossguardEvent {
                 task: TaskType::new(self.task)?,
             },
             EventKind::InPosition => Event::InPosition(id),
+            EventKind::OutOfPosition => Event::OutOfPosition(id),
             EventKind::ManeuverCompleted => Event::ManeuverCompleted(id),
             EventKind::ManeuverFailed => Event::ManeuverFailed(id),
             EventKind::AvailabilityChanged => {

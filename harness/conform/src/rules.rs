@@ -63,6 +63,12 @@ pub const RULES: &[Rule] = rules! {
         but "all of it: it takes more than 32,000 sessions or offers";
     "R26": "Every input in every state has a defined outcome; what is ignored changes nothing."
         but "states that no message tells";
+    "R27": "A robot that falls back takes the same task of the same session on again. That is its duty and no new one; every other command is refused."
+        but "all of it: no play gives the same command again to a robot that falls back; the others are rejected by R20";
+    "R28": "A place that a guard leaves closes the corridor in the step in which the leader hears of it. That the guard is there again counts by a newer echo alone."
+        but "all of it: no play tells a robot that its body has left its place; R16 judges the sign by echoes";
+    "R29": "A follower that sees somebody on the road falls back at every end of its session, also at a completed one."
+        but "all of it: no play tells a robot that somebody is on the road";
 };
 
 impl Rule {

@@ -123,6 +123,8 @@ pub enum Cause {
     Ignored(Ignored),
     /// The robot perceived people and does not know its own position.
     Unplaced,
+    /// What a sensor source delivered is no frame that counts.
+    FrameDropped(&'static str),
     /// The body fell silent, or its connection ended: an emergency stop.
     BodySilent,
     /// The body has a fault.
@@ -161,7 +163,7 @@ impl Cause {
             Self::Undecodable(_) | Self::NotCanonical => Layer::Syntax,
             Self::Contradictory(_) => Layer::Semantics,
             Self::Ignored(_) => Layer::Protocol,
-            Self::Unplaced => Layer::Perception,
+            Self::Unplaced | Self::FrameDropped(_) => Layer::Perception,
             Self::BodySilent | Self::BodyFault | Self::BodyGarbled => Layer::Body,
             Self::OperatorGarbled | Self::OperatorSlow | Self::OperatorsFull => Layer::Operator,
             Self::EpochNotRenewed | Self::TimeNotKept | Self::RevokedUnread => Layer::Storage,
@@ -193,7 +195,8 @@ impl Display for Reason {
             | Cause::Discarded(why)
             | Cause::Rejected(why)
             | Cause::Undecodable(why)
-            | Cause::Contradictory(why) => why,
+            | Cause::Contradictory(why)
+            | Cause::FrameDropped(why) => why,
             Cause::NotCanonical => "not canonical, but read",
             Cause::NoUse(service) => return write!(f, "no use for {}", service.name()),
             Cause::Ignored(Ignored::NotEngaged(..)) => "not engaged",

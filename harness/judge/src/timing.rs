@@ -70,6 +70,7 @@ struct ManeuverTimes {
 
 /// The times of one kind of maneuver over several trials.
 #[derive(Clone, PartialEq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Summary {
     /// The kind of maneuver.
     pub task: String,
@@ -100,6 +101,7 @@ pub struct Statistic {
 /// The paper's figures for one kind of maneuver (section III-A): mean and standard deviation over its trials, with
 /// robots on IEEE 802.11p.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Paper {
     /// How many trials.
     pub trials: usize,

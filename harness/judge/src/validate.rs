@@ -26,7 +26,9 @@
 //!
 //! W1, W2 and W4 are judged for people who step on the road as soon as a sign shows go.
 //!
-//! And what no log shows: where people are, whether a sign ended when its time was over, and whether a body was
+//! P1, P2 and P4 are judged where a log has people, the outline of a road and positions of robots.
+//!
+//! And what no log shows: people out of sight, whether a sign ended when its time was over, and whether a body was
 //! where its application said; how long messages were under way, since the clocks of sender and receiver are not
 //! compared; for how long one waited in a socket of a process that hung, but for the limit that its
 //! thread vouches for; I10 between robots with logs of their own. Where receptions do not say when they arrived,
@@ -36,7 +38,9 @@
 //! end cannot be matched, and is counted.
 
 mod clock;
+mod crossing;
 mod fault;
+mod ground;
 mod road;
 mod robot;
 mod targets;
@@ -58,11 +62,13 @@ use serde::Serialize;
 use clock::{BrokenAt, ClockEntry, SharedClock};
 pub use crossguard_robot::trace::Log;
 use crossguard_robot::trace::{Entry, Record, Records, Unreadable};
+use crossing::Crossing;
 use road::Crossings;
 use robot::Follow;
 
 /// What valid logs hold.
 #[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Validated {
     /// How many robots.
     pub robots: usize,
@@ -92,6 +98,8 @@ pub struct Validated {
     pub properties: Vec<String>,
     /// What was not judged, and why.
     pub not_judged: Vec<String>,
+    /// How often P1, P2 and P4 were judged, and within what, or why they were not.
+    pub crossing: Vec<String>,
 }
 
 /// Why logs are not valid: the first record that does not fit.
@@ -147,8 +155,9 @@ pub fn all(logs: Vec<Log<'_>>) -> Result<Validated, Invalid> {
         let cursor = &mut cursors[next];
         if let Some(record) = cursor.head.take() {
             let line = cursor.records.line();
+            let unix_us = cursor.records.unix_us(&record);
             robots
-                .take(record, &mut cursor.clock, line)
+                .take(record, &mut cursor.clock, line, unix_us)
                 .map_err(|refusal| cursor.refused(refusal))?;
             cursor.advance()?;
         }
@@ -242,6 +251,7 @@ impl<'a> Cursor<'a> {
 struct LoggedRobots {
     monitor: Monitor,
     crossings: Crossings,
+    crossing: Crossing,
     robots: BTreeMap<String, Follow>,
     /// The messages that were sent, each with its kind and octets.
     sent: HashSet<Vec<u8>>,
@@ -258,6 +268,7 @@ impl Default for LoggedRobots {
             // Logs are merged by cause and effect, not by true time; that is for each log's own clock.
             monitor: Monitor::new(false),
             crossings: Crossings::default(),
+            crossing: Crossing::default(),
             robots: BTreeMap::new(),
             sent: HashSet::new(),
             stations: HashMap::new(),
@@ -305,6 +316,7 @@ impl LoggedRobots {
         record: Record,
         clock: &mut SharedClock,
         line: usize,
+        unix_us: u64,
     ) -> Result<(), Refusal> {
         self.validated.records += 1;
         let Record {
@@ -312,16 +324,24 @@ impl LoggedRobots {
             robot,
             entry,
         } = record;
-        if let Entry::Started { unix_ms, .. } = entry {
+        if let Entry::Started { unix_ms, speed, .. } = entry {
             clock.show(at_us, unix_ms).map_err(Refusal::Clock)?;
+            self.crossing.start(&robot, speed.unwrap_or(1.0));
         }
-        match self.take_entry(&robot, at_us, entry) {
-            Ok(None) => Ok(()),
-            Ok(Some(deed)) => clock
-                .take(at_us, &robot, line, deed)
-                .map_err(Refusal::Clock),
-            Err(fault) => Err(Refusal::Record(robot, fault)),
+        let crossed = self.robots.get(&robot).map_or(Ok(()), |follow| {
+            let known = (follow.config(), follow.identifiers());
+            self.crossing.take(&robot, unix_us, &entry, known)
+        });
+        let deed = match self.take_entry(&robot, at_us, entry) {
+            Ok(deed) => deed,
+            Err(fault) => return Err(Refusal::Record(robot, fault)),
+        };
+        if let Some(deed) = deed {
+            let judged = clock.take(at_us, &robot, line, deed);
+            judged.map_err(Refusal::Clock)?;
         }
+        // What does not fit in the record itself goes before.
+        crossed.map_err(|fault| Refusal::Record(robot, fault))
     }
 
     /// What the robot did, for who judges the robots of a clock.
@@ -481,6 +501,7 @@ impl LoggedRobots {
     /// A log is at its end: robots of it that run on are cut off.
     fn end(&mut self, cursor: &Cursor) {
         for robot in cursor.robots.intersection(&self.running) {
+            self.crossing.forget(robot);
             self.validated.cut_off.push(robot.clone());
         }
     }
@@ -499,6 +520,7 @@ impl LoggedRobots {
             robots: self.robots.len(),
             properties,
             not_judged: reasons.collect(),
+            crossing: self.crossing.verdict(),
             ..self.validated
         }
     }

@@ -80,6 +80,7 @@ pub fn sentences(valid: &Validated) -> Vec<String> {
     }
     let not_judged = valid.not_judged.iter();
     sentences.extend(not_judged.map(|what| format!("Not judged: {what}.")));
+    sentences.extend(valid.crossing.iter().map(|what| format!("{what}.")));
     if valid.missing > 0 {
         sentences.push(format!(
             "{} records are missing by the robots' own account.",

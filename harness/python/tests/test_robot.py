@@ -104,7 +104,8 @@ def test_a_command_is_acknowledged_before_it_is_started() -> None:
 
     # Its duty lasts until it is told that the road is clear; until then it does nothing new.
     assert isinstance(go2.duty, phases.FallingBack) and go2.ram().on_duty
-    rejected = rmcm(go2.step(inputs.Rmcm(rmcm(ari.step(events.CommandManeuver(2, TaskType.MOVE))))))
+    other = events.CommandManeuver(2, TaskType.INITIAL_POS)
+    rejected = rmcm(go2.step(inputs.Rmcm(rmcm(ari.step(other)))))
     assert rejected == messages.Answer(2, session, 1, messages.Rejected(reasons.OnDuty()))
     go2.step(events.RoadClear())
     assert go2.duty is None and not go2.ram().on_duty
@@ -119,9 +120,15 @@ def test_a_corridor_waits_for_guards_that_hold_a_place() -> None:
     refused = ari.step(events.OpenCorridor())
     assert refused == [outputs.Ignored(reasons.NotEngaged(2, reasons.NotInPosition()))]
     go2.step(events.InPosition(start.maneuver.id))
+    # That it is there counts by the echo of a newer heartbeat.
+    ari.step(inputs.Elapsed(100))
+    go2.step(inputs.Ram(ari.ram()))
     step = ari.step(inputs.Ram(go2.ram()))
     assert outputs.Notify(notices.ManeuverInPosition(2, start.maneuver.id)) in step
     assert isinstance(ari.step(events.OpenCorridor())[0], outputs.CorridorOpened)
+    go2.step(events.OutOfPosition(start.maneuver.id))
+    closed = outputs.CorridorClosed(reasons.NotEngaged(2, reasons.NotInPosition()))
+    assert closed in ari.step(inputs.Ram(go2.ram()))
 
 
 def test_a_crossing_that_is_completed_frees_its_followers() -> None:

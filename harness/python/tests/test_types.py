@@ -109,7 +109,7 @@ MIRRORS: dict[str, Any] = {
 }
 
 # Settings for models that explore what happens at the wrap; robots have no use for them.
-FOR_MODELS = {"first_request", "first_heartbeat"}
+FOR_MODELS = {"firstRequest", "firstHeartbeat"}
 # Types that cross as what is in them.
 TRANSPARENT = {"Countdown", "Dictionary"}
 

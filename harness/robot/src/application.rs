@@ -1,34 +1,43 @@
-//! The application of a robot: what moves its body, and what it does when it leads.
+//! The application of a robot: its crossing machine, and what joins it to body, sign and endpoint.
+//!
+//! ```text
+//!   frames, lines ──┐                     ┌──► wishes: events and commands for the endpoint
+//!   body, poses ────┼──► crossing machine ┼──► sign
+//!   RAM, CAM, VAM ──┘                     └──► body
+//! ```
+//!
+//! What is decided about people, guards, vehicles and the plan is decided in `crossguard-crossing`.
 
 mod bodily;
-mod detection;
-mod errand;
+mod senses;
 mod traits;
-mod whereabouts;
 
 use std::collections::VecDeque;
 
+use crossguard_codec::{PublicSignal, TaskParameters};
+use crossguard_crossing::tracks::Conduct;
+use crossguard_crossing::{Crossing, Hindrance, Input, Leg, Output, Outputs, Sensors, Setup};
+use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::{Act, Stimulus};
 use crossguard_protocol::{
-    Availability, Config, Corridor, Duty, Event, Maneuver, ManeuverId, Phase, Robot, TaskSet,
-    Unavailability,
+    Availability, Config, Duty, Event, Millis, Notice, Phase, Robot, StationId, Unavailability,
 };
 
 use self::bodily::Bodily;
-use self::detection::Detection;
-use self::errand::Errand;
+use self::senses::Said;
 pub use self::traits::Traits;
-use crate::body::{Body, BodyAct, Fallback, Report};
+use crate::body::{Body, BodyAct, Fallback};
 use crate::plan::Plan;
 use crate::sight::Outline;
 use crate::sign::{Shown, Sign};
 use crate::site::Site;
 use crate::street::Road;
+use crate::zone::place;
 
 /// The longest list of wishes; more are not kept.
 const WISHES: usize = 64;
 
-/// The application of a robot: a body, a sign, and a plan for when it leads.
+/// The application of a robot: a body, a sign, and a crossing machine.
 #[derive(Debug)]
 pub struct Application {
     body: Box<dyn Body>,
@@ -38,113 +47,92 @@ pub struct Application {
     shown: Shown,
     /// Whether its robot leads, so that people look at its sign.
     leads: bool,
+    /// Whether it counts on the people of a simulation that it keeps: it leads, or its crossing is not over.
+    counts: bool,
     /// What it knows of the people on the road.
     road: Road,
     site: Site,
-    detection: Detection,
+    /// What it does when it leads; without one, somebody else tells it.
+    plan: Option<Plan>,
+    setup: Box<Setup>,
+    crossing: Box<Crossing>,
+    /// What keeps people from crossing, as told last.
+    hindrance: Option<Hindrance>,
+    said: Said,
     traits: Traits,
     availability: Availability,
     /// Whether its body is there, and what was wrong with it.
     bodily: Bodily,
     /// Whether it is unavailable because its battery was found to be low.
     was_low: bool,
-    /// What its robot still has to do on the road.
-    obligation: Option<Obligation>,
-    /// What the body was told to do last, until that is over.
-    maneuver: Option<Maneuver>,
-    /// A guarding maneuver that the body has finished before the people that it guards are off the road.
-    waits_for_people: Option<ManeuverId>,
-    /// What it does when it leads; without one, somebody else tells it.
-    plan: Option<Plan>,
-    /// How its plan goes while it leads.
-    errand: Option<Errand>,
     wishes: VecDeque<Stimulus<'static>>,
-    rules: Rules,
-    /// Whether its corridor is known to be clear.
-    corridor: Corridor,
     at_s: f64,
-}
-
-/// What a robot waits for with the road: that it is clear.
-#[derive(Clone, Copy, Debug)]
-struct Obligation {
-    about: About,
-    /// Since when, in seconds.
-    since_s: f64,
-    /// Whether a person has said that the road is clear.
-    is_said_clear: bool,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum About {
-    /// The duty of a session or maneuver that ended early.
-    Duty(Duty),
-    /// The corridor that was closed, in a session that goes on.
-    Clearing,
-}
-
-/// What the protocol's settings say that the application goes by.
-#[derive(Clone, Copy, Debug)]
-struct Rules {
-    guarding: TaskSet,
-    holding: TaskSet,
-    t_safety_s: f64,
-}
-
-impl Rules {
-    fn of(config: &Config) -> Self {
-        let settings = config.settings();
-        Self {
-            guarding: settings.guarding,
-            holding: settings.holding,
-            t_safety_s: f64::from(settings.t_safety.0) / 1e3,
-        }
-    }
+    at_ms: u64,
 }
 
 impl Application {
     /// The application of a robot with this body, which knows nothing of the road.
     #[must_use]
     pub fn new(body: Box<dyn Body>, plan: Option<Plan>) -> Self {
-        Self {
+        let application = Self {
             body,
             sign: Sign::default(),
             shown: Shown::default(),
             leads: false,
+            counts: false,
             road: Road::default(),
-            site: Site::default(),
-            detection: Detection::default(),
+            site: plan.as_ref().map_or_else(Site::default, |plan| plan.site),
+            plan,
+            setup: Box::default(),
+            crossing: Box::default(),
+            hindrance: None,
+            said: Said::default(),
             traits: Traits::default(),
             availability: Availability::Available,
             bodily: Bodily::default(),
             was_low: false,
-            obligation: None,
-            maneuver: None,
-            waits_for_people: None,
-            plan,
-            errand: None,
             wishes: VecDeque::new(),
-            rules: Rules::of(&Config::default()),
-            corridor: Corridor::Clear,
             at_s: 0.0,
-        }
+            at_ms: 0,
+        };
+        application.set_up()
     }
 
     /// The same, which knows this of the road.
     #[must_use]
     pub fn on(self, road: Road) -> Self {
-        Self { road, ..self }
+        Self { road, ..self }.set_up()
     }
 
     /// The same, whose places are on this site.
     #[must_use]
     pub fn at(self, site: Site) -> Self {
-        Self { site, ..self }
+        Self { site, ..self }.set_up()
     }
 
-    /// What it knows of the road from now on.
+    /// What it knows of the road from now on, where it has come to.
     pub fn come_to(&mut self, road: Road) {
         self.road = road;
+        *self.setup = self.crossing_setup();
+        self.crossing.come_elsewhere();
+    }
+
+    fn set_up(mut self) -> Self {
+        *self.setup = self.crossing_setup();
+        self
+    }
+
+    fn crossing_setup(&self) -> Setup {
+        let plan = self.plan.as_ref();
+        let request = plan.map_or_else(|| Plan::crossing(self.site).request(), Plan::request);
+        let mut setup = self.road.set_up(Setup {
+            plan: plan.map(Plan::lead),
+            request,
+            ..(*self.setup).clone()
+        });
+        setup.sensors.speed_max_cmps =
+            scaled(Sensors::default().speed_max_cmps, self.body.time_scale());
+        setup
     }
 
     /// How many times as fast as real its body moves.
@@ -152,13 +140,11 @@ impl Application {
         self.body.time_scale()
     }
 
-    /// The outline of its crossing zone, if it has one.
+    /// The outline of its crossing zone, if it knows people in one.
     #[must_use]
     pub fn zone(&self) -> Option<Outline> {
-        match &self.road {
-            Road::Watched(watched) => Some(Outline::of(watched.zone(), &self.site)),
-            Road::Unknown | Road::Known(_) | Road::Own(_) => None,
-        }
+        let zone = self.road.zone()?;
+        Some(Outline::of(&zone, &self.site))
     }
 
     /// Its sign.
@@ -171,111 +157,104 @@ impl Application {
     pub fn advance(&mut self, now_s: f64) {
         let report = self.body.advance((now_s - self.at_s).max(0.0));
         self.at_s = now_s;
-        match report {
-            Some(Report::InPosition(id)) => self.wish(Stimulus::Event(Event::InPosition(id))),
-            Some(Report::Completed(id)) => self.waits_for_people = Some(id),
-            Some(report) => self.learn_of_body(report),
-            None => {}
+        if let Some(report) = report {
+            self.learn_of_body(report);
         }
         self.watch_body();
-        self.complete();
-        if let Road::Own(street) = &self.road {
-            let shown = micros(now_s);
-            street.look(shown, self.sign.shows_go(shown));
+        let passed = self.pass_time(now_s);
+        self.step(Input::Elapsed(passed));
+        self.feel_body();
+        if passed > Millis::ZERO {
+            self.look_at_street();
         }
-        self.watch_road();
         self.watch_battery();
-        self.watch_zone();
-        self.lead_on();
     }
 
-    /// Tells that a maneuver is completed. An escort that knows of its people is not done before they are.
-    fn complete(&mut self) {
-        let Some(id) = self.waits_for_people else {
-            return;
+    /// The time since the last call, in whole milliseconds.
+    fn pass_time(&mut self, now_s: f64) -> Millis {
+        let now_ms = micros(now_s) / 1_000;
+        let passed = now_ms.saturating_sub(self.at_ms);
+        self.at_ms = now_ms;
+        Millis(u32::try_from(passed).unwrap_or(u32::MAX))
+    }
+
+    /// Hands an input to the crossing machine, and does what it says.
+    fn step(&mut self, input: Input<'_>) {
+        let outputs = self.crossing.step(&self.setup, input);
+        self.carry_out(&outputs);
+    }
+
+    fn carry_out(&mut self, outputs: &Outputs) {
+        for output in outputs.iter() {
+            match *output {
+                Output::Tell(event) => self.wish(Stimulus::Event(event)),
+                Output::Order(follower, leg) => self.order(follower, leg),
+                Output::Go(time) => {
+                    self.hindrance = None;
+                    self.sign.go(micros(self.at_s), time);
+                }
+                Output::Stop => self.sign.stop(),
+                Output::WalkTo(to) => self.body.walk_to(place(to)),
+                Output::Wait => self.act_by_body(BodyAct::Wait),
+                Output::GoOn => self.act_by_body(BodyAct::GoOn),
+                Output::Release => self.body.release(),
+                Output::Dropped(why) => self.trouble(Cause::FrameDropped(why.name()), "a frame"),
+                Output::Hindered(why) => self.is_hindered(why),
+            }
+        }
+    }
+
+    fn order(&mut self, follower: StationId, leg: Leg) {
+        let site = &self.site;
+        let parameters = TaskParameters {
+            target: Some(site.target(place(leg.to))),
+            maximum_speed: Some(f64::from(leg.speed_mmps) / 1e3),
+            heading: leg.heading_ddeg.map(|tenths| f64::from(tenths) / 10.0),
+            map_place: site.map_place,
+            ..TaskParameters::default()
         };
-        let guards = |maneuver: Maneuver| self.rules.guarding.contains(maneuver.task);
-        let has_people = match &self.road {
-            Road::Known(street) => self.maneuver.is_some_and(guards) && !street.is_clear(),
-            Road::Unknown | Road::Watched(_) | Road::Own(_) => false,
-        };
-        if !has_people {
-            self.waits_for_people = None;
-            self.wish(Stimulus::Event(Event::ManeuverCompleted(id)));
+        self.wish(Stimulus::Order {
+            follower,
+            task: leg.task,
+            parameters,
+        });
+    }
+
+    /// Tells a person once why nobody may cross any more.
+    fn is_hindered(&mut self, why: Hindrance) {
+        if self.hindrance.replace(why) != Some(why) {
+            tracing::warn!(?why, "the corridor is closed");
         }
     }
 
     /// Takes in what the protocol knows after a step.
     pub fn learn(&mut self, robot: &Robot, config: &Config) {
-        self.rules = Rules::of(config);
+        self.setup.learn(config);
         self.learn_availability(robot);
-        self.detection.learn(self.at_s, robot);
         self.leads = matches!(robot.phase(), Phase::Leading(_));
-        self.corridor = match robot.phase() {
-            Phase::Leading(leading) => leading.corridor,
-            _ => Corridor::Clear,
-        };
-        let about = match robot.duty() {
-            Some(duty) => Some(About::Duty(duty)),
-            None => (self.corridor == Corridor::Clearing).then_some(About::Clearing),
-        };
-        if self.obligation.map(|it| it.about) == about {
-            return;
+        let counts = self.leads || matches!(robot.duty(), Some(Duty::Crossing(_)));
+        if std::mem::replace(&mut self.counts, counts)
+            && !counts
+            && matches!(self.road, Road::Own(_))
+        {
+            self.crossing.come_elsewhere();
         }
-        if self.obligation.is_some() && about.is_none() {
-            self.body.release();
-            if let Road::Watched(watched) = &mut self.road {
-                watched.forget();
-            }
-        }
-        self.obligation = about.map(|about| Obligation {
-            about,
-            since_s: self.at_s,
-            is_said_clear: false,
-        });
+        let outputs = self.crossing.learn(&self.setup, robot);
+        self.carry_out(&outputs);
     }
 
     /// A person says that the road is clear. Whether there is something that waits for it.
     pub fn say_clear(&mut self) -> bool {
-        let waits = self.obligation.as_mut();
-        waits.map(|it| it.is_said_clear = true).is_some()
+        let waits = self.crossing.waits_for_clear();
+        self.step(Input::SaidClear);
+        waits
     }
 
-    /// Says that the road is clear as soon as that is so: the body has finished its fallback, and nobody is
-    /// on the road as far as the robot or a person knows.
-    fn watch_road(&mut self) {
-        let Some(obligation) = self.obligation else {
-            return;
-        };
-        let is_free = match self.body.fallback() {
+    /// Whether its body moves by no fallback.
+    fn is_body_free(&self) -> bool {
+        match self.body.fallback() {
             None | Some(Fallback::Holding | Fallback::Finished) => true,
             Some(Fallback::UnderWay) => false,
-        };
-        let is_own = matches!(
-            obligation.about,
-            About::Clearing | About::Duty(Duty::Crossing(_))
-        );
-        let road_is_clear = match &self.road {
-            // It knows nothing of the people that others let across.
-            Road::Own(_) if !is_own => false,
-            road => road.is_clear(self.at_s),
-        };
-        let is_clear = match obligation.about {
-            _ if obligation.is_said_clear => true,
-            // Nobody was let across by what it did.
-            About::Duty(Duty::FallingBack(maneuver))
-                if !self.rules.guarding.contains(maneuver.task) =>
-            {
-                true
-            }
-            // No sign that counts on this robot shows go for longer than its own `t_safety`.
-            About::Duty(_) => {
-                road_is_clear && self.at_s - obligation.since_s >= self.rules.t_safety_s
-            }
-            About::Clearing => road_is_clear,
-        };
-        if is_free && is_clear {
-            self.wish(Stimulus::Event(Event::RoadClear));
         }
     }
 
@@ -298,7 +277,7 @@ impl Application {
 
     /// Ends the motion of the body, whatever it is.
     pub fn stop(&mut self) {
-        self.waits_for_people = None;
+        self.step(Input::Stopped);
         self.body.halt();
     }
 
@@ -316,26 +295,43 @@ impl Application {
     pub fn act(&mut self, act: &Act) {
         match act {
             Act::Start(maneuver, parameters) => {
-                (self.maneuver, self.waits_for_people) = (Some(*maneuver), None);
+                let target = self.target(parameters);
                 self.act_by_body(BodyAct::Start(*maneuver, *parameters));
+                self.step(Input::Started(*maneuver, target));
             }
             Act::Stop(maneuver, why) => {
-                (self.maneuver, self.waits_for_people) = (None, None);
+                self.step(Input::Stopped);
                 self.act_by_body(BodyAct::Stop(*maneuver, *why));
             }
             Act::FallBack(maneuver, policy) => {
-                (self.maneuver, self.waits_for_people) = (None, None);
+                self.step(Input::FellBack(*maneuver, *policy));
                 self.act_by_body(BodyAct::FallBack(*maneuver, *policy));
             }
             Act::Notice(notice) => self.notice(*notice),
             Act::OpenCorridor(time) | Act::ExtendCorridor(time) => {
-                self.detection.open();
-                self.sign.go(micros(self.at_s), *time);
+                self.step(Input::CorridorOpen(*time));
             }
-            Act::CloseCorridor(_) => self.sign.stop(),
-            Act::Ignored(Event::PedestrianDetected(_), _) => self.detection.end(self.at_s),
+            Act::CloseCorridor(_) => self.step(Input::CorridorClosed),
+            Act::Ignored(Event::PedestrianDetected(_), _) => self.step(Input::CallIgnored),
             Act::LockIdentity(_) | Act::RenewEpoch | Act::Ignored(..) => {}
         }
+    }
+
+    fn notice(&mut self, notice: Notice) {
+        if let (Notice::RolesEstablished(_), Some(plan)) = (notice, &self.plan) {
+            if let Some(signal) = plan.shows {
+                self.shown.face_vehicles(signal);
+            }
+            if let Road::Own(street) = &self.road {
+                street.arrive(plan.crossing_us(self.body.time_scale()));
+            }
+        }
+        if let Notice::Yielded(_) | Notice::SessionEnded(..) = notice
+            && self.plan.as_ref().is_some_and(|plan| plan.shows.is_some())
+        {
+            self.shown.face_vehicles(PublicSignal::None);
+        }
+        self.step(Input::Notice(notice));
     }
 
     /// Hands an act to the body. One that is not taken is a fault of the robot, which says so before anything
@@ -349,6 +345,16 @@ impl Application {
         self.wishes
             .push_front(Stimulus::Event(Event::AvailabilityChanged(fault)));
     }
+}
+
+/// A speed where time passes this many times as fast.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "casts of numbers saturate"
+)]
+fn scaled(speed: u16, time_scale: f64) -> u16 {
+    (f64::from(speed) * time_scale) as u16
 }
 
 /// Microseconds on the same clock.

@@ -109,6 +109,10 @@ pub enum BodyAct {
     Stop(Maneuver, StopReason),
     /// End the maneuver by a policy. That takes time: see [`Body::fallback`].
     FallBack(Maneuver, FallbackPolicy),
+    /// Stand still in the maneuver, until it is to go on: the person at its side is behind.
+    Wait,
+    /// Go on with the maneuver in which it waits.
+    GoOn,
 }
 
 /// A body did not take what it was to do.

@@ -11,9 +11,8 @@
 //! [`runtime`](crate::runtime) drives it by a real clock and a socket, the simulator of `crossguard-judge` in
 //! virtual time; both do what the effects say.
 
-use crossguard_codec::Identity;
-use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{Event, Notice, Phase, Robot, StateMachine};
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crossguard_protocol::{Event, Phase, Robot, StateMachine};
 
 use crate::application::Application;
 
@@ -77,32 +76,21 @@ impl<P: StateMachine> Machine<P> {
     }
 
     fn turn(&mut self, moment: Moment, stimulus: Stimulus<'_>) -> Vec<Effect> {
+        let is_heard = matches!(stimulus, Stimulus::Datagram { .. });
         let state = self.application.state();
         let effects = self.endpoint.handle(moment, &state, stimulus);
+        if is_heard {
+            let (map, robot) = (self.endpoint.map(), self.endpoint.robot());
+            self.application.listen(map, robot, moment.now_ms);
+        }
         for effect in &effects {
             if let Effect::Act(act) = effect {
-                self.say_where(act);
                 self.application.act(act);
             }
         }
         let (robot, config) = (self.endpoint.robot(), self.endpoint.config());
         self.application.learn(robot, config);
         effects
-    }
-
-    /// Tells the application where the follower is that says that it is in position or has finished.
-    fn say_where(&mut self, act: &Act) {
-        let Act::Notice(
-            Notice::ManeuverInPosition(follower, _) | Notice::ManeuverCompleted(follower, _),
-        ) = act
-        else {
-            return;
-        };
-        let known = self.endpoint.map().get(Identity::Station(follower.0));
-        if let Some(known) = known {
-            let position = known.user.position;
-            self.application.follower_is_at(*follower, &position);
-        }
     }
 
     /// The event that the body holds the place from which the maneuver that runs guards. `None` when none
@@ -113,6 +101,15 @@ impl<P: StateMachine> Machine<P> {
             return None;
         };
         Some(Event::InPosition(following.executing()?.id))
+    }
+
+    /// The event that the body does not hold that place any more. `None` when no maneuver runs.
+    #[must_use]
+    pub fn out_of_position(&self) -> Option<Event> {
+        let Phase::Following(following) = self.endpoint.robot().phase() else {
+            return None;
+        };
+        Some(Event::OutOfPosition(following.executing()?.id))
     }
 
     /// The event that the maneuver which runs is finished, well or not; the body stops. `None` when

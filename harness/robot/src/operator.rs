@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use crossguard_protocol::{HelpRequest, State, StationId};
 
-use crate::perception;
+use crate::perception::{self, Observation};
 use crate::runtime::Order;
 use crate::site::Site;
 
@@ -18,7 +18,7 @@ use commands::{COMMANDS, Command, Scope};
 use words::Kind;
 
 /// A line that was typed.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub enum Line {
     /// Tell the robot this.
     Order(Order),
@@ -99,10 +99,10 @@ pub fn parse_with(
 
 fn person(text: &str) -> Result<Line, Misunderstood> {
     match perception::parse(text) {
-        Ok(observation) if observation.at_s.is_some() => Err(Misunderstood::Person(
-            "at_s is for files of --perceived; here 'wait' does it".to_owned(),
+        Ok(Observation::Person(vru, None)) => Ok(Line::Order(Order::Perceived(vru))),
+        Ok(_) => Err(Misunderstood::Person(
+            "frames and at_s are for files of --perceived; here 'wait' does it".to_owned(),
         )),
-        Ok(observation) => Ok(Line::Order(Order::Perceived(observation.vru))),
         Err(error) => Err(Misunderstood::Person(error.to_string())),
     }
 }

@@ -1,15 +1,20 @@
-//! People that a robot's sensors report, as lines of JSON: one line for each person and observation.
+//! Frames of a robot's sensors, as lines of JSON: one line for each time at which a source looked.
 //!
 //! ```json
-//! {"at_s": 1.5, "id": 7, "position_m": [3.0, -1.5], "velocity_mps": [1.2, 0.0], "class": "pedestrian",
-//!  "confidence": 0.9}
+//! {"source": 0, "at_s": 1.5, "people": [{"id": 7, "position_m": [3.0, -1.5], "velocity_mps": [1.2, 0.0],
+//!  "class": "pedestrian", "confidence": 0.9, "error_m": 0.2}]}
 //! ```
 //!
-//! Places are metres to the east and to the north of the site's origin, as everywhere in the command.
-//! `{"at_s": 2.0, "nobody": true}` says that the sensors work and have nobody; who was on the road is not off it by
-//! that. `velocity_mps` is zero, `class` a pedestrian and `confidence` 1 where they are left out. `at_s` is when
-//! the line is told, in seconds from the beginning; without it a line is told when it is read, so that a
-//! sensor can write into a pipe. Somebody who is not told of again is forgotten after a second.
+//! A frame has everybody whom the source saw, and says when it looked: `at_s` in seconds from the beginning, or `unix_s`
+//! in seconds since 1970. Its age counts from then, however long it waited in a pipe. `covers_m` is the polygon that the source
+//! could see at that time; without it, the whole crossing. Sources are numbered from 0 to 3; without a number it is source 0.
+//! Vehicles are among the people, with `"class": "vehicle"`. `velocity_mps` is unknown, `class` a pedestrian,
+//! `confidence` 1 and `error_m` 0.2 where they are left out. Places are metres to the east and to the north of the site's
+//! origin, as everywhere in the command.
+//!
+//! A line with one person, `{"at_s": 1.5, "id": 7, "position_m": [3.0, -1.5]}`, adds that person and says nothing of others:
+//! it does not say what was covered, so the road is never clear by such lines. A line that is neither is counted
+//! and dropped, and the road is not clear by what came before it.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -17,38 +22,136 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 
 use crossguard_codec::core::cdd::VruClusterInformation;
+use crossguard_crossing::Sighting;
+use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use serde::Deserialize;
 
 use crate::lines::lines;
+use crate::runtime::Order;
 use crate::site::Place;
+use crate::zone::sighting;
 
 /// Lines that are read ahead at most.
 const AHEAD: usize = 64;
 
-/// One observation of one person.
+/// Most people in a frame.
+const PEOPLE_MAX: usize = 256;
+
+/// Most corners of what a frame covers.
+const CORNERS_MAX: usize = 64;
+
+/// Error of a place where a source does not say it, in metres.
+const ERROR_M: f64 = 0.2;
+
+/// Somebody in a frame.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Observation {
-    /// Who, and where on the site; `None` where the sensors work and have nobody.
-    pub vru: Option<PerceivedVru>,
-    /// When it is told, in seconds from the beginning; `None` is at once.
-    pub at_s: Option<f64>,
+pub struct Perceived {
+    /// Who, and where on the site.
+    pub vru: PerceivedVru,
+    /// Whether the source tracks them by a number.
+    pub has_id: bool,
+    /// Whether their velocity is known.
+    pub has_velocity: bool,
+    /// Error of the place, in metres.
+    pub error_m: f64,
 }
 
-/// The sensors work, and have nobody.
+impl Perceived {
+    /// The same for the crossing machine.
+    #[must_use]
+    pub fn sighting(&self) -> Sighting {
+        let seen = sighting(&self.vru, self.error_m);
+        Sighting {
+            id: seen.id.filter(|_| self.has_id),
+            velocity: seen.velocity.filter(|_| self.has_velocity),
+            ..seen
+        }
+    }
+}
+
+impl From<PerceivedVru> for Perceived {
+    fn from(vru: PerceivedVru) -> Self {
+        Self {
+            vru,
+            has_id: true,
+            has_velocity: true,
+            error_m: ERROR_M,
+        }
+    }
+}
+
+/// What a source saw at one time.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct SensorFrame {
+    /// The source.
+    pub source: u8,
+    /// What it covers; `None` for the whole crossing.
+    pub covers: Option<Area>,
+    /// Everybody it saw there.
+    pub people: Vec<Perceived>,
+}
+
+impl SensorFrame {
+    /// A frame of the first source that covers the whole crossing, with these people.
+    #[must_use]
+    pub fn of(people: &[PerceivedVru]) -> Self {
+        Self {
+            people: people.iter().copied().map(Perceived::from).collect(),
+            ..Self::default()
+        }
+    }
+}
+
+/// When something was observed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Taken {
+    /// Seconds from the beginning of the feed.
+    At(f64),
+    /// Seconds since 1970.
+    Unix(f64),
+}
+
+/// What a line says.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Observation {
+    /// A source looked at this time.
+    Frame(SensorFrame, Taken),
+    /// One person, told at this time; `None` is at once.
+    Person(PerceivedVru, Option<f64>),
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct NobodyLine {
+struct FrameLine {
+    #[serde(default)]
+    source: u8,
     at_s: Option<f64>,
-    nobody: bool,
+    unix_s: Option<f64>,
+    covers_m: Option<Vec<[f64; 2]>>,
+    people: Vec<PersonInFrame>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct ObservationLine {
+struct PersonInFrame {
+    id: Option<u32>,
+    position_m: [f64; 2],
+    velocity_mps: Option<[f64; 2]>,
+    #[serde(default = "pedestrian")]
+    class: VruClass,
+    #[serde(default = "sure")]
+    confidence: f64,
+    #[serde(default = "usual_error")]
+    error_m: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PersonLine {
     at_s: Option<f64>,
     id: u32,
     position_m: [f64; 2],
@@ -68,15 +171,34 @@ const fn sure() -> f64 {
     1.0
 }
 
+const fn usual_error() -> f64 {
+    ERROR_M
+}
+
 /// Why a line is no observation.
 #[derive(Debug, thiserror::Error)]
 pub enum PerceptionError {
     /// It is no JSON of this shape.
     #[error(
-        "{0}; a person is like {{\"id\": 7, \"position_m\": [3.0, -1.5], \"velocity_mps\": [1.2, 0.0], \
-         \"class\": \"pedestrian\", \"confidence\": 0.9}}"
+        "{0}; a frame is like {{\"at_s\": 1.5, \"people\": [{{\"id\": 7, \"position_m\": [3.0, -1.5], \
+         \"velocity_mps\": [1.2, 0.0], \"class\": \"pedestrian\", \"confidence\": 0.9}}]}}"
     )]
     Syntax(#[from] serde_json::Error),
+    /// It does not say when the source looked, or says it twice.
+    #[error(
+        "a frame wants either 'at_s', in seconds from the beginning, or 'unix_s', in seconds since 1970"
+    )]
+    Undated,
+    /// There are too many of them.
+    #[error("{count} {what}: at most {most} are possible")]
+    Many {
+        /// Of what.
+        what: &'static str,
+        /// How many there are.
+        count: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// A number is not possible.
     #[error("{name} is {value}: {wanted} is wanted")]
     Impossible {
@@ -97,13 +219,12 @@ pub enum PerceptionError {
 /// # Errors
 /// Why it is no observation.
 pub fn parse(line: &str) -> Result<Observation, PerceptionError> {
-    let check_time = |at_s: Option<f64>| within("at_s", at_s.unwrap_or(0.0), 0.0, 1e6, "seconds");
-    if let Ok(NobodyLine { at_s, nobody: true }) = serde_json::from_str(line) {
-        check_time(at_s)?;
-        return Ok(Observation { vru: None, at_s });
+    let value: serde_json::Value = serde_json::from_str(line)?;
+    if value.get("id").is_none() || value.get("people").is_some() {
+        return frame(serde_json::from_value(value)?);
     }
-    let text: ObservationLine = serde_json::from_str(line)?;
-    check_time(text.at_s)?;
+    let text: PersonLine = serde_json::from_value(value)?;
+    within("at_s", text.at_s.unwrap_or(0.0), 0.0, 1e6, "seconds")?;
     let vru = PerceivedVru {
         id: text.id,
         position_m: text.position_m,
@@ -112,10 +233,60 @@ pub fn parse(line: &str) -> Result<Observation, PerceptionError> {
         confidence: text.confidence,
     };
     check(&vru)?;
-    Ok(Observation {
-        vru: Some(vru),
-        at_s: text.at_s,
-    })
+    Ok(Observation::Person(vru, text.at_s))
+}
+
+fn frame(line: FrameLine) -> Result<Observation, PerceptionError> {
+    let taken = match (line.at_s, line.unix_s) {
+        (Some(at_s), None) => {
+            within("at_s", at_s, 0.0, 1e6, "seconds")?;
+            Taken::At(at_s)
+        }
+        (None, Some(unix_s)) => {
+            within("unix_s", unix_s, 0.0, 1e11, "seconds since 1970")?;
+            Taken::Unix(unix_s)
+        }
+        _ => return Err(PerceptionError::Undated),
+    };
+    at_most("people", line.people.len(), PEOPLE_MAX)?;
+    let covers = line.covers_m.map(|corners| {
+        at_most("corners of covers_m", corners.len(), CORNERS_MAX)?;
+        for metres in corners.iter().flatten() {
+            within("covers_m", *metres, -1e5, 1e5, "metres on the site")?;
+        }
+        Ok::<_, PerceptionError>(Area::Polygon(corners))
+    });
+    let people = (0..).zip(line.people).map(|(number, it)| {
+        let vru = PerceivedVru {
+            id: it.id.unwrap_or(number),
+            position_m: it.position_m,
+            velocity_mps: it.velocity_mps.unwrap_or_default(),
+            class: it.class,
+            confidence: it.confidence,
+        };
+        check(&vru)?;
+        within("error_m", it.error_m, 0.0, 100.0, "0 to 100 m")?;
+        Ok::<_, PerceptionError>(Perceived {
+            vru,
+            has_id: it.id.is_some(),
+            has_velocity: it.velocity_mps.is_some(),
+            error_m: it.error_m,
+        })
+    });
+    let frame = SensorFrame {
+        source: line.source,
+        covers: covers.transpose()?,
+        people: people.collect::<Result<_, _>>()?,
+    };
+    Ok(Observation::Frame(frame, taken))
+}
+
+fn at_most(what: &'static str, count: usize, most: usize) -> Result<(), PerceptionError> {
+    if count <= most {
+        Ok(())
+    } else {
+        Err(PerceptionError::Many { what, count, most })
+    }
 }
 
 /// Checks that there can be somebody like that.
@@ -165,13 +336,67 @@ pub fn seen_from(place: Place, vru: PerceivedVru) -> PerceivedVru {
     }
 }
 
-/// The person of a line, or nobody; or why the line is no observation.
-type Told = Result<Option<PerceivedVru>, String>;
+/// For how long a source's newest frame tells of people, in ms.
+const NEWEST_MS: u64 = 1_000;
+
+/// Everybody in the newest frames of all sources: the robot's RAM tell of them.
+#[derive(Clone, Debug, Default)]
+pub struct Newest(BTreeMap<u8, (u64, Vec<PerceivedVru>)>);
+
+impl Newest {
+    /// Takes in a frame that was made at `taken_ms`, on any clock. Everybody then: every source has numbers of its own.
+    pub fn look(&mut self, frame: &SensorFrame, taken_ms: u64) -> Vec<PerceivedVru> {
+        let own = |id: u32| id ^ (u32::from(frame.source) << 24);
+        let people = frame.people.iter().map(|it| PerceivedVru {
+            id: own(it.vru.id),
+            ..it.vru
+        });
+        let is_old = self
+            .0
+            .get(&frame.source)
+            .is_some_and(|(known_ms, _)| *known_ms > taken_ms);
+        if !is_old {
+            self.0.insert(frame.source, (taken_ms, people.collect()));
+        }
+        let newest_ms = self.0.values().map(|(at_ms, _)| *at_ms).max();
+        let newest_ms = newest_ms.unwrap_or(taken_ms);
+        self.0
+            .retain(|_, (at_ms, _)| newest_ms - *at_ms < NEWEST_MS);
+        self.0
+            .values()
+            .flat_map(|(_, people)| people)
+            .copied()
+            .collect()
+    }
+}
+
+/// What a feed tells of, with when it was observed on the clock of this machine.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Perception {
+    /// A source looked.
+    Frame(Arc<SensorFrame>, Instant),
+    /// Somebody is there.
+    Person(PerceivedVru),
+    /// A line that is no observation, and why.
+    Garbled(String),
+}
 
 /// A file, or a pipe, of observations that are told one after the other, each at its time.
 #[derive(Clone, Debug)]
 pub struct Feed {
-    observations: Arc<Mutex<Receiver<Told>>>,
+    told: Arc<Mutex<Receiver<Perception>>>,
+}
+
+impl Perception {
+    /// What a robot is to be told of it.
+    #[must_use]
+    pub fn order(&self) -> Order {
+        match self {
+            Self::Frame(frame, taken) => Order::Looked(Arc::clone(frame), *taken),
+            Self::Person(vru) => Order::Perceived(*vru),
+            Self::Garbled(_) => Order::LookedInVain,
+        }
+    }
 }
 
 impl Feed {
@@ -185,8 +410,8 @@ impl Feed {
         let file = File::open(path).map_err(failed)?;
         let is_file = file.metadata().map_err(failed)?.is_file();
         let lines = observations(name.clone(), BufReader::new(file));
-        let (tell, observations) = sync_channel(AHEAD);
-        let observations = Arc::new(Mutex::new(observations));
+        let (tell, told) = sync_channel(AHEAD);
+        let told = Arc::new(Mutex::new(told));
         // The thread ends with the file, or when nobody listens any more.
         if is_file {
             let all = lines.collect::<Result<Vec<_>, _>>()?;
@@ -194,17 +419,14 @@ impl Feed {
         } else {
             std::thread::spawn(move || tell_in_time(lines, &tell));
         }
-        Ok(Self { observations })
+        Ok(Self { told })
     }
 
-    /// The observations that are due by now.
-    ///
-    /// # Errors
-    /// The first line of a pipe that is none, with its place.
-    pub fn due(&self) -> Result<Vec<Option<PerceivedVru>>, String> {
-        let observations = self.observations.lock();
-        let observations = observations.unwrap_or_else(PoisonError::into_inner);
-        observations.try_iter().take(AHEAD).collect()
+    /// What is due by now.
+    #[must_use]
+    pub fn due(&self) -> Vec<Perception> {
+        let told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        told.try_iter().take(AHEAD).collect()
     }
 }
 
@@ -225,17 +447,53 @@ fn observations(
 
 fn tell_in_time(
     observations: impl Iterator<Item = Result<Observation, String>>,
-    tell: &SyncSender<Told>,
+    tell: &SyncSender<Perception>,
 ) {
     let began = Instant::now();
-    for observation in observations {
-        let due_s = observation.as_ref().ok().and_then(|it| it.at_s);
-        let due = began + Duration::from_secs_f64(due_s.unwrap_or(0.0));
+    let wait = |at_s: f64| {
+        let due = began + Duration::from_secs_f64(at_s);
         std::thread::sleep(due.saturating_duration_since(Instant::now()));
-        let is_over = observation.is_err();
-        if tell.send(observation.map(|it| it.vru)).is_err() || is_over {
+        due
+    };
+    for observation in observations {
+        let told = match observation {
+            Ok(Observation::Frame(frame, Taken::At(at_s))) => {
+                Perception::Frame(Arc::new(frame), wait(at_s))
+            }
+            Ok(Observation::Frame(frame, Taken::Unix(unix_s))) => match instant_of(unix_s) {
+                Ok(taken) => Perception::Frame(Arc::new(frame), taken),
+                Err(why) => Perception::Garbled(why),
+            },
+            Ok(Observation::Person(vru, at_s)) => {
+                wait(at_s.unwrap_or(0.0));
+                Perception::Person(vru)
+            }
+            Err(why) => Perception::Garbled(why),
+        };
+        if tell.send(told).is_err() {
             return;
         }
+    }
+}
+
+/// How far in the future a frame may be, for the resolution of clocks.
+const FUTURE: Duration = Duration::from_millis(10);
+
+/// A moment of wall clock time, in seconds since 1970, on the clock of this machine.
+///
+/// # Errors
+/// When it is in the future, or too long ago for that clock.
+pub fn instant_of(unix_s: f64) -> Result<Instant, String> {
+    let (now, unix_now) = (Instant::now(), SystemTime::now());
+    let taken = SystemTime::UNIX_EPOCH + Duration::from_secs_f64(unix_s);
+    match unix_now.duration_since(taken) {
+        Ok(age) => now
+            .checked_sub(age)
+            .ok_or_else(|| format!("unix_s is {unix_s}: that is too long ago")),
+        Err(ahead) if ahead.duration() <= FUTURE => Ok(now),
+        Err(_) => Err(format!(
+            "unix_s is {unix_s}: that is in the future of the clock"
+        )),
     }
 }
 
@@ -273,17 +531,40 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_person_has_defaults_and_takes_what_is_said() {
-        let short = parse(r#"{"id": 7, "position_m": [3, -1.5]}"#).unwrap();
-        let vru = short.vru.unwrap();
-        assert_eq!((vru.id, vru.position_m), (7, [3.0, -1.5]));
-        assert_eq!(vru.class, VruClass::Pedestrian);
-        assert!((vru.confidence - 1.0).abs() < 1e-12 && short.at_s.is_none());
-        let full = r#"{"at_s": 1.5, "id": 7, "position_m": [3, 0], "velocity_mps": [1.2, 0],
+    fn a_frame_has_defaults_and_takes_what_is_said() {
+        let short = parse(r#"{"at_s": 2, "people": [{"position_m": [3, -1.5]}]}"#).unwrap();
+        let Observation::Frame(frame, taken) = short else {
+            panic!("no frame")
+        };
+        let it = frame.people[0];
+        assert_eq!((frame.source, taken), (0, Taken::At(2.0)));
+        assert_eq!(frame.covers, None);
+        assert_eq!((it.has_id, it.has_velocity), (false, false));
+        assert_eq!(it.vru.class, VruClass::Pedestrian);
+        assert_eq!(it.sighting().id, None);
+        assert_eq!(it.sighting().error_cm, 20);
+        let full = r#"{"source": 2, "unix_s": 1.5, "covers_m": [[0, 0], [1, 0], [1, 1]], "people": [{"id": 7,
+            "position_m": [3, 0], "velocity_mps": [1.2, 0], "class": "bicyclist", "confidence": 0.4, "error_m": 1}]}"#;
+        let Observation::Frame(frame, taken) = parse(full).unwrap() else {
+            panic!("no frame")
+        };
+        assert_eq!((frame.source, taken), (2, Taken::Unix(1.5)));
+        let seen = frame.people[0].sighting();
+        assert_eq!(
+            (seen.id, seen.error_cm, seen.confidence),
+            (Some(7), 100, 40)
+        );
+        assert!(matches!(frame.covers, Some(Area::Polygon(corners)) if corners.len() == 3));
+    }
+
+    #[test]
+    fn a_line_with_one_person_adds_that_person() {
+        let line = r#"{"at_s": 1.5, "id": 7, "position_m": [3, 0], "velocity_mps": [1.2, 0],
                        "class": "bicyclist", "confidence": 0.4}"#;
-        let full = parse(full).unwrap();
-        let vru = full.vru.unwrap();
-        assert_eq!((full.at_s, vru.class), (Some(1.5), VruClass::Bicyclist));
+        let Observation::Person(vru, at_s) = parse(line).unwrap() else {
+            panic!("no person")
+        };
+        assert_eq!((at_s, vru.class), (Some(1.5), VruClass::Bicyclist));
         let seen = seen_from(Place::new(1.0, 2.0), vru);
         assert_eq!(
             seen,
@@ -292,8 +573,19 @@ mod tests {
                 ..vru
             }
         );
-        let nobody = parse(r#"{"at_s": 2, "nobody": true}"#).unwrap();
-        assert_eq!((nobody.vru, nobody.at_s), (None, Some(2.0)));
+    }
+
+    #[test]
+    fn a_frame_counts_from_when_it_was_made() {
+        let unix_s = |ago: Duration| {
+            let at = SystemTime::now() - ago;
+            let since = at.duration_since(SystemTime::UNIX_EPOCH).unwrap();
+            since.as_secs_f64()
+        };
+        let taken = instant_of(unix_s(Duration::from_secs(3))).unwrap();
+        assert!(taken.elapsed() >= Duration::from_millis(2_900));
+        let future = unix_s(Duration::ZERO) + 60.0;
+        assert!(instant_of(future).unwrap_err().contains("in the future"));
     }
 
     #[test]
@@ -315,9 +607,28 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_person_is_answered_with_what_would_be() {
+    fn what_is_no_observation_is_answered_with_what_would_be() {
+        let many = format!(
+            r#"{{"at_s": 1, "people": [{}]}}"#,
+            vec![r#"{"position_m": [1, 2]}"#; PEOPLE_MAX + 1].join(", ")
+        );
         for (line, answer) in [
-            ("{}", "missing field `id`"),
+            ("{}", "missing field `people`"),
+            (r#"{"people": []}"#, "a frame wants either 'at_s'"),
+            (
+                r#"{"people": [], "at_s": 1, "unix_s": 1}"#,
+                "a frame wants either 'at_s'",
+            ),
+            (&many, "257 people: at most 256 are possible"),
+            (r#"{"people": [], "at_s": -1}"#, "at_s is -1"),
+            (
+                r#"{"people": [], "at_s": 1, "source": -1}"#,
+                "invalid value",
+            ),
+            (
+                r#"{"people": [{"position_m": [1, 2], "error_m": -1}], "at_s": 1}"#,
+                "error_m is -1",
+            ),
             (r#"{"id": 1, "place": 3}"#, "unknown field `place`"),
             (
                 r#"{"id": 1, "position_m": [1, 2], "class": "car"}"#,
@@ -331,8 +642,6 @@ mod tests {
                 r#"{"id": 1, "position_m": [1, 1e9]}"#,
                 "position_m is 1000000000: metres on the site is wanted",
             ),
-            (r#"{"nobody": false}"#, "unknown field `nobody`"),
-            (r#"{"nobody": true, "at_s": -1}"#, "at_s is -1"),
             (
                 r#"{"id": 1, "position_m": [1, 2], "at_s": -1}"#,
                 "at_s is -1",

@@ -1,9 +1,11 @@
 //! What a leader has its followers do: stage by stage, each follower its part.
 
 use crossguard_codec::PublicSignal;
-use crossguard_protocol::{HelpRequest, StationId, TaskSet, TaskType, Urgency};
+use crossguard_crossing as crossing;
+use crossguard_protocol::{HelpRequest, Millis, StationId, TaskSet, TaskType, Urgency};
 
 use crate::site::{Place, Site};
+use crate::zone::point;
 
 /// One follower's part of a stage.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -71,6 +73,33 @@ impl Leg {
             heading_deg: None,
         }
     }
+
+    /// The leg as the crossing machine has it.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "casts of numbers saturate"
+    )]
+    fn lead(&self) -> crossing::Leg {
+        crossing::Leg {
+            task: self.task,
+            to: point(self.to),
+            speed_mmps: (self.speed_mps * 1e3).round() as u16,
+            heading_ddeg: self
+                .heading_deg
+                .map(|degrees| (degrees * 10.0).round() as u16),
+        }
+    }
+}
+
+/// Milliseconds, saturating.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "casts of numbers saturate"
+)]
+fn millis(seconds: f64) -> Millis {
+    Millis((seconds * 1e3).round() as u32)
 }
 
 impl Stage {
@@ -81,22 +110,12 @@ impl Stage {
             parts: vec![(Who::Everybody, leg)],
         }
     }
-
-    /// Whether the pedestrian is escorted in it.
-    #[must_use]
-    pub fn is_escort(&self) -> bool {
-        let mut parts = self.parts.iter();
-        parts.any(|(_, leg)| leg.task == TaskType::MOVE)
-    }
 }
 
 // Places on a street of two lanes that runs from west to east; the kerb is at 0, the other side at 8 m north
 // of it.
 const KERB: Place = Place::new(1.0, -1.0);
 const OTHER_SIDE: Place = Place::new(1.0, 8.0);
-/// How far apart followers with the same part are, in metres.
-const BESIDE_M: f64 = 1.5;
-
 /// How fast a robot walks beside a pedestrian, in m/s.
 const ESCORT_MPS: f64 = 0.424;
 
@@ -152,54 +171,28 @@ impl Plan {
         }
     }
 
-    /// Has an escort begin at the kerb that is nearer to the people who wait.
-    pub fn begin_near(&mut self, people: Place) {
-        let Some([from, to]) = self.kerbs else {
-            return;
-        };
-        if people.distance(to) >= people.distance(from) {
-            return;
-        }
-        self.kerbs = Some([to, from]);
-        let legs = self.stages.iter_mut().flat_map(|stage| &mut stage.parts);
-        for (_, leg) in legs {
-            if leg.to == from {
-                leg.to = to;
-            } else if leg.to == to {
-                leg.to = from;
-            }
-        }
-    }
-
-    /// The part of the follower in this seat in a stage; `None` when it has none. Seats are the roles, or else the
-    /// followers in the order in which they joined, who stand side by side.
+    /// The plan as the crossing machine has it.
     #[must_use]
-    pub fn leg(&self, stage: usize, seat: usize) -> Option<Leg> {
-        let parts = &self.stages.get(stage)?.parts;
-        let of = |who| parts.iter().find(|(part, _)| *part == who);
-        if let Some((_, leg)) = of(Who::Role(seat)) {
-            return Some(*leg);
-        }
-        let (_, leg) = of(Who::Everybody)?;
-        let to = self.beside(leg.to, seat);
-        Some(Leg { to, ..*leg })
-    }
-
-    /// The place of the follower in this seat, where the first one is at `place`: by turns on either side of it, along
-    /// the road.
-    fn beside(&self, place: Place, seat: usize) -> Place {
-        let metres = BESIDE_M * f64::from(u32::try_from(seat.div_ceil(2)).unwrap_or(u32::MAX));
-        let metres = if seat.is_multiple_of(2) {
-            -metres
-        } else {
-            metres
+    pub fn lead(&self) -> crossing::Plan {
+        let who = |who: &Who| match who {
+            Who::Everybody => crossing::Who::Everybody,
+            Who::Role(role) => crossing::Who::Role(u8::try_from(*role).unwrap_or(u8::MAX)),
         };
-        let along = self.kerbs.map_or(0.0, |[from, to]| from.bearing(to)) + 90.0;
-        let (east, north) = along.to_radians().sin_cos();
-        if seat == 0 {
-            return place;
+        let stages = self.stages.iter().map(|stage| crossing::Stage {
+            parts: stage
+                .parts
+                .iter()
+                .map(|(it, leg)| (who(it), leg.lead()))
+                .collect(),
+        });
+        crossing::Plan {
+            followers: self.followers,
+            stages: stages.collect(),
+            roles: self.roles.iter().copied().collect(),
+            own_place: self.own_place.map(point),
+            patience: millis(self.patience_s),
+            kerbs: self.kerbs.map(|kerbs| kerbs.map(point)),
         }
-        Place::new(place.east + metres * east, place.north + metres * north)
     }
 
     /// What a leader with this plan asks for.
@@ -224,22 +217,5 @@ impl Plan {
     )]
     pub fn crossing_us(&self, time_scale: f64) -> u64 {
         (self.crossing_s / time_scale * 1e6) as u64
-    }
-
-    /// Whether somebody may cross in its last stage, under a maneuver that guards.
-    #[must_use]
-    pub fn lets_cross(&self, guarding: TaskSet) -> bool {
-        let mut legs = self
-            .stages
-            .last()
-            .into_iter()
-            .flat_map(|stage| &stage.parts);
-        legs.any(|(_, leg)| guarding.contains(leg.task))
-    }
-
-    /// Whether the pedestrian is escorted in a stage.
-    #[must_use]
-    pub fn is_escort(&self, stage: usize) -> bool {
-        self.stages.get(stage).is_some_and(Stage::is_escort)
     }
 }

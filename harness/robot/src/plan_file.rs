@@ -16,15 +16,17 @@
 //! escort = { task = "move", to = "far-kerb", speed_mps = 0.424 }
 //! ```
 //!
+//! Guards are sent to their places before anybody is escorted, and every way can be walked in the time that its task has.
 //! No two bodies are sent to places that are closer than [`APART_M`]: in no stage, and not to where the leader stands.
 
 mod check;
+mod safety;
 mod tables;
 
 use std::path::Path;
 
 use crossguard_codec::PublicSignal;
-use crossguard_protocol::{EndReason, ReleaseReason, StationId, Urgency};
+use crossguard_protocol::{EndReason, ReleaseReason, Settings, StationId, Urgency};
 
 use crate::body::Build;
 use crate::located::{self, FileError};
@@ -117,16 +119,24 @@ shipped!(
 );
 
 impl PlanFile {
-    /// The plan of this name that comes with the kit, or of this file, on a site. A name without `.toml` is one that
-    /// comes with the kit.
+    /// The plan of this name that comes with the kit, or of this file, on a site, for robots with the settings by default.
+    /// A name without `.toml` is one that comes with the kit.
     ///
     /// # Errors
     /// The first thing that is wrong, with its line.
     pub fn open(name: &Path, site: SiteFile) -> Result<Self, FileError> {
+        Self::open_for(name, site, &Settings::default())
+    }
+
+    /// The same, for robots with these settings.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its line.
+    pub fn open_for(name: &Path, site: SiteFile, settings: &Settings) -> Result<Self, FileError> {
         let text = name.to_string_lossy();
         let shipped = SHIPPED.iter().find(|(shipped, _)| *shipped == text);
         if let Some((name, plan)) = shipped {
-            return Self::parse(&format!("plan {name}"), name, plan, site);
+            return Self::parse(&format!("plan {name}"), name, plan, site, settings);
         }
         if name.extension().is_none_or(|extension| extension != "toml") {
             let names: Vec<_> = SHIPPED.iter().map(|(name, _)| *name).collect();
@@ -140,12 +150,18 @@ impl PlanFile {
             });
         }
         let stem = name.file_stem().unwrap_or_default().to_string_lossy();
-        Self::parse(&text, &stem, &located::read(name)?, site)
+        Self::parse(&text, &stem, &located::read(name)?, site, settings)
     }
 
-    fn parse(file: &str, name: &str, text: &str, site: SiteFile) -> Result<Self, FileError> {
+    fn parse(
+        file: &str,
+        name: &str,
+        text: &str,
+        site: SiteFile,
+        settings: &Settings,
+    ) -> Result<Self, FileError> {
         let tables: Result<tables::PlanTables, _> = located::parse(text);
-        let checked = tables.and_then(|tables| tables.check(name, site));
+        let checked = tables.and_then(|tables| tables.check(name, site, settings));
         checked.map_err(|misfit| misfit.of(file, text))
     }
 

@@ -16,8 +16,8 @@ use std::time::Duration;
 use nix::sys::stat::{Mode, fchmod};
 use socket2::{Domain, SockAddr, Socket, Type};
 
-/// Longest line that comes in, in octets.
-const LINE_MAX: u64 = 4_096;
+/// Longest line that comes in, in octets: a frame with as many people as are possible fits.
+const LINE_MAX: u64 = 65_536;
 
 /// How many lines may wait; after that who says them has to.
 const LINES: usize = 256;

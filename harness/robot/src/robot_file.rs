@@ -12,7 +12,7 @@ use crossguard_endpoint::ras::clustering;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
 use crossguard_endpoint::station::Security;
-use crossguard_protocol::{BrokenInequality, Config, Settings, StationId};
+use crossguard_protocol::{BrokenInequality, Config, Settings, SettingsInFiles, StationId};
 use serde::Deserialize;
 
 use crate::application::{Application, Traits};
@@ -29,7 +29,7 @@ use crate::site::{CrossingReference, NoCrossing, Place, Site};
 use crate::site_file::SiteFile;
 use crate::street::{Road, Street};
 use crate::transport::{Framing, Halves, Link};
-use crate::zone::{Watched, Zone};
+use crate::zone::Zone;
 
 use self::body::BodyTable;
 pub use self::body::NoBody;
@@ -119,7 +119,7 @@ struct RobotTable {
     body: Option<BodyTable>,
     operator: Option<OperatorTable>,
     link: LinkTable,
-    #[serde(default)]
+    #[serde(default, with = "SettingsInFiles")]
     protocol: Settings,
     #[serde(default)]
     identifiers: Identifiers,
@@ -235,6 +235,16 @@ pub enum Impossibility {
     /// Timers contradict each other.
     #[error("[protocol] {0}")]
     Settings(#[from] BrokenInequality),
+    /// Nobody crosses so fast.
+    #[error(
+        "[protocol] t_cross is {t_cross_s} s: a slow walker (0.9 m/s) is between the kerbs of the site for {walk_s:.1} s"
+    )]
+    CrossingTime {
+        /// `t_cross`, in seconds.
+        t_cross_s: f64,
+        /// How long a slow walker is on the carriageway, in seconds.
+        walk_s: f64,
+    },
     /// Identifiers contradict each other.
     #[error("[identifiers] {0}")]
     Identifiers(#[from] IdentifierClash),
@@ -351,10 +361,16 @@ impl RobotFile {
     #[must_use]
     pub fn road(&self) -> Road {
         match &self.zone {
-            Some(zone) => Road::Watched(Watched::new(zone.clone())),
-            None if self.autopilot => Road::Own(Street::default()),
+            Some(zone) => Road::Watched(zone.clone()),
+            None if self.autopilot => Road::Own(self.street()),
             None => Road::Unknown,
         }
+    }
+
+    /// A simulated street, which people cross where it has them escorted.
+    fn street(&self) -> Street {
+        let kerbs = self.plan().and_then(|plan| plan.kerbs);
+        kerbs.map_or_else(Street::default, |[from, to]| Street::between(from, to))
     }
 
     /// What it does when it leads, if it leads by itself.
@@ -466,12 +482,17 @@ impl RobotTable {
             .zone
             .map(|zone| zone.check(&layout, confidence_min, autopilot));
         let (zone, kerbs) = zone.transpose()?.unzip();
+        let config = Config::new(self.protocol)?;
+        let t_cross_s = f64::from(config.settings().t_cross.0) / 1_000.0;
+        if let Some(walk_s) = layout.walk_s().filter(|walk_s| *walk_s > t_cross_s) {
+            return Err(Impossibility::CrossingTime { t_cross_s, walk_s });
+        }
         // On a site of one's own the crossing is where its places are.
         let crossing = Path::new("crossing");
         let own = (self.autopilot && self.site_file.is_some()).then_some(crossing);
         let plan = self.plan_file.as_deref().or(own);
         let plan = plan
-            .map(|name| PlanFile::open(name, layout.at(site)))
+            .map(|name| PlanFile::open_for(name, layout.at(site), config.settings()))
             .transpose()?;
         let traits = traits::check(self.job, self.dimensions_m, &self.battery)?;
         Ok(RobotFile {
@@ -491,7 +512,7 @@ impl RobotTable {
             body_port: self.body.map(|body| body.check(folder)).transpose()?,
             operator_port: self.operator.map(|it| it.check(folder)).transpose()?,
             link: self.link.check()?,
-            config: Config::new(self.protocol)?,
+            config,
             identifiers: self.identifiers,
             awareness: Awareness {
                 clustering: self.people,
@@ -548,3 +569,6 @@ impl LinkTable {
         self.sends.map_or(Ok(link), |_| Err(Impossibility::Link))
     }
 }
+
+#[cfg(test)]
+mod tests;

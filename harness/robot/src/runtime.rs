@@ -31,7 +31,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver as Inbox, RecvTimeoutError, sync_channel};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crossguard_codec::{Battery, Identifiers, JobRole, MapPlace, SignalsShown};
 use crossguard_endpoint::cause::Cause;
@@ -39,7 +39,7 @@ use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Security;
 use crossguard_endpoint::{Act, Effect, Endpoint, Stimulus};
-use crossguard_protocol::{Config, Event, Phase, Robot, State, StationId};
+use crossguard_protocol::{Config, Event, Millis, Phase, Robot, State, StationId};
 
 pub use self::clock::Clock;
 use self::clock::{moment_at, unix_us};
@@ -55,7 +55,7 @@ use crate::clock::ClockState;
 use crate::journal::Journal;
 use crate::machine::Machine;
 use crate::observe;
-use crate::perception::seen_from;
+use crate::perception::{Newest, SensorFrame, seen_from};
 use crate::trace::{Entry, Record, recorded};
 use crate::transport::{Arrival, Halves, Sender};
 use crate::wall_clock::{ClockQuality, WallClock};
@@ -79,12 +79,14 @@ const BODY_PERIOD: Duration = Duration::from_millis(5);
 const AROUND_PERIOD_US: u64 = 1_000_000;
 
 /// What a running robot can be told from outside.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub enum Order {
     /// Something for its endpoint.
     Wish(Stimulus<'static>),
     /// The body holds the place from which the maneuver that runs guards.
     InPosition,
+    /// It does not hold that place any more.
+    OutOfPosition,
     /// A person says that the road is clear.
     Clear,
     /// The maneuver that runs is finished, well or not; or the fallback that runs.
@@ -92,8 +94,12 @@ pub enum Order {
         /// Whether it was completed.
         well: bool,
     },
-    /// The sensors have this person, at this place on the site; or they work, and have nobody.
-    Perceived(Option<PerceivedVru>),
+    /// The sensors have this person now, at this place on the site.
+    Perceived(PerceivedVru),
+    /// A sensor source looked at this moment.
+    Looked(Arc<SensorFrame>, Instant),
+    /// A sensor source delivered something that is no frame.
+    LookedInVain,
     /// The battery is like this now.
     Battery(Battery),
     /// The wall clock is like this, as whatever keeps it says.
@@ -187,6 +193,7 @@ impl Setup {
             clock_state: None,
             channel: Monitored::default(),
             wall_clock: WallClock::default(),
+            newest: Newest::default(),
             observed: State::Idle,
             around: (Around::default(), began_us),
             sampler: Sampler::default(),
@@ -234,6 +241,8 @@ struct Loop {
     channel: Monitored,
     /// How right its wall clock is.
     wall_clock: WallClock,
+    /// Whom its sensors have, for RAM.
+    newest: Newest,
     /// The newest state that observers were told.
     observed: State,
     /// Who the log says is around, and since when.
@@ -356,25 +365,36 @@ impl Loop {
 
     /// Carries out an order, in one turn.
     fn obey(&mut self, order: Order) {
-        let seen;
+        let seen: Vec<PerceivedVru>;
         let stimulus = match order {
             Order::Wish(wish) => wish,
             Order::InPosition => event(self.machine.in_position()),
+            Order::OutOfPosition => event(self.machine.out_of_position()),
             Order::Clear => {
                 // Where nothing waits for it, the robot says so.
                 let is_awaited = self.machine.application_mut().say_clear();
                 event((!is_awaited).then_some(Event::RoadClear))
             }
             Order::Finish { well } => event(self.machine.finish(well)),
-            Order::Perceived(None) => {
-                self.machine.application_mut().perceive_nobody();
-                Stimulus::Time
-            }
-            Order::Perceived(Some(vru)) => {
+            Order::Perceived(vru) => {
                 let place = self.machine.application().body().place();
                 self.machine.application_mut().perceive(&vru);
-                seen = [seen_from(place, vru)];
+                seen = vec![seen_from(place, vru)];
                 Stimulus::Perceived(&seen)
+            }
+            Order::Looked(frame, taken) => {
+                let age_ms = taken.elapsed().as_millis();
+                let age = Millis(u32::try_from(age_ms).unwrap_or(u32::MAX));
+                let place = self.machine.application().body().place();
+                self.machine.application_mut().look(&frame, age);
+                let taken_ms = self.now_ms().saturating_sub(age.0.into());
+                let people = self.newest.look(&frame, taken_ms).into_iter();
+                seen = people.map(|vru| seen_from(place, vru)).collect();
+                Stimulus::Perceived(&seen)
+            }
+            Order::LookedInVain => {
+                self.machine.application_mut().look_in_vain();
+                Stimulus::Time
             }
             Order::Battery(battery) => {
                 self.machine.application_mut().set_battery(battery);
@@ -487,14 +507,17 @@ impl Loop {
         let moment = moment_at(shown);
         #[expect(clippy::cast_precision_loss, reason = "centuries of microseconds fit")]
         let now_s = shown as f64 / 1e6;
-        for effect in self.machine.handle(moment, now_s, stimulus) {
+        let effects = self.machine.handle(moment, now_s, stimulus);
+        // What the robot saw is logged before what it did by that.
+        if let Some(sight) = self.machine.application_mut().next_sight() {
+            let sighted = self.record_at(shown, Entry::People(sight));
+            self.put(sighted);
+        }
+        for effect in effects {
             self.carry_out(effect);
         }
         while let Some((cause, detail)) = self.machine.application_mut().next_trouble() {
             self.drop(cause, detail.to_owned(), Vec::new());
-        }
-        if let Some(sight) = self.machine.application_mut().next_sight() {
-            self.log(Entry::People(sight));
         }
         self.look_around(shown);
         if let Some(counters) = self.sampler.elapse(shown) {

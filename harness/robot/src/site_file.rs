@@ -8,6 +8,7 @@
 //! [crossing]
 //! reference = "276:4711"
 //! kerbs_m = [[[-3.0, 0.0], [5.0, 0.0]], [[-3.0, 7.0], [5.0, 7.0]]]
+//! along_m = 10.0
 //!
 //! [[lanes]]
 //! name = "near"
@@ -29,6 +30,11 @@ use toml::Spanned;
 use crate::located::{self, FileError, Misfit};
 use crate::site::{CrossingReference, Place, Site};
 
+mod carriageway;
+
+pub use carriageway::Carriageway;
+pub(crate) use carriageway::between;
+
 /// A site, checked: every guard stands on a lane, nobody waits or begins to cross on one.
 #[derive(Clone, PartialEq, Debug)]
 pub struct SiteFile {
@@ -38,6 +44,8 @@ pub struct SiteFile {
     pub site: Site,
     /// The edges of the carriageway between which people cross.
     pub kerbs: Vec<[Place; 2]>,
+    /// How far the carriageway goes on beside the crossing, on either side, in metres.
+    pub along_m: f64,
     /// The lanes.
     pub lanes: Vec<Lane>,
     /// The places of robots, by name.
@@ -104,6 +112,7 @@ struct CrossingTable {
     reference: Option<Spanned<String>>,
     map_place: Option<Spanned<String>>,
     kerbs_m: Vec<[Spanned<[f64; 2]>; 2]>,
+    along_m: Option<Spanned<f64>>,
 }
 
 #[derive(Deserialize)]
@@ -122,6 +131,12 @@ struct SpotTable {
     #[serde(rename = "for")]
     purpose: Purpose,
 }
+
+/// How far the carriageway goes on beside the crossing unless the site says it, in metres.
+const ALONG_M: f64 = 10.0;
+
+/// How fast crossings are designed for elderly people and small children, in m/s; for others it is 1.2 m/s.
+const SLOW_MPS: f64 = 0.9;
 
 /// The street of the demonstrations.
 const STREET: &str = include_str!("../plans/street.toml");
@@ -158,6 +173,21 @@ impl SiteFile {
         checked.map_err(|misfit| misfit.of(file, text))
     }
 
+    /// The carriageway at the crossing; `None` where the site does not have two kerbs.
+    #[must_use]
+    pub fn carriageway(&self) -> Option<Carriageway> {
+        let [near, far] = self.kerbs[..] else {
+            return None;
+        };
+        Some(Carriageway::new(near, far, self.along_m))
+    }
+
+    /// How long a slow walker is on the carriageway, in seconds; `None` where the site does not have two kerbs.
+    #[must_use]
+    pub fn walk_s(&self) -> Option<f64> {
+        self.carriageway().map(|road| road.width_m() / SLOW_MPS)
+    }
+
     /// The lane that a place is on.
     #[must_use]
     pub fn lane_at(&self, place: Place) -> Option<&Lane> {
@@ -184,16 +214,26 @@ impl Lane {
 impl SiteTables {
     fn check(self, name: &str) -> Result<SiteFile, Misfit> {
         let site = self.site()?;
-        let kerbs = self.crossing.kerbs_m.iter();
-        let kerbs = kerbs.map(|[from, to]| Ok([located::place(from)?, located::place(to)?]));
+        let along_m = self.crossing.along_m.as_ref();
+        let along_m = along_m.map(|metres| located::within(metres, 0.0..=100.0, "m"));
         let lanes = self.lanes.iter().map(LaneTable::check);
         let mut checked = SiteFile {
             name: self.name.unwrap_or_else(|| name.to_owned()),
             site,
-            kerbs: kerbs.collect::<Result<_, Misfit>>()?,
+            kerbs: self.crossing.kerbs()?,
+            along_m: along_m.transpose()?.unwrap_or(ALONG_M),
             lanes: lanes.collect::<Result<_, _>>()?,
             places: BTreeMap::new(),
         };
+        if let Some(kerb) = self.crossing.kerbs_m.first()
+            && checked.carriageway().is_some_and(|road| !road.is_convex())
+        {
+            let what = format!(
+                "the two kerbs meet, or will within {} m beside the crossing",
+                checked.along_m
+            );
+            return Err(Misfit::at(&kerb[0], what));
+        }
         for (name, spot) in self.places {
             let place = located::place(&spot.get_ref().at_m)?;
             let purpose = spot.get_ref().purpose;
@@ -245,6 +285,19 @@ impl SiteTables {
             })?);
         }
         Ok(site)
+    }
+}
+
+impl CrossingTable {
+    fn kerbs(&self) -> Result<Vec<[Place; 2]>, Misfit> {
+        let kerb = |[from, to]: &[Spanned<[f64; 2]>; 2]| {
+            let kerb = [located::place(from)?, located::place(to)?];
+            if kerb[0].distance(kerb[1]) < 1.0 {
+                return Err(Misfit::at(to, "the kerb is shorter than a metre"));
+            }
+            Ok(kerb)
+        };
+        self.kerbs_m.iter().map(kerb).collect()
     }
 }
 
@@ -300,12 +353,12 @@ mod tests {
             (
                 "width_m = 3.5",
                 "width_m = nan",
-                "s.toml:19: NaN is not possible: 1 to 30 m",
+                "s.toml:20: NaN is not possible: 1 to 30 m",
             ),
             (
                 "[20.0, 1.75]",
                 "[-20.0, 1.75]",
-                "s.toml:18: lane 'near' is shorter than a metre",
+                "s.toml:19: lane 'near' is shorter than a metre",
             ),
             (
                 "[-4.0, 2.0]",
@@ -323,24 +376,39 @@ mod tests {
                 "is no place: metres east and north",
             ),
             (
+                "[5.0, 0.0]]",
+                "[-3.0, 0.5]]",
+                "s.toml:10: the kerb is shorter than a metre",
+            ),
+            (
+                "[5.0, 7.0]]",
+                "[5.0, 3.0]]",
+                "s.toml:10: the two kerbs meet, or will within 10 m beside the crossing",
+            ),
+            (
+                "# along_m = 10.0",
+                "along_m = -1.0 #",
+                "s.toml:11: -1 is not possible: 0 to 100 m",
+            ),
+            (
                 "# reference = \"276:4711\"",
                 "reference = \"0:0\"",
-                "s.toml:11: '0:0' is no crossing",
+                "s.toml:12: '0:0' is no crossing",
             ),
             (
                 "# map_place = \"segment 276:12\"",
                 "map_place = \"street 1\"",
-                "s.toml:12: ",
+                "s.toml:13: ",
             ),
             (
                 "for = \"wait\"",
                 "for = \"rest\"",
-                "s.toml:29: unknown variant `rest`",
+                "s.toml:30: unknown variant `rest`",
             ),
             (
                 "name = \"near\"",
                 "nam = \"near\"",
-                "s.toml:16: unknown field `nam`",
+                "s.toml:17: unknown field `nam`",
             ),
         ] {
             let error = refused(from, to);

@@ -4,28 +4,91 @@
 //!   arrives ──► waits ── a sign shows go ──► on the road ── some time later ──► across
 //! ```
 //!
-//! A pedestrian does not turn back because a sign changes. What a robot knows of the road decides when
-//! its application says `RoadClear`: nothing, unless sensors or a simulation tell.
+//! A pedestrian walks straight from one kerb to the other, and does not turn back because a sign changes. Robots that
+//! know a simulated street have it as a sensor that misses nobody.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use crate::zone::Watched;
+use crossguard_crossing::{Sensors, Setup, Sighting, WaitingRules};
+use crossguard_endpoint::ras::area::Area;
+use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
+use crossguard_protocol::Millis;
+
+use crate::site::Place;
+use crate::zone::{Zone, sighting};
+
+/// How far the kerbs are from the places where people wait, and from where an escort begins, in metres.
+const PAVEMENT_M: f64 = 1.0;
+
+/// How far from the kerb people wait, and how far on the road the first step leads, in metres. Each is more than
+/// a place may be wrong by, and a step is within reach.
+const WAITS_M: f64 = 0.1;
+const STEP_M: f64 = 0.01;
+
+/// For how long somebody who is across is to be seen at least, in microseconds.
+const STAYS_US: u64 = 1_000_000;
+
+/// Error of a place, in metres.
+const ERROR_M: f64 = 0.05;
+
+/// Half of the length of the road that is simulated, in metres.
+const HALF_ROAD_M: f64 = 10.0;
 
 /// The simulated people at one crossing. Clones are the same crossing.
-#[derive(Clone, Debug, Default)]
-pub struct Street(Arc<Mutex<People>>);
+#[derive(Clone, Debug)]
+pub struct Street {
+    people: Arc<Mutex<People>>,
+    /// From where to where people walk, from pavement to pavement.
+    way: [Place; 2],
+}
 
 #[derive(Debug, Default)]
 struct People {
+    /// When somebody looked last, in microseconds.
+    now_us: u64,
     /// How long each person who waits takes to cross, in microseconds.
     waiting_us: Vec<u64>,
-    /// When each of those on the road is across.
-    across_at_us: Vec<u64>,
+    /// Those who cross, and have just crossed.
+    walking: Vec<Walker>,
+}
+
+/// Somebody who crosses.
+#[derive(Clone, Copy, Debug)]
+struct Walker {
+    /// When they stepped on the road, in microseconds.
+    began_us: u64,
+    /// When they are off it.
+    across_us: u64,
+}
+
+impl Walker {
+    /// How far they have come from the kerb, on a road of this width, in metres.
+    #[expect(clippy::cast_precision_loss, reason = "a crossing takes seconds")]
+    fn walked_m(&self, now_us: u64, width_m: f64) -> f64 {
+        let takes = self.across_us.saturating_sub(self.began_us).max(1) as f64;
+        now_us.saturating_sub(self.began_us) as f64 / takes * width_m
+    }
+}
+
+impl Default for Street {
+    /// The street of the demonstrations.
+    fn default() -> Self {
+        Self::between(Place::new(1.0, -1.0), Place::new(1.0, 8.0))
+    }
 }
 
 impl Street {
+    /// A street that people cross between these places on its pavements.
+    #[must_use]
+    pub fn between(from: Place, to: Place) -> Self {
+        Self {
+            people: Arc::default(),
+            way: [from, to],
+        }
+    }
+
     fn people(&self) -> MutexGuard<'_, People> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.people.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Somebody comes to cross the road, and takes so long for it. Nobody comes while somebody waits: robots
@@ -38,40 +101,126 @@ impl Street {
     }
 
     /// Everybody looks at the signs: who waits steps on the road when one shows *go*, who has had the time is
-    /// across.
+    /// across, and walks on to the end of the pavement.
     pub fn look(&self, now_us: u64, a_sign_shows_go: bool) {
+        let width_m = self.width_m();
         let mut people = self.people();
-        people.across_at_us.retain(|&across_us| across_us > now_us);
+        people.now_us = now_us;
+        people.walking.retain(|walker| {
+            let is_walking = walker.walked_m(now_us, width_m) < width_m + PAVEMENT_M;
+            is_walking || now_us < walker.across_us.saturating_add(STAYS_US)
+        });
         if a_sign_shows_go {
             let set_out = std::mem::take(&mut people.waiting_us).into_iter();
-            people
-                .across_at_us
-                .extend(set_out.map(|crossing_us| now_us.saturating_add(crossing_us)));
+            people.walking.extend(set_out.map(|crossing_us| Walker {
+                began_us: now_us,
+                across_us: now_us.saturating_add(crossing_us),
+            }));
         }
     }
 
     /// Whether nobody is on the road.
     #[must_use]
     pub fn is_clear(&self) -> bool {
-        self.people().across_at_us.is_empty()
+        let people = self.people();
+        people
+            .walking
+            .iter()
+            .all(|walker| walker.across_us <= people.now_us)
     }
 
     /// Whether everybody who came is across.
     #[must_use]
     pub fn everybody_is_across(&self) -> bool {
+        self.is_clear() && self.people().waiting_us.is_empty()
+    }
+
+    /// The width of the carriageway, in metres.
+    fn width_m(&self) -> f64 {
+        let [from, to] = self.way;
+        (from.distance(to) - 2.0 * PAVEMENT_M).max(0.1)
+    }
+
+    /// Everybody who waits, is on the road, or has just crossed it, and where.
+    #[must_use]
+    pub fn sightings(&self) -> Vec<Sighting> {
+        let width_m = self.width_m();
         let people = self.people();
-        people.across_at_us.is_empty() && people.waiting_us.is_empty()
+        let [from, to] = self.way;
+        let walking = people.walking.iter();
+        let walking = walking.map(|walker| {
+            let walked_m = walker.walked_m(people.now_us, width_m);
+            PAVEMENT_M + walked_m.clamp(STEP_M, width_m + PAVEMENT_M)
+        });
+        let waiting = people.waiting_us.iter().map(|_| PAVEMENT_M - WAITS_M);
+        let at = waiting
+            .chain(walking)
+            .map(|metres| from.towards(to, metres));
+        let seen = (1..).zip(at).map(|(id, at)| {
+            let vru = PerceivedVru {
+                id,
+                position_m: [at.east, at.north],
+                velocity_mps: [0.0; 2],
+                class: VruClass::Pedestrian,
+                confidence: 1.0,
+            };
+            sighting(&vru, ERROR_M)
+        });
+        seen.collect()
+    }
+
+    /// The zone of this street.
+    #[must_use]
+    pub fn zone(&self) -> Zone {
+        let [from, to] = self.way;
+        let strip = |beyond_m: f64, half_m: f64| {
+            let length = from.distance(to).max(0.1);
+            let along = [
+                (to.east - from.east) / length,
+                (to.north - from.north) / length,
+            ];
+            let corner = |place: Place, on: f64, side: f64| {
+                [
+                    place.east + along[0] * on - along[1] * side,
+                    place.north + along[1] * on + along[0] * side,
+                ]
+            };
+            Area::Polygon(vec![
+                corner(from, -beyond_m, -half_m),
+                corner(to, beyond_m, -half_m),
+                corner(to, beyond_m, half_m),
+                corner(from, -beyond_m, half_m),
+            ])
+        };
+        Zone {
+            waiting: Some(strip(PAVEMENT_M, HALF_ROAD_M)),
+            road: Some(strip(-PAVEMENT_M, HALF_ROAD_M)),
+            crossing: None,
+            rules: WaitingRules {
+                dwell: Millis(0),
+                ..WaitingRules::default()
+            },
+            // It misses nobody, and is looked at whenever the robot does something.
+            sensors: Sensors {
+                miss_max: 0,
+                error_cm: 0,
+                gap_max: Millis(60_000),
+                // Its time may pass many times as fast as real.
+                linger: Millis(10),
+                ..Sensors::default()
+            },
+        }
     }
 }
 
 /// What a robot knows of the people on the road.
 #[derive(Clone, Debug, Default)]
 pub enum Road {
-    /// Nothing: a person has to say when the road is clear.
+    /// Nothing: a person says when it is clear.
     #[default]
     Unknown,
-    /// What its sensors tell.
-    Watched(Watched),
+    /// What its sensors have in a zone.
+    Watched(Zone),
     /// Everything, in a simulation.
     Known(Street),
     /// Everything, in a simulation that this robot keeps: people come when it leads, and look at its sign.
@@ -79,32 +228,32 @@ pub enum Road {
 }
 
 impl Road {
-    /// Whether the road is known to be clear at `now_s`.
+    /// The zone that it knows people in.
     #[must_use]
-    pub fn is_clear(&self, now_s: f64) -> bool {
+    pub fn zone(&self) -> Option<Zone> {
         match self {
-            Self::Unknown => false,
-            Self::Watched(watched) => watched.is_clear(now_s),
-            Self::Known(street) | Self::Own(street) => street.is_clear(),
+            Self::Unknown => None,
+            Self::Watched(zone) => Some(zone.clone()),
+            Self::Known(street) | Self::Own(street) => Some(street.zone()),
         }
     }
 
-    /// Whether the corridor would be open for somebody at `now_s`, as far as is known.
+    /// The setup of the crossing machine of a robot that knows this of the road.
     #[must_use]
-    pub fn needs_corridor(&self, now_s: f64) -> bool {
-        match self {
-            Self::Watched(watched) => watched.needs_corridor(now_s),
-            Self::Unknown | Self::Known(_) | Self::Own(_) => true,
-        }
-    }
-
-    /// Whether everybody who wanted to cross is known to be across at `now_s`.
-    #[must_use]
-    pub fn everybody_is_across(&self, now_s: f64) -> bool {
-        match self {
-            Self::Unknown => false,
-            Self::Watched(watched) => watched.is_clear(now_s) && watched.urgency(now_s).is_none(),
-            Self::Known(street) | Self::Own(street) => street.everybody_is_across(),
+    pub(crate) fn set_up(&self, setup: Setup) -> Setup {
+        match (self, self.zone()) {
+            (Self::Watched(_), Some(zone)) => zone.watched(setup),
+            (_, Some(zone)) => Setup {
+                watches: false,
+                calls: false,
+                ..zone.watched(setup)
+            },
+            (_, None) => Setup {
+                watches: false,
+                calls: false,
+                ground: crossguard_crossing::Ground::default(),
+                ..setup
+            },
         }
     }
 }
@@ -125,5 +274,24 @@ mod tests {
         assert!(!street.is_clear());
         street.look(7_000_000, true);
         assert!(street.is_clear() && street.everybody_is_across());
+    }
+
+    #[test]
+    fn people_are_on_the_road_of_their_zone_while_they_cross() {
+        let street = Street::default();
+        let ground = street.zone().ground();
+        street.arrive(10_000_000);
+        for (now_us, is_on_road) in [
+            (0, false),
+            (1, true),
+            (5_000_000, true),
+            (10_500_000, false),
+        ] {
+            street.look(now_us, now_us == 1);
+            let seen = street.sightings();
+            assert_eq!(seen.len(), 1, "{now_us}");
+            assert_eq!(ground.is_road(seen[0].at), is_on_road, "{now_us}");
+            assert!(ground.is_zone(seen[0].at), "{now_us}");
+        }
     }
 }

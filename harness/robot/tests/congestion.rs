@@ -41,7 +41,7 @@ fn sent_at(busy_permyriad: u16) -> usize {
     assert_eq!(file.link, link);
     let body = file.body_or_port(1).unwrap();
     let mut moves = UnixStream::connect(folder.path().join("r.sock")).unwrap();
-    writeln!(moves, "{{\"type\": \"hello\", \"crossguard\": 1}}").unwrap();
+    writeln!(moves, "{{\"type\": \"hello\", \"crossguard\": 2}}").unwrap();
     let boot = boot::take(&file.boot_file).unwrap();
     let halves = link.open().unwrap();
     let setup = file.setup(boot, body, Security::default(), halves, Journal::new());
@@ -51,7 +51,7 @@ fn sent_at(busy_permyriad: u16) -> usize {
     while began.elapsed() < SETTLING + COUNTED {
         turn += 1;
         let speed_mps = turn % 5;
-        let pose = json!({"type": "pose", "east_m": 0, "north_m": 0, "speed_mps": speed_mps});
+        let pose = json!({"type": "pose", "eastM": 0, "northM": 0, "speedMps": speed_mps});
         writeln!(moves, "{pose}").unwrap();
         let Ok((length, robot)) = unit.recv_from(&mut buffer) else {
             continue;

@@ -5,14 +5,17 @@ use crossguard_codec::Identifiers;
 use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{Config, EndReason, Event, Input, Notice, Robot, StationId, Urgency};
+use crossguard_protocol::{
+    Config, EndReason, Event, Input, Millis, Notice, Robot, StationId, Urgency,
+};
 use crossguard_robot::application::Application;
 use crossguard_robot::body::{Build, Simulated};
 use crossguard_robot::machine::{Machine, is_at_rest};
+use crossguard_robot::perception::SensorFrame;
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::street::Road;
-use crossguard_robot::zone::{Watched, Zone};
+use crossguard_robot::zone::Zone;
 
 const TICK_MS: u32 = 10;
 
@@ -52,7 +55,7 @@ impl Crossing {
             ..Zone::of_road(strip(0.0, 7.0))
         };
         let plan = Some(Plan::crossing(Site::default()));
-        let road = Road::Watched(Watched::new(zone));
+        let road = Road::Watched(zone);
         let helper = machine(2, Build::Quadruped, None, Road::Unknown);
         Self {
             leader: machine(1, Build::Humanoid, plan, road),
@@ -109,7 +112,8 @@ impl Crossing {
             if self.now_ms.is_multiple_of(100)
                 && let Some(vru) = &mut vru
             {
-                self.leader.application_mut().perceive(vru);
+                let frame = SensorFrame::of(&[**vru]);
+                self.leader.application_mut().look(&frame, Millis(0));
                 let [vx, vy] = vru.velocity_mps;
                 vru.position_m = [vru.position_m[0] + vx * 0.1, vru.position_m[1] + vy * 0.1];
             }

@@ -55,8 +55,8 @@ fn the_next_boot_counter_is_persisted_and_used_before_numbers_run_out() {
     let (mut complained, mut renewed) = (0, None);
     let deadline = Instant::now() + PATIENCE;
     while renewed.is_none() && Instant::now() < deadline {
-        robot.order(asks);
-        robot.order(leaves);
+        robot.order(asks.clone());
+        robot.order(leaves.clone());
         for record in records.try_iter() {
             match &record.entry {
                 Entry::Dropped { cause, .. } if *cause == Cause::EpochNotRenewed.into() => {

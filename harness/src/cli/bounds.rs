@@ -33,6 +33,7 @@ its own time to stop: add what you state for your robot. 'crossguard check' find
 timed scenarios, 'crossguard fuzz' in none of its streets.";
 
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 struct Report {
     delay_ms: u32,
     bounds: Vec<Bound>,

@@ -95,6 +95,7 @@ pub(super) struct Arguments {
 }
 
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 struct CheckReport {
     scenarios: Vec<ScenarioReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -103,6 +104,7 @@ struct CheckReport {
 
 /// How much of the state diagram the scenarios reach together.
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 struct Coverage {
     reached: usize,
     of: usize,

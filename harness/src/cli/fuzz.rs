@@ -69,6 +69,7 @@ break that assumes no truth of it. The same seed gives the same run.";
 
 /// The results as JSON.
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 struct FuzzReport<'a> {
     #[serde(flatten)]
     totals: &'a Totals,

@@ -81,6 +81,7 @@ const STATES_MAX: usize = 2_000_000;
 
 /// What is worked out, and what came of it.
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 struct OddsReport {
     followers: u8,
     delay_ms: u32,
@@ -92,6 +93,7 @@ struct OddsReport {
 
 /// The figures of one choice of settings.
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 struct SettingsOdds {
     ram_period_ms: u32,
     t_ack_ms: u32,
@@ -238,6 +240,7 @@ fn progress(is_json: bool) -> ProgressBar {
 
 /// What this program says of a chain that it has written: a judge compares it.
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 struct ChainFigures {
     stage: Stage,
     loss: f64,

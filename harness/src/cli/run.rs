@@ -34,7 +34,7 @@ use crossguard_robot::boot;
 use crossguard_robot::journal::{RECORDS, WhenFull};
 use crossguard_robot::operator::port::Desk;
 use crossguard_robot::operator::{self, Line, help};
-use crossguard_robot::perception::{Announced, Feed};
+use crossguard_robot::perception::{Announced, Feed, Perception};
 use crossguard_robot::port::{self, Listening};
 use crossguard_robot::robot_file::{Besides, RobotFile};
 use crossguard_robot::runtime::{Order, Panicked, Running};
@@ -121,15 +121,19 @@ const AFTER_HELP: &str =
     "Events are typed or piped in; type 'help' for a list. At the end of piped \
 input the robot goes on; 'quit' or Ctrl-C makes it leave its session in order and stop.
 
-A line of --perceived is one person at one time, like
-  {\"at_s\": 1.5, \"id\": 7, \"position_m\": [3.0, -1.5], \"velocity_mps\": [1.2, 0.0],
-   \"class\": \"pedestrian\", \"confidence\": 0.9}
-in metres on the site and seconds from the start; only id and position_m are needed. Classes are
-pedestrian, wheelchairUser, bicyclist, motorcyclist, animal and vehicle. Without at_s a line is told
-when it is read, from a pipe or typed. Who is within the radius of [people] in the configuration
-(15 m) is announced, and forgotten a second after the last line; vehicles are not announced. A line
-{\"nobody\": true} says that the sensors work and have nobody. With a table [zone] in the configuration,
-a person who waits there to cross is detected: nobody has to type 'detect'. Try --config harness/examples/kerb.toml --perceived harness/examples/people.jsonl.";
+A line of --perceived is a frame: everybody whom a sensor source saw at one time, like
+  {\"at_s\": 1.5, \"people\": [{\"id\": 7, \"position_m\": [3.0, -1.5], \"velocity_mps\": [1.2, 0.0],
+   \"class\": \"pedestrian\", \"confidence\": 0.9, \"error_m\": 0.2}]}
+in metres on the site. at_s is when the source looked, in seconds from the start; a source that writes
+into a pipe says \"unix_s\", seconds since 1970, instead. Only position_m is needed of a person.
+Classes are pedestrian, wheelchairUser, bicyclist, motorcyclist, animal and vehicle. \"covers_m\", a
+polygon, says what the source could see, if that is not the whole crossing; \"source\" numbers several
+sources from 0 to 3. An empty list says that nobody is there; silence says nothing. A frame that is
+older than half a second, or no frame, is dropped and counted. Who is within the radius of [people] in
+the configuration (15 m) is announced. With a table [zone] in the configuration, a person who waits
+there to cross is detected: nobody has to type 'detect'. A line with one person alone, as it can be
+typed, adds that person, and the road is never clear by it.
+Try --config harness/examples/kerb.toml --perceived harness/examples/people.jsonl.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     destinations::files([&arguments.log, &arguments.pcap])?;
@@ -365,8 +369,11 @@ impl Console<'_> {
                 self.type_in(&text)?;
             }
             if let Some(feed) = &self.perceived {
-                for vru in feed.due().map_err(Failure::Input)? {
-                    running.order(Order::Perceived(vru));
+                for perception in feed.due() {
+                    if let Perception::Garbled(why) = &perception {
+                        eprintln!("{why}");
+                    }
+                    running.order(perception.order());
                 }
             }
             if !quits && (interrupted.load(Ordering::Relaxed) || self.next_line(running)?) {

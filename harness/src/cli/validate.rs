@@ -30,7 +30,9 @@ judges every step by the properties that the model checker verifies, and holds t
 robot was told against the clock of its log. The first record that does \
 not fit is named with its line and the reason. Of a station whose log is not among those given, \
 nothing is known; what was heard from it is counted. I10 is judged among robots that share a log, and so a \
-clock. How long messages were under way is in no log. \
+clock. P1 (nobody on the road when a guard leaves by an application's word), P2 (guards at their places under go) and P4 \
+(escorts beside their people) are judged where the logs have people, the outline of a road and positions. How long messages \
+were under way is in no log. \
 With --json it has the paper's times as well: negotiation one way (T_neg), execution (T_exec), both together (T_TMCT), \
 and the round trip from command to acknowledgement. Clocks of logs may be apart: the difference is estimated from the \
 messages that went both ways, taken off T_neg, and given with what it can be wrong by.";
@@ -166,6 +168,9 @@ fn tell(result: &Result<Validated, Invalid>) -> Result<(), Failure> {
     }
     for what in &validated.not_judged {
         print(format_args!("Not judged: {what}."))?;
+    }
+    for what in &validated.crossing {
+        print(format_args!("{what}."))?;
     }
     for robot in &validated.cut_off {
         print(format_args!(

@@ -2,9 +2,9 @@
 
 use crossguard_model_check::node::Rules;
 use crossguard_protocol::{
-    Config, Confirmation, Coordination, Corridor, CorridorClosure, Event, FallbackPolicy, Ignored,
-    Input, Maneuver, ManeuverId, Millis, Notice, Output, Outputs, Phase, Rmcm, Robot, Settings,
-    Timer,
+    Config, Confirmation, Coordination, Corridor, CorridorClosure, Ending, Event, FallbackPolicy,
+    Farewell, Ignored, Input, Maneuver, ManeuverId, Millis, Notice, Order, Output, Outputs, Phase,
+    Progress, Ram, Report, Rmcm, Robot, Role, Settings, Timer,
 };
 
 /// Declares weakenings: what each does in place of a step of the protocol.
@@ -287,6 +287,78 @@ weakenings! {
         robot.step(config, input)
     }
 
+    /// A follower on duty obeys any command of its leader.
+    pub ObeysOnDuty(robot, config, input) {
+        if robot.duty().is_some() && matches!(input, Input::Rmcm(Rmcm::Command(_))) {
+            let mut obedient = robot.clone();
+            with_state(&mut obedient, |state| {
+                state["duty"] = serde_json::Value::Null;
+            });
+            let outputs = obedient.step(config, input);
+            if outputs.iter().any(|it| matches!(it, Output::StartManeuver(_))) {
+                *robot = obedient;
+                return outputs;
+            }
+        }
+        robot.step(config, input)
+    }
+
+    /// A leader does not read that a follower has left its place.
+    pub ReadsNoLoss(robot, config, mut input) {
+        let known = Some(Progress::InPosition);
+        if let Input::Ram { ram, .. } = &mut input
+            && let Some((order, report)) = order_and_report(robot, ram)
+            && (order.progress, report.progress) == (known, Progress::Executing)
+        {
+            report.progress = Progress::InPosition;
+        }
+        robot.step(config, input)
+    }
+
+    /// A leader takes the position of a late RAM for one that was taken again.
+    pub BelievesOldPositions(robot, config, input) {
+        let outputs = robot.step(config, input);
+        if let Input::Ram { mut ram, .. } = input
+            && let Some((order, report)) = order_and_report(robot, &mut ram)
+            && order.progress == Some(Progress::Executing)
+            && report.progress == Progress::InPosition
+        {
+            let station = serde_json::to_value(ram.station).unwrap();
+            with_state(robot, |state| {
+                let members = state["phase"]["leading"]["members"].as_array_mut();
+                for member in members.unwrap() {
+                    if member["station"] == station {
+                        member["order"]["progress"] =
+                            serde_json::to_value(Progress::InPosition).unwrap();
+                    }
+                }
+            });
+            // What was ignored is not any more.
+            let is_ignored = |output: &&Output| matches!(output, Output::Ignored(_));
+            return outputs.iter().filter(|it| !is_ignored(it)).copied().collect();
+        }
+        outputs
+    }
+
+    /// A follower that sees somebody stops all the same when its leader says that the crossing is completed.
+    pub TrustsItsLeaderAlone(robot, config, input) {
+        if let (Phase::Following(following), Input::Ram { ram, .. }) = (robot.phase(), input)
+            && following.sees_people
+            && matches!(ram.farewell, Some(Farewell::Ended(_, Ending::Completed)))
+        {
+            let mut trustful = robot.clone();
+            with_state(&mut trustful, |state| {
+                state["phase"]["following"]["seesPeople"] = false.into();
+            });
+            let outputs = trustful.step(config, input);
+            if trustful.role() != Role::Follower {
+                *robot = trustful;
+                return outputs;
+            }
+        }
+        robot.step(config, input)
+    }
+
     /// A follower starts before it acknowledges (rule R7, property I6).
     pub StartsBeforeItAcknowledges(robot, config, input) {
         let outputs = robot.step(config, input);
@@ -339,11 +411,27 @@ weakenings! {
     }
 }
 
+/// The command that a leader counts on, and what a RAM of its follower reports of it.
+fn order_and_report<'a>(robot: &Robot, ram: &'a mut Ram) -> Option<(Order, &'a mut Report)> {
+    let Phase::Leading(leading) = robot.phase() else {
+        return None;
+    };
+    let order = leading.member(ram.station)?.order?;
+    match &mut ram.coordination {
+        Coordination::Follower {
+            last: Some(report), ..
+        } if report.request == order.request => Some((order, report)),
+        _ => None,
+    }
+}
+
 /// The robot with one value of its state replaced, as it stands in a log.
 pub fn with_state(robot: &mut Robot, change: impl FnOnce(&mut serde_json::Value)) {
     let mut state = serde_json::to_value(&*robot).unwrap();
     change(&mut state);
-    *robot = serde_json::from_value(state).unwrap();
+    *robot = serde_json::from_value(state.clone()).unwrap();
+    let is_read = serde_json::to_value(&*robot).unwrap() == state;
+    assert!(is_read, "there is no such field in {state}");
 }
 
 /// A leader overlooks some of what stands in the way of an open corridor.

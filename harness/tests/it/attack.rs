@@ -105,7 +105,7 @@ fn the_crossing_goes_on_in_a_flood_and_each_kind_of_garbage_is_counted_by_its_ca
         }
     });
     assert_eq!(
-        (&result["crossings"], &result["trace_valid"]),
+        (&result["crossings"], &result["traceValid"]),
         (&1.into(), &true.into())
     );
     for robot in ["ARI", "Go2"] {

@@ -13,7 +13,7 @@ fn check_reports_every_property_of_a_scenario_as_json() {
     assert_eq!(scenarios.len(), 2);
     for scenario in scenarios {
         assert_eq!(scenario["exhaustive"], true);
-        assert!(scenario["unique_states"].as_u64().unwrap() > 100_000);
+        assert!(scenario["uniqueStates"].as_u64().unwrap() > 100_000);
         assert!(scenario["depth"].as_u64().unwrap() > 10);
         assert!(scenario["seconds"].as_f64().unwrap() > 0.0);
         for property in scenario["properties"].as_array().unwrap() {
@@ -38,7 +38,7 @@ fn a_timed_check_reports_the_longest_times_beside_their_bounds() {
     let figures = scenario["figures"].as_array().unwrap();
     assert_eq!(figures.len(), 5);
     for figure in figures {
-        let (ms, bound_ms) = (figure["ms"].as_u64(), figure["bound_ms"].as_u64());
+        let (ms, bound_ms) = (figure["ms"].as_u64(), figure["boundMs"].as_u64());
         assert!(ms.is_some() && ms <= bound_ms, "{figure}");
     }
     // What was found before the limit, and by which timers it is bounded.
@@ -110,7 +110,7 @@ fn the_state_graph_is_exported_whole_or_not_at_all() {
     );
     std::fs::write(&scenario, small_scenario("'I2'")).unwrap();
     let (scenario, file) = (scenario.to_str().unwrap(), file.to_str().unwrap());
-    let states = json(&run(&["check", scenario, "--json"]))["scenarios"][0]["unique_states"]
+    let states = json(&run(&["check", scenario, "--json"]))["scenarios"][0]["uniqueStates"]
         .as_u64()
         .unwrap();
 

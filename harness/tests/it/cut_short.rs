@@ -39,7 +39,7 @@ const ROWS: [Row; 8] = [
         says: &[
             "\"stopped\": true",
             "\"crossings\": 0",
-            "\"trace_valid\": true",
+            "\"traceValid\": true",
         ],
         writes: Some(("log", "\"entry\":\"stopped\"")),
     },
@@ -48,7 +48,7 @@ const ROWS: [Row; 8] = [
         after_ms: 2_000,
         signal: "-INT",
         code: 3,
-        says: &["\"exhaustive\": false", "\"cut_off\": \"stopped\""],
+        says: &["\"exhaustive\": false", "\"cutOff\": \"stopped\""],
         writes: Some(("junit", "</testsuites>")),
     },
     Row {
@@ -154,7 +154,7 @@ fn a_command_that_is_told_to_stop_ends_in_order_with_what_it_has() {
 fn a_check_ends_when_its_time_is_over_and_at_once_at_a_second_interrupt() {
     let output = run(&["check", LONG, "--timeout", "1", "--threads", "2", "--json"]);
     assert_eq!(output.status.code(), Some(3));
-    assert_eq!(json(&output)["scenarios"][0]["cut_off"], "time-limit");
+    assert_eq!(json(&output)["scenarios"][0]["cutOff"], "time-limit");
     let mut command = crossguard(&["check", LONG, "--threads", "1"]);
     let child = command.stdout(Stdio::null()).spawn().unwrap();
     std::thread::sleep(Duration::from_secs(1));
@@ -260,7 +260,7 @@ fn a_pki_is_made_whole_or_not_at_all() {
     let mut shown = shown.as_array().unwrap().iter();
     assert!(
         shown
-            .all(|it| it["is_valid_now"] == true
+            .all(|it| it["isValidNow"] == true
                 && Path::new(it["file"].as_str().unwrap()).is_file())
     );
     assert!(!path.join(".unfinished").exists());

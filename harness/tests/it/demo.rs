@@ -111,7 +111,7 @@ fn cross(row: &Row) {
     let text = std::fs::read_to_string(&log).unwrap();
     validate::one(text.as_bytes()).unwrap();
     for (robot, state) in row.ends {
-        assert_eq!(result["final_states"][robot], *state, "{scenario}: {robot}");
+        assert_eq!(result["finalStates"][robot], *state, "{scenario}: {robot}");
     }
     let started = started(&records(&text));
     let when = row.starts.iter().map(|(robot, task)| {
@@ -140,7 +140,7 @@ fn each_plan_ends_as_it_says_and_leaves_a_valid_log() {
 fn the_results_have_the_papers_times_for_each_maneuver() {
     let result = json(&demo(&["--speed", "50", "--trials", "3", "--json"]));
     assert_eq!(
-        (&result["crossings"], &result["trace_valid"]),
+        (&result["crossings"], &result["traceValid"]),
         (&3.into(), &true.into())
     );
     let maneuvers = result["maneuvers"].as_array().unwrap();
@@ -152,19 +152,19 @@ fn the_results_have_the_papers_times_for_each_maneuver() {
     for maneuver in maneuvers {
         assert_eq!(maneuver["trials"], 3);
         let mean = |time: &str| maneuver[time]["mean"].as_f64().unwrap();
-        let sd = maneuver["t_exec_s"]["sd"].as_f64();
+        let sd = maneuver["tExecS"]["sd"].as_f64();
         assert!(sd > Some(0.0), "no two walks are alike");
-        assert!(mean("t_neg_s") > 0.0);
-        assert!(mean("t_neg_s") < mean("round_trip_s"), "T_neg is one way");
-        assert!((mean("t_tmct_s") - mean("t_neg_s") - mean("t_exec_s")).abs() < 1e-9);
+        assert!(mean("tNegS") > 0.0);
+        assert!(mean("tNegS") < mean("roundTripS"), "T_neg is one way");
+        assert!((mean("tTmctS") - mean("tNegS") - mean("tExecS")).abs() < 1e-9);
     }
     // Both are planned to take as long as the paper's, give or take the gait and the ticks of the body.
-    let exec = |it: &Value| it["t_exec_s"]["mean"].as_f64().unwrap();
+    let exec = |it: &Value| it["tExecS"]["mean"].as_f64().unwrap();
     let (position, escort) = (exec(&maneuvers[0]), exec(&maneuvers[1]));
     assert!((0.3..3.0).contains(&position), "{position}");
     assert!((20.0..25.0).contains(&escort), "{escort}");
     let paper = |maneuver: &Value, time: &str| maneuver["paper"][time]["mean"].as_f64();
-    let of_paper = |maneuver| (paper(maneuver, "t_neg_s"), paper(maneuver, "t_tmct_s"));
+    let of_paper = |maneuver| (paper(maneuver, "tNegS"), paper(maneuver, "tTmctS"));
     assert_eq!(of_paper(&maneuvers[0]), (Some(0.074), Some(0.574)));
     assert_eq!(of_paper(&maneuvers[1]), (Some(0.129), Some(21.729)));
 }
@@ -182,7 +182,7 @@ fn on_sockets_t_neg_is_the_delay_that_was_put_in_to_a_millisecond() {
             "delay=74..74",
         ]));
         let maneuvers = result["maneuvers"].as_array().unwrap().iter();
-        let means = maneuvers.map(|it| it["t_neg_s"]["mean"].as_f64().unwrap());
+        let means = maneuvers.map(|it| it["tNegS"]["mean"].as_f64().unwrap());
         means.map(|mean| mean - DELAY_S).fold(f64::MIN, f64::max)
     };
     let mut tries = Vec::new();
@@ -202,7 +202,7 @@ fn faults_are_survived_and_counted() {
         "--speed", "50", "--faults", faults, "--seed", "2", "--json",
     ]));
     assert_eq!(
-        (&result["crossings"], &result["trace_valid"]),
+        (&result["crossings"], &result["traceValid"]),
         (&1.into(), &true.into())
     );
     let counters = &result["counters"]["Go2"]["simulated"];

@@ -23,7 +23,7 @@ fn json_has_the_bounds_of_each_milestone_at_each_loss_rate() {
     assert_eq!(report["followers"], 1);
     assert_eq!(report["odds"].as_array().unwrap().len(), 2);
     for (odds, n_ack) in report["odds"].as_array().unwrap().iter().zip([1_i32, 3]) {
-        assert_eq!(odds["n_ack"], n_ack);
+        assert_eq!(odds["nAck"], n_ack);
         assert!(odds["sizes"][0]["states"].as_u64().unwrap() > 100);
         let losses = odds["losses"].as_array().unwrap();
         assert_eq!(losses[0]["crossing"]["lower"], 1.0);
@@ -52,7 +52,7 @@ fn json_has_the_bounds_of_each_milestone_at_each_loss_rate() {
             );
         }
         assert_eq!(milestones[1]["distribution"][0]["ms"], 50);
-        assert!(milestones[0]["mean_ms"]["lower"].as_f64().unwrap() > 300.0);
+        assert!(milestones[0]["meanMs"]["lower"].as_f64().unwrap() > 300.0);
     }
 }
 

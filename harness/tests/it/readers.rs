@@ -8,9 +8,10 @@ use std::process::Command;
 use crossguard_codec::{Identifiers, golden};
 use crossguard_judge::sniffer::Sniffer;
 use crossguard_judge::validate;
+use crossguard_protocol::{Event, Output};
 use crossguard_robot::{capture, trace};
 use crossguard_testkit::command::*;
-use serde_json::Value;
+use serde_json::{Value, json};
 use tempfile::TempDir;
 
 /// A crossing with signed packets, CAM, and three people whom both robots see and announce in cluster VAM.
@@ -76,6 +77,7 @@ fn sniffed(pcap: &str, arguments: &[&str]) -> Vec<Value> {
 fn every_reader_says_the_same_of_one_run() {
     let run = Run::new();
     the_log_has_every_step(&run);
+    all_names_are_in_camel_case(&run);
     let seen = run.sniffed(&[]);
     a_sniffer_sees_both_robots(&run, &seen);
     signatures_are_verified_where_roots_are_given(&run, &seen);
@@ -90,7 +92,7 @@ fn every_reader_says_the_same_of_one_run() {
 }
 
 fn the_log_has_every_step(of: &Run) {
-    assert_eq!(of.result["trace_valid"], true, "{}", of.result);
+    assert_eq!(of.result["traceValid"], true, "{}", of.result);
     let log = trace::open(Path::new(&of.path("log"))).unwrap();
     let validated = validate::all(vec![log]).unwrap();
     let records = records(&std::fs::read_to_string(of.path("log")).unwrap());
@@ -101,6 +103,35 @@ fn the_log_has_every_step(of: &Run) {
     // Nothing was refused for want of a permission, neither by the sender nor by the other robot.
     let drops = records.iter().filter(|it| it["entry"] == "dropped");
     assert_eq!(drops.filter(|it| it["layer"] == "security").count(), 0);
+}
+
+/// In the log, in what everything can be told and say, and in the figures of a run; robots and causes are no names.
+fn all_names_are_in_camel_case(of: &Run) {
+    let mut values = records(&std::fs::read_to_string(of.path("log")).unwrap());
+    values.extend(Event::SAMPLES.iter().map(|it| json!(it)));
+    values.extend(Output::SAMPLES.iter().map(|it| json!(it)));
+    values.push(of.result.clone());
+    let others = values.iter().flat_map(others_than_camel_case);
+    assert_eq!(others.collect::<BTreeSet<_>>(), BTreeSet::new());
+}
+
+fn others_than_camel_case(value: &Value) -> Vec<String> {
+    let is_name = |name: &str| {
+        name.starts_with(|it: char| it.is_ascii_lowercase())
+            && name.chars().all(|it| it.is_ascii_alphanumeric())
+    };
+    match value {
+        Value::Object(fields) => fields
+            .iter()
+            .filter(|(name, _)| !["counters", "finalStates"].contains(&name.as_str()))
+            .flat_map(|(name, held)| {
+                let own = (!is_name(name)).then(|| name.clone());
+                own.into_iter().chain(others_than_camel_case(held))
+            })
+            .collect(),
+        Value::Array(items) => items.iter().flat_map(others_than_camel_case).collect(),
+        _ => Vec::new(),
+    }
 }
 
 fn a_sniffer_sees_both_robots(of: &Run, seen: &[Value]) {

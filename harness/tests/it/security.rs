@@ -275,7 +275,7 @@ fn the_crossing_goes_on_and_each_false_packet_is_rejected_under_its_own_cause() 
     attack.join().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let result = json(&output);
-    assert_eq!(result["trace_valid"], true);
+    assert_eq!(result["traceValid"], true);
     assert_eq!(result["security"], "enforce");
     for robot in ["ARI", "Go2"] {
         let counters = &result["counters"][robot];
@@ -366,7 +366,7 @@ fn a_demonstration_needs_no_pki_and_changes_pseudonyms_between_crossings() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let result = json(&output);
     assert_eq!(
-        (&result["crossings"], &result["trace_valid"]),
+        (&result["crossings"], &result["traceValid"]),
         (&2.into(), &true.into())
     );
     let log = std::fs::read_to_string(log).unwrap();
@@ -394,7 +394,7 @@ fn a_pki_is_made_shown_and_used_with_private_keys() {
     );
     // Tickets are valid for a day, and begin at moments that do not tell which robot they are of.
     let begins = issued.as_array().unwrap()[2..].iter().map(|ticket| {
-        let [from, until] = ["valid_from", "valid_until"].map(|key| ticket[key].as_str().unwrap());
+        let [from, until] = ["validFrom", "validUntil"].map(|key| ticket[key].as_str().unwrap());
         let (day, time) = from.split_once('T').unwrap();
         let (next_day, same_time) = until.split_once('T').unwrap();
         assert!(day != next_day && time == same_time, "{ticket}");
@@ -409,7 +409,7 @@ fn a_pki_is_made_shown_and_used_with_private_keys() {
     let guest = [&guest[..], &["--part", "help", "--json"]].concat();
     let guest = json(&run(&guest));
     assert_eq!(guest[0]["permissions"][0], "RAM (16480) with bits 0140");
-    assert_eq!(guest[0]["is_valid_now"], true);
+    assert_eq!(guest[0]["isValidNow"], true);
 
     let robot = robot_file(folder.path(), "stray", 3, 40_001, 40_002);
     let no_such = [

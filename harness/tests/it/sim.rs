@@ -125,13 +125,13 @@ fn the_longest_times_of_drawn_streets_are_a_real_try() {
         "roles",
         "stopped",
         "left",
-        "corridor_closed",
-        "sign_after_guard",
-        "sign_after_leader",
+        "corridorClosed",
+        "signAfterGuard",
+        "signAfterLeader",
         "untold",
     ] {
         let time = |name: &str| worst[measure][name].as_u64().unwrap();
-        let (observed, held_against) = (time("ms"), time("bound_ms"));
+        let (observed, held_against) = (time("ms"), time("boundMs"));
         assert!(observed <= held_against, "{measure}: {worst}");
         // At least half of what is possible was seen.
         assert!(observed * 2 > held_against, "{measure}: {worst}");

@@ -40,11 +40,11 @@ fn logs_of_two_processes_are_valid_together_and_alone_and_not_when_altered() {
     let report = json(&output);
     assert_eq!(report["valid"], true);
     assert_eq!(report["robots"], 2);
-    assert_eq!(report["from_strangers"], 0);
-    assert_eq!(report["cut_off"], json!([]));
+    assert_eq!(report["fromStrangers"], 0);
+    assert_eq!(report["cutOff"], json!([]));
     assert!(report["heard"].as_u64().unwrap() > 20, "{report}");
     let why = "I10: no two robots share a clock, and clocks of different logs are not compared";
-    assert_eq!(report["not_judged"], json!([why]));
+    assert_eq!(report["notJudged"], json!([why]));
     let alone = run(&["validate", &go2, "--json"]);
     assert_eq!(alone.status.code(), Some(0));
     // A follower's times are in its own log.
@@ -66,7 +66,7 @@ fn logs_of_two_processes_are_valid_together_and_alone_and_not_when_altered() {
     let us = |name: &str| clock[name].as_i64().unwrap();
     // A busy machine may put a pause between the two clocks that a log begins with.
     assert!(
-        (us("offset_us") - 2_500_000).abs() <= us("bound_us") + 20_000,
+        (us("offsetUs") - 2_500_000).abs() <= us("boundUs") + 20_000,
         "{times}"
     );
     for (maneuver, task) in times["maneuvers"]
@@ -77,9 +77,9 @@ fn logs_of_two_processes_are_valid_together_and_alone_and_not_when_altered() {
     {
         assert_eq!(maneuver["task"], task);
         let mean = |time: &str| maneuver[time]["mean"].as_f64().unwrap();
-        assert!(mean("t_neg_s").abs() < 0.5, "without the offset: {times}");
-        assert!(mean("round_trip_s") > 0.0);
-        assert!(maneuver["paper"]["t_neg_s"]["mean"].is_number());
+        assert!(mean("tNegS").abs() < 0.5, "without the offset: {times}");
+        assert!(mean("roundTripS") > 0.0);
+        assert!(maneuver["paper"]["tNegS"]["mean"].is_number());
     }
 
     // The dog's log says that it acknowledged another command.
@@ -196,7 +196,7 @@ macro_rules! alterations {
 
 const ALTERATIONS: &[Alteration] = alterations! {
     "settings that break an inequality" There "was started although the settings break 'lease-within-safety'":
-        |line| is(line, "started") => |lines, at| lines[at]["settings"]["t_lease"] = 1_999.into();
+        |line| is(line, "started") => |lines, at| lines[at]["settings"]["tLease"] = 1_999.into();
     "another boot counter" AtItsPart "went into a state that the protocol does not lead to":
         |line| is(line, "started") => |lines, at| lines[at]["boot"] = 7.into();
     "another event" There "the protocol puts out":
@@ -213,7 +213,7 @@ const ALTERATIONS: &[Alteration] = alterations! {
             outputs.push(serde_json::json!({"corridorOpened": 1}));
         };
     "another state" There "went into a state that the protocol does not lead to":
-        is_busy_step => |lines, at| lines[at]["state"]["next_count"] = 9.into();
+        is_busy_step => |lines, at| lines[at]["state"]["nextCount"] = 9.into();
     "another message sent" AsHeard "":
         |line| is(line, "sent") && line["trigger"] == "protocol" => |lines, at| flip_octet(&mut lines[at]);
     "another kind of message sent" There "recorded octets that are not the RMCM it says":
@@ -267,7 +267,7 @@ fn every_kind_of_alteration_is_refused_with_position_and_reason() {
     let whole = records(&std::fs::read_to_string(&log).unwrap());
     let output = run(&["validate", &log, "--json"]);
     assert_eq!(output.status.code(), Some(0));
-    assert_eq!(json(&output)["of_unknown_age"], 0);
+    assert_eq!(json(&output)["ofUnknownAge"], 0);
     let mut wrong = Vec::new();
     for Alteration {
         name,

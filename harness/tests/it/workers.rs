@@ -44,18 +44,18 @@ fn workers_report_what_they_judge_and_name_what_they_do_not() {
     let existing = json(&run(&["check", "stable", "--json"]));
     let existing = &existing["scenarios"][0];
     for figure in [
-        "unique_states",
+        "uniqueStates",
         "transitions",
         "depth",
         "exhaustive",
-        "size_as_expected",
+        "sizeAsExpected",
     ] {
         assert_eq!(scenario[figure], existing[figure], "{figure}");
     }
-    assert_eq!(scenario["fingerprint_bits"], 92);
-    assert!(scenario["omission_probability"].as_f64().unwrap() < 1e-9);
+    assert_eq!(scenario["fingerprintBits"], 92);
+    assert!(scenario["omissionProbability"].as_f64().unwrap() < 1e-9);
     let judged = scenario["properties"].as_array().unwrap();
-    let not_judged = scenario["not_judged"].as_array().unwrap();
+    let not_judged = scenario["notJudged"].as_array().unwrap();
     assert!(!judged.is_empty() && !not_judged.is_empty());
     assert!(
         judged
@@ -73,7 +73,7 @@ fn large_scenarios_are_explored_by_workers() {
     assert!(Scenario::large().eq(explored.iter().map(|it| it["name"].as_str().unwrap())));
     assert!(!explored.is_empty());
     for scenario in explored {
-        assert_eq!(scenario["cut_off"], "state-limit");
+        assert_eq!(scenario["cutOff"], "state-limit");
         assert_eq!(scenario["engines"][0], "crossguard-workers");
     }
 }

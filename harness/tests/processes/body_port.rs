@@ -213,12 +213,12 @@ fn a_body_that_is_not_understood_is_counted_and_a_second_one_is_refused() {
         std::thread::sleep(Duration::from_millis(20));
     };
     let mut said = BufReader::new(first.try_clone().unwrap());
-    assert_eq!(hears(&mut said), json!({"type": "hello", "crossguard": 1}));
+    assert_eq!(hears(&mut said), json!({"type": "hello", "crossguard": 2}));
     for line in [
-        "{\"type\": \"hello\", \"crossguard\": 1}",
+        "{\"type\": \"hello\", \"crossguard\": 2}",
         "{\"type\": \"dance\"}",
         "no json",
-        "{\"type\": \"pose\", \"east_m\": 1e30, \"north_m\": 0}",
+        "{\"type\": \"pose\", \"eastM\": 1e30, \"northM\": 0}",
         "{\"type\": \"completed\", \"id\": \"1#1.0/0\"}",
         "{\"type\": \"fault\", \"text\": \"hot motor\"}",
     ] {

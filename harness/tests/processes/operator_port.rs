@@ -59,7 +59,9 @@ fn a_program_commands_and_watches_a_crossing_whatever_others_say() {
     let mut spoils = [connect(&ari), connect(&ari), connect(&ari)];
     writeln!(spoils[0].get_mut(), "no json").unwrap();
     // It may be sent away meanwhile.
-    let _ = spoils[1].get_mut().write_all(&[b'x'; 10_000]);
+    let _ = spoils[1]
+        .get_mut()
+        .write_all("x".repeat(100_000).as_bytes());
     writeln!(
         spoils[2].get_mut(),
         "{{\"type\": \"hello\", \"crossguard\": 1}}"
@@ -80,7 +82,7 @@ fn a_program_commands_and_watches_a_crossing_whatever_others_say() {
         (&"open".into(), &"leader".into())
     );
     assert!(
-        open["open_ms"].as_u64().is_some_and(|left| left > 0),
+        open["openMs"].as_u64().is_some_and(|left| left > 0),
         "{open}"
     );
     let ended = until(&mut program, |line| line["notice"] == "sessionEnded");

@@ -66,7 +66,7 @@ const ROWS: [Row; 7] = [
             &["corridorClosed", "waited too long"],
             &["fallBack", "contactLost"],
         ],
-        lacks: [&["taskCompleted"], &[]],
+        lacks: [&[], &[]],
     },
     Row {
         what: "the follower hangs for a moment",

@@ -1,12 +1,12 @@
 //! A person who comes to the kerb starts a whole crossing of two robots, and nobody types anything.
 //!
-//! The person is a thread that writes what a sensor would tell into a pipe, and looks at the leader's log for the
+//! The person is a thread that writes frames, as a sensor would, into a pipe, and looks at the leader's log for the
 //! sign, as people look at signs.
 
 use std::fs::{self, File};
 use std::io::Write;
 use std::process::Command;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 
 use crossguard_testkit::command::*;
 use serde_json::{Value, json};
@@ -24,8 +24,12 @@ struct Person {
 
 impl Person {
     fn is_at(&mut self, place: [f64; 2], velocity: [f64; 2]) {
+        let unix = SystemTime::UNIX_EPOCH.elapsed().unwrap();
         let line = json!({
-            "id": 7, "position_m": place, "velocity_mps": velocity, "class": "pedestrian", "confidence": 0.9,
+            "unix_s": unix.as_secs_f64(),
+            "people": [{
+                "id": 7, "position_m": place, "velocity_mps": velocity, "class": "pedestrian", "confidence": 0.9,
+            }],
         });
         writeln!(self.pipe, "{line}").unwrap();
         std::thread::sleep(Duration::from_millis(100));

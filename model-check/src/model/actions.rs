@@ -135,6 +135,21 @@ impl Model {
         node.robot.is_none() || state.hangs(place)
     }
 
+    /// Whether each robot that guards the pedestrian on the road has seen them itself.
+    fn is_seen_by_all_guards(&self, state: &ModelState) -> bool {
+        let Some(session) = self.history(state).pedestrian.on_road() else {
+            return false;
+        };
+        let settings = self.0.scenario.config.settings();
+        let guards = |node: &&Node| {
+            let body = node.actuation.body;
+            body.guards(settings)
+                .is_some_and(|maneuver| maneuver.id.session == session)
+        };
+        let mut guarding = self.nodes(state).filter(guards).peekable();
+        guarding.peek().is_some() && guarding.all(sees_people)
+    }
+
     /// Every event that the application of a robot could come up with.
     fn local_events(
         &self,
@@ -153,10 +168,14 @@ impl Model {
         if let Some(maneuver) = node.actuation.body.running() {
             let settings = scenario.config.settings();
             let guards = settings.guarding.contains(maneuver.task);
-            if matches!(node.actuation.body, Body::UnderWay(_))
-                && settings.holding.contains(maneuver.task)
-            {
-                push(Event::InPosition(maneuver.id));
+            if settings.holding.contains(maneuver.task) {
+                match node.actuation.body {
+                    Body::UnderWay(_) | Body::OutOfPosition(_) => {
+                        push(Event::InPosition(maneuver.id));
+                    }
+                    _ if left.drifts > 0 => push(Event::OutOfPosition(maneuver.id)),
+                    _ => {}
+                }
             }
             if !guards || (is_road_free && !waits) {
                 push(Event::ManeuverCompleted(maneuver.id));
@@ -167,8 +186,11 @@ impl Model {
         }
         let has_duty =
             node.actuation.road_unsure || matches!(node.actuation.body, Body::FallingBack(..));
-        if has_duty && is_road_free {
+        if (has_duty || sees_people(node)) && is_road_free {
             push(Event::RoadClear);
+        }
+        if left.sightings > 0 && !is_road_free && matches!(robot.phase(), Phase::Following(_)) {
+            push(Event::PersonOnRoad);
         }
         let is_seen = pedestrian != Pedestrian::Across;
         if left.detections > 0 && is_seen && scenario.robots[usize::from(i)].detects {
@@ -195,7 +217,8 @@ impl Model {
                 }
                 let is_completed = leading.members.iter().any(Member::has_completed);
                 let may_end = !scenario.cooperative || scenario.corridor || is_completed;
-                if may_end && is_road_free && !waits {
+                let is_told_done = is_road_free || self.is_seen_by_all_guards(state);
+                if may_end && is_told_done && !waits {
                     push(Event::TaskCompleted);
                 }
                 if left.commands > 0 {
@@ -226,6 +249,14 @@ impl Model {
             }
         }
     }
+}
+
+/// Whether the robot has been told that somebody is on the road, as a follower.
+fn sees_people(node: &Node) -> bool {
+    let robot = node.robot.as_ref();
+    robot.is_some_and(
+        |robot| matches!(robot.phase(), Phase::Following(following) if following.sees_people),
+    )
 }
 
 /// Whether a timer does not run out when messages arrive and every application does its part. The

@@ -49,6 +49,7 @@ pub struct Part {
 
 /// A state, made of the sender's numbers of its parts.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct PackedState {
     nodes: [u32; MAX_ROBOTS],
     history: u32,

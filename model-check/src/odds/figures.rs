@@ -21,6 +21,7 @@ pub struct StageSize {
 
 /// What is known of a team at one loss rate.
 #[derive(Clone, PartialEq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct LossOdds {
     /// The share of messages that get lost.
     pub loss: f64,
@@ -36,6 +37,7 @@ pub struct LossOdds {
 
 /// When a milestone is reached, if it is, counted from the beginning of its stage.
 #[derive(Clone, PartialEq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct MilestoneOdds {
     /// The milestone.
     pub milestone: Milestone,

@@ -9,6 +9,7 @@ use crate::sequence::ChartStep;
 
 /// A run that brings a hazard about, or breaks a property of the road.
 #[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct PaperRun {
     /// The hazard's id, or the property's.
     pub id: &'static str,
@@ -40,6 +41,7 @@ pub struct PaperRun {
 
 /// One robot in one state.
 #[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct PaperRobotFrame {
     /// The state of the paper's machine.
     pub state: String,

@@ -5,7 +5,7 @@ use crossguard_protocol::{
     Robot, SessionId, StationId,
 };
 
-use crate::history::{History, told_end};
+use crate::history::{History, told_end, told_on_its_way};
 use crate::node::Node;
 
 /// The robots that a liveness property speaks about, one at a time.
@@ -148,9 +148,13 @@ impl<'a> StepView<'a> {
     pub(crate) fn is_historic(&self) -> bool {
         let reports = matches!(
             self.input,
-            Input::Local(Event::ManeuverCompleted(_) | Event::InPosition(_))
+            Input::Local(
+                Event::ManeuverCompleted(_) | Event::InPosition(_) | Event::OutOfPosition(_)
+            )
         );
+        let on_its_way = |robot| told_on_its_way(robot, self.input).is_some();
         reports
+            || self.after.robot.as_ref().is_some_and(on_its_way)
             || told_end(self.before.persisted.station, self.input).is_some()
             || self.outputs.iter().any(|output| {
                 matches!(

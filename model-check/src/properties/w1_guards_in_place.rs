@@ -1,7 +1,7 @@
 //! W1: when a pedestrian steps on the road, every required guard is in place.
 //!
-//! Without time there is one exemption: a guard that has fallen back, finished, failed or lost power, as long
-//! as its leader has not been informed. The timed model finds for how long a sign may show go then.
+//! Without time there is one exemption: a guard that has fallen back, finished, failed, left its place or lost power, as
+//! long as its leader has not been informed. The timed model finds for how long a sign may show go then.
 
 use crossguard_protocol::SessionId;
 
@@ -36,7 +36,9 @@ pub(super) fn holds(view: &View, session: SessionId, required: usize) -> bool {
 }
 
 fn is_gone_untold(view: &View, place: usize, body: Body) -> bool {
-    let (Body::FallingBack(..) | Body::Ended(..), Some(id)) = (body, body.maneuver()) else {
+    let (Body::FallingBack(..) | Body::OutOfPosition(_) | Body::Ended(..), Some(id)) =
+        (body, body.maneuver())
+    else {
         return false;
     };
     // By its place: it may have changed its pseudonym since.

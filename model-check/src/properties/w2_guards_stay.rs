@@ -1,7 +1,7 @@
 //! W2: while a pedestrian is on the road, every guard that is able to stay does.
 //!
 //! No output stops a guard that is in place or makes it do something else, whatever arrives, expires or reboots.
-//! It may fall back, and then holds its place or brings its person off the road. Its own fault may end what it
+//! It may fall back, and then holds its place or brings its person off the road; its leader may let it go on with the same. Its own fault may end what it
 //! does, and so may its own application, which is truthful.
 
 use crossguard_protocol::{FallbackPolicy, ManeuverId, Output, StopReason, TaskType};
@@ -49,7 +49,7 @@ fn holds(step: &StepView) -> bool {
         Output::FallBack(maneuver, policy) => {
             maneuver.id != guarding || stays(policy, maneuver.task)
         }
-        Output::StartManeuver(_) => false,
+        Output::StartManeuver(maneuver) => step.before.actuation.body.resumes(maneuver),
         _ => true,
     })
 }

@@ -1,6 +1,7 @@
 //! W4: a robot begins nothing new before its last duty's fallback is finished and its application says that
 //! the road is clear.
 //!
+//! To go on with what it falls back from, for the same leader, is nothing new.
 //! A robot has a duty while its body falls back, and from when its sign has shown go until its application says
 //! that the road is clear or the task done. A reboot is exempt: the protocol persists no duty.
 
@@ -34,7 +35,8 @@ fn begun(node: &Node) -> Option<SessionId> {
 }
 
 fn holds(step: &StepView) -> bool {
-    let starts = |output: &Output| matches!(output, Output::StartManeuver(_));
+    let body = step.before.actuation.body;
+    let starts = |output: &Output| matches!(output, Output::StartManeuver(m) if !body.resumes(*m));
     let (before, after) = (begun(step.before), begun(step.after));
     let begins = step.outputs.iter().any(starts) || (after.is_some() && after != before);
     !premise(step) || !begins

@@ -1,8 +1,8 @@
 //! The file of a scenario: its form, and what is checked before it is one. An error names its line.
 
 use crossguard_protocol::{
-    Config, HelpRequest, Inequality, MAX_FOLLOWERS, Millis, Settings, StationId, TaskNames,
-    TaskSet, TaskType, Urgency,
+    Config, HelpRequest, Inequality, MAX_FOLLOWERS, Millis, Settings, SettingsInFiles, StationId,
+    TaskNames, TaskSet, TaskType, Urgency,
 };
 use serde::Deserialize;
 
@@ -32,7 +32,7 @@ struct File {
     #[serde(default)]
     cooperative: bool,
     channel: ChannelSetup,
-    #[serde(default)]
+    #[serde(default, with = "SettingsInFiles")]
     protocol: Settings,
     timed: Option<Section>,
     properties: Vec<toml::Spanned<String>>,
@@ -246,6 +246,8 @@ const fn key_of(inequality: Inequality) -> &'static str {
         Inequality::CrossingWithinLimits => "t_cross",
         Inequality::FarewellRepeated => "t_farewell",
         Inequality::LockOutlastsTask | Inequality::HeartbeatsInNumberSpace => "t_lock",
+        Inequality::NamedTasksGuard => "guarding",
+        Inequality::BlockHolds => "holding",
         Inequality::TimerInRange => "protocol",
     }
 }

@@ -62,6 +62,10 @@ pub struct Bounds {
     pub losses: Option<u8>,
     /// A robot hangs. To go on costs nothing.
     pub hangs: u8,
+    /// A guard leaves the place that it holds. To get back there costs nothing.
+    pub drifts: u8,
+    /// A guard sees somebody on the road itself. The leader's application may take the crossing for completed then.
+    pub sightings: u8,
     /// A RAM timer expires and changes its robot, as it does where a heartbeat is counted. For a monotone
     /// channel, which needs it.
     pub heartbeats: Option<u8>,
@@ -70,7 +74,8 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// Takes an event off what may still happen.
+    /// Takes an event off what may still happen. One without a bound may happen at any time: a bound that is forgotten
+    /// makes the state space larger.
     pub(crate) fn spend(&mut self, event: Event) {
         let bound = match event {
             Event::PedestrianDetected(_) => &mut self.detections,
@@ -79,15 +84,9 @@ impl Bounds {
             | Event::LeaveRequested
             | Event::AvailabilityChanged(Availability::Unavailable(_))
             | Event::IdentityChanged(..) => &mut self.disturbances,
-            Event::InPosition(_)
-            | Event::ManeuverCompleted(_)
-            | Event::TaskCompleted
-            | Event::RoadClear
-            | Event::AllAnswered
-            | Event::EpochRenewed(_)
-            | Event::AvailabilityChanged(Availability::Available)
-            | Event::OpenCorridor
-            | Event::CloseCorridor => return,
+            Event::OutOfPosition(_) => &mut self.drifts,
+            Event::PersonOnRoad => &mut self.sightings,
+            _ => return,
         };
         *bound -= 1;
     }
@@ -119,6 +118,8 @@ impl Hash for Bounds {
             restarts,
             losses,
             hangs,
+            drifts,
+            sightings,
             heartbeats,
             offers,
         } = *self;
@@ -133,6 +134,8 @@ impl Hash for Bounds {
             restarts,
             losses,
             hangs,
+            drifts,
+            sightings,
             heartbeats,
             offers,
         ]);
@@ -149,6 +152,8 @@ impl fmt::Display for Bounds {
             ("restarts", self.restarts),
             ("losses", self.losses.unwrap_or_default()),
             ("hangs", self.hangs),
+            ("drifts", self.drifts),
+            ("sightings", self.sightings),
             ("heartbeats", self.heartbeats.unwrap_or_default()),
             ("offers", self.offers.unwrap_or_default()),
         ];

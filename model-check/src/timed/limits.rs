@@ -9,6 +9,7 @@ use super::clock::longest;
 /// The longest times that the timers' values allow by calculation, in milliseconds of true time:
 /// the figures of a timed scenario are held against them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Limits {
     /// From a request to roles or to giving up (L1).
     pub roles: Millis,

@@ -9,6 +9,7 @@ use crate::properties::{PropertyId, listed};
 
 /// A figure: the longest time that something takes, over all runs.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Figure {
     /// The properties that it is about.
     pub id: String,

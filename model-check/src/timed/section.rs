@@ -158,6 +158,8 @@ impl Section {
             ("delayed", channel.delayed),
             ("detections", bounds.detections),
             ("restarts", bounds.restarts),
+            ("drifts", bounds.drifts),
+            ("sightings", bounds.sightings),
             ("losses", bounds.losses.map_or(0, |_| 1)),
             ("monotone", channel.monotone.into()),
         ];

@@ -77,6 +77,7 @@ pub(crate) struct Counters {
 
 /// What one worker has found.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub(crate) struct Told {
     pub(crate) states: u64,
     /// The states that these stand for.

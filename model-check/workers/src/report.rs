@@ -44,6 +44,7 @@ impl Progress {
 
 /// The result of a check by workers.
 #[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct WorkersReport {
     /// As of every check, of what is judged. It is exhaustive up to a collision of fingerprints.
     #[serde(flatten)]

@@ -2,13 +2,17 @@
 
 use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::{all, all_but_validity, keeps_the_state_valid};
-use crossguard_protocol::{EventKind, OutputKind, Role};
+use crossguard_protocol::{EventKind, OutputKind, Phase, Robot, Role};
 
-use super::stage::{From, becomes, steps_of_others};
+use super::stage::{From, becomes, steps_with_those_of_leaders};
 
 const FROM: From = From::stage(Role::Follower);
 
-steps_of_others! { FROM, all;
+fn sees_people(robot: &Robot) -> bool {
+    matches!(robot.phase(), Phase::Following(following) if following.sees_people)
+}
+
+steps_with_those_of_leaders! { FROM, all;
     @each |step| { "ignored": step.is_ignored() } {
         hears_an_answer(Kind::Answer);
         detects_a_pedestrian(Kind::Local(EventKind::PedestrianDetected));
@@ -34,6 +38,8 @@ steps_of_others! { FROM, all;
     /// A RAM of a robot without a part in a session.
     hears_a_farewell(Kind::RamNone) |step| {
         "stops as the crossing is completed": step.said.has(OutputKind::StopManeuver),
+        "holds as it sees somebody": step.said.has(OutputKind::FallBack)
+            && sees_people(&step.before),
         "falls back as the session is aborted": step.said.has(OutputKind::FallBack),
         "ignored": step.is_ignored(),
     }
@@ -65,6 +71,7 @@ steps_of_others! { FROM, all;
     hears_a_command(Kind::Command) |step| {
         "supersedes": step.said.has(OutputKind::StartManeuver) && step.said.has(OutputKind::StopManeuver),
         "accepts": step.said.has(OutputKind::StartManeuver),
+        "takes its duty up": step.before.duty().is_some() && step.after.duty().is_none(),
         "answers again": step.said.answered.is_some() && step.before == step.after,
         "rejects": step.said.answered.is_some() && !step.said.has(OutputKind::StartManeuver) && step.before != step.after,
         "ignored": step.is_ignored(),
@@ -106,6 +113,18 @@ steps_of_others! { FROM, all;
     /// The body holds its place.
     reaches_its_position(Kind::Local(EventKind::InPosition)) |step| {
         "reports": !step.is_ignored(),
+        "ignored": step.is_ignored(),
+    }
+
+    /// The body has left its place.
+    leaves_its_position(Kind::Local(EventKind::OutOfPosition)) |step| {
+        "reports": !step.is_ignored(),
+        "ignored": step.is_ignored(),
+    }
+
+    /// It sees somebody on the road.
+    sees_a_person(Kind::Local(EventKind::PersonOnRoad)) |step| {
+        "sees": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }
 

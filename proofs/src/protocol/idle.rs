@@ -4,11 +4,11 @@ use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::all;
 use crossguard_protocol::{EventKind, OutputKind, Role};
 
-use super::stage::{From, becomes, steps_of_others};
+use super::stage::{From, becomes, steps_with_those_of_leaders};
 
 const FROM: From = From::stage(Role::None);
 
-steps_of_others! { FROM, all;
+steps_with_those_of_leaders! { FROM, all;
     @each |step| { "ignored": step.is_ignored() } {
         hears_a_farewell(Kind::RamNone);
         hears_a_command(Kind::Command);
@@ -18,6 +18,8 @@ steps_of_others! { FROM, all;
         completes_the_task(Kind::Local(EventKind::TaskCompleted));
         leaves(Kind::Local(EventKind::LeaveRequested));
         reaches_its_position(Kind::Local(EventKind::InPosition));
+        leaves_its_position(Kind::Local(EventKind::OutOfPosition));
+        sees_a_person(Kind::Local(EventKind::PersonOnRoad));
         hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered));
     }
 

@@ -17,7 +17,7 @@ pub(super) const FROM: From = From {
 };
 
 /// Inputs that a leader always ignores. [`ignored`](super::ignored) proves the other laws of such a step.
-pub(super) const IGNORED: [Kind; 8] = [
+pub(super) const IGNORED: [Kind; 10] = [
     Kind::RamNeedHelp,
     Kind::Command,
     Kind::Local(EventKind::PedestrianDetected),
@@ -26,22 +26,21 @@ pub(super) const IGNORED: [Kind; 8] = [
     Kind::Local(EventKind::IdentityChanged),
     Kind::Local(EventKind::InPosition),
     Kind::Local(EventKind::AllAnswered),
+    Kind::Local(EventKind::OutOfPosition),
+    Kind::Local(EventKind::PersonOnRoad),
 ];
 
 /// Declares one harness of these laws for each message and event that a leader can act on, and for the timers that
 /// are passed. [`conduct`] marks the outcomes.
 macro_rules! of_each_input {
     ($laws:expr $(; $($timers:tt)+)?) => {
-        $crate::protocol::stage::steps! { super::FROM, $laws;
+        $crate::protocol::stage::steps_with_those_of_leaders! { super::FROM, $laws;
             @each |step| { "a step": step.before.role() == Role::Leader } {
                 hears_a_follower(Kind::RamFollower);
                 hears_a_farewell(Kind::RamNone);
                 hears_an_offer(Kind::RamOfferHelp);
                 hears_a_leader(Kind::RamLeader);
                 hears_an_answer(Kind::Answer);
-                commands(Kind::Local(EventKind::CommandManeuver));
-                opens_the_corridor(Kind::Local(EventKind::OpenCorridor));
-                closes_the_corridor(Kind::Local(EventKind::CloseCorridor));
                 completes_the_task(Kind::Local(EventKind::TaskCompleted));
                 leaves(Kind::Local(EventKind::LeaveRequested));
                 changes_its_availability(Kind::Local(EventKind::AvailabilityChanged));

@@ -4,11 +4,11 @@ use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::all;
 use crossguard_protocol::{EventKind, OutputKind, Role};
 
-use super::stage::{From, becomes, steps_of_others};
+use super::stage::{From, becomes, steps_with_those_of_leaders};
 
 const FROM: From = From::stage(Role::Helper);
 
-steps_of_others! { FROM, all;
+steps_with_those_of_leaders! { FROM, all;
     @each |step| { "ignored": step.is_ignored() } {
         hears_a_command(Kind::Command);
         hears_an_answer(Kind::Answer);
@@ -18,6 +18,8 @@ steps_of_others! { FROM, all;
         completes_the_task(Kind::Local(EventKind::TaskCompleted));
         changes_its_identity(Kind::Local(EventKind::IdentityChanged));
         reaches_its_position(Kind::Local(EventKind::InPosition));
+        leaves_its_position(Kind::Local(EventKind::OutOfPosition));
+        sees_a_person(Kind::Local(EventKind::PersonOnRoad));
         clears_the_road(Kind::Local(EventKind::RoadClear));
         hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered));
     }

@@ -4,7 +4,7 @@ use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::{all, ignores};
 use crossguard_protocol::{EndReason, EventKind, NoticeKind, OutputKind, Role, TimerKind};
 
-use super::stage::{From, becomes, steps_of_others};
+use super::stage::{From, becomes, steps_with_those_of_leaders};
 
 /// How many offers the requester has heard, at most: one of the station that a message is about, and
 /// another.
@@ -16,7 +16,7 @@ pub(super) const FROM: From = From {
 };
 
 /// Inputs that a requester always ignores, besides those that only leaders act on. [`ignored`](super::ignored) proves the other laws of such a step.
-pub(super) const IGNORED: [Kind; 8] = [
+pub(super) const IGNORED: [Kind; 10] = [
     Kind::Command,
     Kind::Answer,
     Kind::Local(EventKind::PedestrianDetected),
@@ -25,9 +25,11 @@ pub(super) const IGNORED: [Kind; 8] = [
     Kind::Local(EventKind::IdentityChanged),
     Kind::Local(EventKind::InPosition),
     Kind::Local(EventKind::RoadClear),
+    Kind::Local(EventKind::OutOfPosition),
+    Kind::Local(EventKind::PersonOnRoad),
 ];
 
-steps_of_others! { FROM, all, ignores;
+steps_with_those_of_leaders! { FROM, all, ignores;
     @each |step| { "ignored": step.is_ignored() } {
         hears_a_command(IGNORED[0], ignores);
         hears_an_answer(IGNORED[1], ignores);
@@ -37,6 +39,8 @@ steps_of_others! { FROM, all, ignores;
         changes_its_identity(IGNORED[5], ignores);
         reaches_its_position(IGNORED[6], ignores);
         clears_the_road(IGNORED[7], ignores);
+        leaves_its_position(IGNORED[8], ignores);
+        sees_a_person(IGNORED[9], ignores);
     }
 
     /// A RAM that asks for help as well.

@@ -73,6 +73,7 @@ fn any_settings() -> Settings {
             TaskSet::EMPTY
         };
         settings.guarding = TaskSet(kani::any());
+        settings.holding = TaskSet(kani::any());
     }
     settings
 }
@@ -101,6 +102,8 @@ harnesses! {
         kani::cover!(by_cross && s.t_cross.0 + s.t_farewell.0 == s.t_lock.0 && s.capabilities.is_empty(), "a crossing ends with the lock");
         kani::cover!(plain && s.t_cross == s.t_exec[1], "a crossing ends with its task");
         kani::cover!(plain && s.t_lock.0 == 2 << 15, "heartbeats half the number space apart");
+        kani::cover!(broken == Some(Inequality::NamedTasksGuard), "a named task that guards nobody");
+        kani::cover!(broken == Some(Inequality::BlockHolds), "a block without a place");
         kani::cover!(s.drift_ppm == 100_000, "the largest drift and one more");
         kani::cover!(s.t_leave > Millis::MAX_TIMER, "a timer out of range");
         kani::cover!(s.t_exec[9] > Millis::MAX_TIMER, "a limit out of range");

@@ -149,9 +149,9 @@ macro_rules! steps {
     };
 }
 
-/// Declares the harnesses of a stage that is no leader's: those of its inputs, and those of [`OF_LEADERS`] by the law that
-/// stands behind those of the stage.
-macro_rules! steps_of_others {
+/// Declares the harnesses of a stage with those of [`OF_LEADERS`] among the ones that have the same marks. Where the role
+/// ignores these, the law that stands behind those of the stage is what it proves of them.
+macro_rules! steps_with_those_of_leaders {
     ($from:expr, $laws:expr $(, $law:expr)?;
         @each |$any:ident| { $($mark:tt)+ } { $($each:tt)* }
         $($rest:tt)*
@@ -168,4 +168,32 @@ macro_rules! steps_of_others {
     };
 }
 
-pub(super) use {laws_of, steps, steps_of_others};
+/// Declares the harnesses of a leader with those of [`OF_LEADERS`], and what must be able to come of these.
+macro_rules! steps_of_leaders {
+    ($from:expr, $laws:expr; $($rest:tt)*) => {
+        $crate::protocol::stage::steps! { $from, $laws;
+            $($rest)*
+
+            /// The application commands a maneuver.
+            commands($crate::protocol::stage::OF_LEADERS[0]) |step| {
+                "commands": step.said.commanded,
+                "renews the session": step.said.ended == Some(crossguard_protocol::EndReason::Renewed),
+                "ignored": step.is_ignored(),
+            }
+
+            /// The application opens the corridor.
+            opens_the_corridor($crate::protocol::stage::OF_LEADERS[1]) |step| {
+                "opens": step.said.has(crossguard_protocol::OutputKind::CorridorOpened),
+                "ignored": step.is_ignored(),
+            }
+
+            /// The application closes the corridor.
+            closes_the_corridor($crate::protocol::stage::OF_LEADERS[2]) |step| {
+                "closes": step.said.has(crossguard_protocol::OutputKind::CorridorClosed),
+                "ignored": step.is_ignored(),
+            }
+        }
+    };
+}
+
+pub(super) use {laws_of, steps, steps_of_leaders, steps_with_those_of_leaders};

@@ -272,6 +272,11 @@ fn task_like(source: &mut impl Source, hint: u32) -> TaskType {
         .unwrap_or(TaskType::MOVE)
 }
 
+/// Any task. A hint lets a command be for what the robot fell back from.
+fn escort(source: &mut impl Source) -> TaskType {
+    task_like(source, u32::from(TaskType::MOVE.value()))
+}
+
 fn task_set(source: &mut impl Source) -> TaskSet {
     TaskSet(source.u16(0b111))
 }

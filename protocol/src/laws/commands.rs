@@ -3,13 +3,14 @@
 use crate::config::Config;
 use crate::id::RequestId;
 use crate::input::{Event, Input};
-use crate::message::{Failure, Progress, Rejection, Rmcm, Verdict};
+use crate::message::{Command, Failure, Progress, Rejection, Rmcm, Verdict};
 use crate::output::{EndReason, OutputKind};
 use crate::state::{Corridor, Leading, Member, Robot};
-use crate::task::{Availability, TaskType};
+use crate::task::Availability;
 
 use super::arithmetic::request_is_newer;
 use super::part::{executing, following, leading, requesting};
+use super::road::takes_up;
 use super::taken::Taken;
 
 /// All laws of this module.
@@ -105,11 +106,13 @@ pub fn a_renewed_session_asks_for_the_same(step: &Taken) {
 }
 
 /// Why a robot must reject a command.
-fn refusal(config: &Config, robot: &Robot, task: TaskType) -> Option<Rejection> {
-    let can = config.settings().capabilities.0 >> task.value() & 1 == 1;
+fn refusal(config: &Config, robot: &Robot, command: Command) -> Option<Rejection> {
+    let can = config.settings().capabilities.0 >> command.task.value() & 1 == 1;
     match (robot.availability(), robot.duty()) {
         (Availability::Unavailable(why), _) => Some(Rejection::Unavailable(why)),
-        (_, Some(_)) => Some(Rejection::OnDuty),
+        (_, Some(duty)) if !takes_up(duty, command.session, command.task) => {
+            Some(Rejection::OnDuty)
+        }
         _ if !can => Some(Rejection::UnsupportedTask),
         _ => None,
     }
@@ -149,7 +152,7 @@ pub fn each_command_is_answered(config: &Config, step: &Taken) {
         return;
     }
     let after = following(&step.after);
-    if let Some(reason) = refusal(config, &step.before, command.task) {
+    if let Some(reason) = refusal(config, &step.before, command) {
         assert!(answered == Some((command.request, Verdict::Rejected(reason))));
         let refused = after.and_then(|after| after.refused);
         assert!(refused.is_some_and(|r| (r.request, r.reason) == (command.request, reason)));
@@ -171,6 +174,7 @@ pub fn each_command_is_answered(config: &Config, step: &Taken) {
 pub fn the_body_is_believed(step: &Taken) {
     let (id, told) = match step.input {
         Input::Local(Event::InPosition(id)) => (id, Progress::InPosition),
+        Input::Local(Event::OutOfPosition(id)) => (id, Progress::Executing),
         Input::Local(Event::ManeuverCompleted(id)) => (id, Progress::Completed),
         Input::Local(Event::ManeuverFailed(id)) => (id, Progress::Failed(Failure::Maneuver)),
         _ => return,

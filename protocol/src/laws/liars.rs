@@ -9,13 +9,14 @@
 //! |---|---|---|
 //! | a stranger | ask for help or lead at the same place, and by that reserve an idle robot, go before a request or a session, or close its corridor | end a session while people are on the road; start, stop or replace a maneuver; take or give a role in another session; open or extend a corridor; speak for a member |
 //! | a follower | say that it guards where it does not, and leave | speak for another follower; open a corridor |
-//! | a leader | command the robots that joined it, as long as its heartbeats come | command any other robot; end a duty on the road |
+//! | a leader | command the robots that joined it, as long as its heartbeats come | command any other robot; end a duty on the road, but by the same command again |
 
 use crate::id::StationId;
 use crate::output::OutputKind;
 use crate::state::{Corridor, Leading, Phase};
 
 use super::part::{following, leading, requesting};
+use super::road::takes_up;
 use super::taken::Taken;
 
 /// All laws of this module.
@@ -118,9 +119,14 @@ pub fn an_offer_is_made_by_its_station(step: &Taken, liar: StationId) {
     }
 }
 
-/// W5: a duty on the road ends by the robot's own application, whatever anybody says.
+/// W4: a duty on the road ends by the robot's own application, whatever anybody says. It may become the task of its leader
+/// again.
 pub fn no_message_ends_a_duty(step: &Taken) {
-    if step.before.duty().is_some() {
-        assert!(step.after.duty() == step.before.duty());
+    if let Some(duty) = step.before.duty() {
+        let is_taken_up = step
+            .said
+            .started
+            .is_some_and(|it| takes_up(duty, it.id.session, it.task));
+        assert!(is_taken_up || step.after.duty() == Some(duty));
     }
 }

@@ -9,12 +9,12 @@ use crate::input::{Event, Input};
 use crate::message::{Coordination, Ending, Failure, Farewell, Progress};
 use crate::output::{EndReason, OutputKind, ReleaseReason, StopReason};
 use crate::state::{Corridor, Duty, Identity, Member, Rival, Robot, Role};
-use crate::task::{Availability, Place, Unavailability, Urgency};
+use crate::task::{Availability, Place, TaskType, Unavailability, Urgency};
 use crate::time::{Countdown, Millis};
 
 use super::arithmetic::beat_is_newer;
 use super::lease::lease_left;
-use super::part::{each_follower, executing, leading, requesting};
+use super::part::{each_follower, executing, following, leading, requesting};
 use super::taken::Taken;
 use super::watch::is_open;
 
@@ -25,6 +25,7 @@ pub fn all(config: &Config, step: &Taken) {
     the_road_is_cleared_by_the_application(step);
     guards_are_kept_on_the_road(config, step);
     ends_follow_the_policy(config, step);
+    own_sight_lasts_until_the_road_is_clear(step);
     ends_say_how(step);
     a_duty_lasts_until_the_road_is_clear(step);
     only_a_rival_that_beats_is_given_way(step);
@@ -192,7 +193,9 @@ pub fn ends_follow_the_policy(config: &Config, step: &Taken) {
     if let Some(maneuver) = executing(&step.before)
         && ending_told(step, maneuver.id.session) == Some(Ending::Completed)
     {
-        assert!(step.said.stopped.is_some() && step.said.fallen_back.is_none());
+        let sees_people = following(&step.before).is_some_and(|before| before.sees_people);
+        assert!(step.said.stopped.is_some() != sees_people);
+        assert!(step.said.fallen_back.is_some() == sees_people);
     }
     let Some((maneuver, why)) = step.said.stopped else {
         return;
@@ -216,6 +219,22 @@ pub fn ends_follow_the_policy(config: &Config, step: &Taken) {
     });
 }
 
+/// W2: a follower sees people on the road from when its own application says so until that says that the road is clear.
+pub fn own_sight_lasts_until_the_road_is_clear(step: &Taken) {
+    let Some(after) = following(&step.after) else {
+        return;
+    };
+    let saw = following(&step.before).is_some_and(|before| before.sees_people);
+    assert!(
+        after.sees_people
+            == match step.input {
+                Input::Local(Event::PersonOnRoad) => true,
+                Input::Local(Event::RoadClear) => false,
+                _ => saw,
+            }
+    );
+}
+
 /// W2: a session is named as completed exactly where its application said so.
 pub fn ends_say_how(step: &Taken) {
     let (Some(why), Some(session)) = (step.said.ended, step.before.session()) else {
@@ -231,13 +250,26 @@ pub fn ends_say_how(step: &Taken) {
     }
 }
 
-/// W4: a duty lasts until the application says that the road is clear. Until then nothing is started, asked
-/// for or offered. A duty comes from a fallback, or from a session that ended with people on the road.
+/// Whether to do this task in this session is to go on with what the robot fell back from.
+pub(super) fn takes_up(duty: Duty, session: SessionId, task: TaskType) -> bool {
+    match duty {
+        Duty::FallingBack(maneuver) => (maneuver.id.session, maneuver.task) == (session, task),
+        Duty::Crossing(_) => false,
+    }
+}
+
+/// W4: a duty lasts until the application says that the road is clear, or the leader for which the robot fell back
+/// commands the same again. Until then nothing is started, asked for or offered. A duty comes from a fallback, or from a
+/// session that ended with people on the road.
 pub fn a_duty_lasts_until_the_road_is_clear(step: &Taken) {
     let (before, after) = (&step.before, &step.after);
     if let Some(duty) = before.duty() {
         if step.input == Input::Local(Event::RoadClear) {
             assert!(after.duty().is_none());
+            return;
+        }
+        if let Some(started) = step.said.started {
+            assert!(takes_up(duty, started.id.session, started.task) && after.duty().is_none());
             return;
         }
         assert!(after.duty() == Some(duty));

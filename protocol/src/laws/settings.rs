@@ -77,6 +77,8 @@ pub fn as_written(inequality: Inequality, settings: &Settings) -> bool {
                 && limits_of(s, guarding).all(|limit| limit >= ms(s.t_cross))
         }
         Inequality::HeartbeatsInNumberSpace => ms(s.t_lock) / ms(s.ram_period).max(1) < 1 << 15,
+        Inequality::NamedTasksGuard => s.guarding.0 & 0b110 == 0b110,
+        Inequality::BlockHolds => s.holding.0 & 0b100 != 0,
     }
 }
 

@@ -45,6 +45,7 @@ pub fn of_part_and_numbers(config: &Config, step: &Taken) {
     final_progress_stays(step);
     answers_count_only_when_outstanding(step);
     reports_count_only_when_heard(step);
+    a_place_counts_by_the_newest_echo(step);
     a_dropped_follower_leaves_the_others(step);
     keeps_its_numbers(step);
     tells_of_lock_and_corridor(step);
@@ -233,6 +234,36 @@ pub fn reports_count_only_when_heard(step: &Taken) {
             .and_then(|order| order.progress);
         if order.progress != progress_before {
             assert!(order.progress == reported_by(step, member) || has_run_out(step, member));
+        }
+    });
+}
+
+/// W1: a follower that was out of position counts as in it again by a newer heartbeat than all before alone, and one that was
+/// in position counts as out of it by one that is as new.
+pub fn a_place_counts_by_the_newest_echo(step: &Taken) {
+    let Input::Ram { ram, .. } = step.input else {
+        return;
+    };
+    let Coordination::Follower { echo, .. } = ram.coordination else {
+        return;
+    };
+    each_follower(&step.after, &step.before, |member, known| {
+        let (Some(known), Some(order)) = (known, member.order) else {
+            return;
+        };
+        let was = known.order.filter(|was| was.request == order.request);
+        let told =
+            reported_by(step, member).filter(|_| heard_from(step, member) == Some(order.request));
+        match (was.and_then(|was| was.progress), told) {
+            (Some(Progress::Executing), Some(Progress::InPosition)) => {
+                let counts = order.progress == told;
+                assert!(counts == (member.echoed != known.echoed));
+            }
+            (Some(Progress::InPosition), Some(Progress::Executing)) => {
+                let counts = order.progress == told;
+                assert!(counts == (member.echoed == Some(echo)));
+            }
+            _ => {}
         }
     });
 }

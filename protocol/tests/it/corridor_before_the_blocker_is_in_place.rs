@@ -70,10 +70,12 @@ fn a_late_report_of_the_way_does_not_undo_the_position() {
 #[test]
 fn the_settings_say_which_tasks_guard_from_a_place() {
     let settings = Settings {
-        holding: TaskSet::EMPTY,
+        holding: TaskSet::of(&[TaskType::MOVE, TaskType::BLOCK]),
         ..Settings::default()
     };
     let mut street = Street::with_roles_and_settings(&[ARI, GO2], settings);
-    street.tell(ARI, order(GO2, TaskType::BLOCK));
+    street.tell(ARI, order(GO2, TaskType::MOVE));
+    assert_eq!(refusal(&mut street), Some(ON_ITS_WAY));
+    street.in_position(GO2);
     assert_eq!(refusal(&mut street), None);
 }

@@ -40,14 +40,14 @@ fn the_leader_learns_of_the_fallback_and_may_command_again_once_the_road_is_clea
     street.pass(200);
     assert!(street.was_told(ARI, Notice::FollowerSafeIdle(GO2, id)));
     assert_eq!(street[ARI].state(), State::RoleEstablished);
-    street.tell(ARI, order(GO2, TaskType::MOVE));
+    street.tell(ARI, order(GO2, TaskType::INITIAL_POS));
     assert!(street.was_told(
         ARI,
         Notice::CommandRejected(GO2, street.maneuver(ARI, 1), Rejection::OnDuty)
     ));
     assert_eq!(street.following(GO2).executing(), None);
     street.tell(GO2, Event::RoadClear);
-    street.tell(ARI, order(GO2, TaskType::MOVE));
+    street.tell(ARI, order(GO2, TaskType::INITIAL_POS));
     assert_eq!(street.executes(GO2).id.request, RequestId(2));
 }
 

@@ -202,14 +202,13 @@ fn p14_old_acknowledgement_of_a_reissued_command() {
     assert_eq!(progress(&street), Some(Progress::SafeIdle));
     street.heal();
     street.pass(2_000);
-    let rejected = Notice::CommandRejected(GO2, street.maneuver(ARI, 1), Rejection::OnDuty);
-    assert!(
-        street.has_put_out(ARI, Output::Notify(rejected)),
-        "the road is not clear"
-    );
+    let reissued = street.maneuver(ARI, 1);
+    let acknowledged = Notice::CommandAcknowledged(GO2, reissued);
+    assert!(street.has_put_out(ARI, Output::Notify(acknowledged)));
     assert_eq!(
-        street.count(GO2, starts),
-        0,
-        "it started once, before the script asked"
+        street.executes(GO2).id,
+        reissued,
+        "under a number of its own"
     );
+    assert_eq!(street.count(GO2, starts), 1);
 }

@@ -215,11 +215,13 @@ impl Street {
         street
     }
 
-    /// The body of `who` is at the place from which it guards.
+    /// The body of `who` is at the place from which it guards, and its leader counts on it: that takes an echo of a newer
+    /// heartbeat.
     pub fn in_position(&mut self, who: StationId) {
         let running = self.executes(who);
         let outputs = self.tell(who, Event::InPosition(running.id));
         assert_eq!(outputs.ignored(), None);
+        self.pass(2 * self.config.settings().ram_period.0);
     }
 
     /// `who` has settings of its own from now on.

@@ -34,7 +34,7 @@ statements! {
     "unavailable-robots-reject" "R24" unavailable_rejects:
         "An unavailable follower rejects a new command, with that reason.";
     "robots-on-duty-reject" "R20" on_duty_rejects:
-        "A follower that is on duty rejects a new command, with that reason.";
+        "A follower that is on duty rejects a new command, with that reason, unless it is to go on with what it fell back from.";
 }
 
 /// A body that moves faster than this is under way, in m/s.
@@ -177,10 +177,24 @@ fn unavailable_rejects(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
 }
 
 fn on_duty_rejects(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let is_case = |state: &RamSeen, _: &Command| {
-        state.ram.on_duty && state.availability == Availability::Available
+    let is_case = |state: &RamSeen, command: &Command| {
+        state.ram.on_duty
+            && state.availability == Availability::Available
+            && !takes_up(exchange, state, command)
     };
     rejected_where(exchange, terms, is_case, |why| why == Rejection::OnDuty)
+}
+
+/// Whether a command is to do again what the robot falls back from in the same session.
+fn takes_up(exchange: &Exchange, state: &RamSeen, command: &Command) -> bool {
+    let Some((session, Some(report))) = following(&state.ram) else {
+        return false;
+    };
+    own_commands(exchange).any(|(_, first, _)| {
+        first.session == session
+            && first.request == report.request
+            && (first.session, first.task) == (command.session, command.task)
+    })
 }
 
 /// The first transmission of each play that repeats a command which was answered before.

@@ -1,7 +1,7 @@
 //! What a leader shows to pedestrians, where its RAM say so.
 
 use crossguard_codec::PublicSignal;
-use crossguard_protocol::{Command, Coordination, Progress, SessionId, StationId};
+use crossguard_protocol::{Command, Coordination, Heartbeat, Progress, SessionId, StationId};
 
 use super::{Met, due, met_when, news};
 use crate::bench::Terms;
@@ -49,17 +49,38 @@ fn command_to(
 
 /// What a follower has reported at last of a command by this time.
 fn progress_of(exchange: &Exchange, command: Command, until_ms: u64) -> Option<Progress> {
-    let reports = exchange.played_rams().filter_map(|(at, _, played)| {
-        let (session, report) = following(&played.ram)?;
-        let report = report.filter(|it| it.request == command.request)?;
-        let is_of_it = (played.ram.station, session) == (command.to, command.session);
-        (at <= until_ms && is_of_it).then_some(report.progress)
-    });
-    // A report of the way to a place that comes after one from the place is an old one.
-    reports.reduce(|before, now| match (before, now) {
-        (Progress::InPosition, Progress::Executing) => before,
-        _ => now,
-    })
+    let mut newest: Option<Heartbeat> = None;
+    let mut known = None;
+    for (_, _, played) in exchange.played_rams().filter(|(at, ..)| *at <= until_ms) {
+        let Coordination::Follower {
+            session,
+            echo,
+            last,
+        } = played.ram.coordination
+        else {
+            continue;
+        };
+        if (played.ram.station, session) != (command.to, command.session) {
+            continue;
+        }
+        let is_newer = newest.is_none_or(|newest| echo.is_newer_than(newest));
+        if is_newer {
+            newest = Some(echo);
+        }
+        let Some(report) = last.filter(|it| it.request == command.request) else {
+            continue;
+        };
+        // A place counts as taken by a newer echo, and as left by one that is as new.
+        let is_old = match (known, report.progress) {
+            (Some(Progress::Executing), Progress::InPosition) => !is_newer,
+            (Some(Progress::InPosition), Progress::Executing) => newest != Some(echo),
+            _ => false,
+        };
+        if !is_old {
+            known = Some(report.progress);
+        }
+    }
+    known
 }
 
 /// When a follower echoed something new for the last time by this time.

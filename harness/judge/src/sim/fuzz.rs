@@ -56,6 +56,7 @@ pub struct Failure {
 
 /// What the runs amount to.
 #[derive(Clone, Debug, Default, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Totals {
     /// How many seeds were run.
     pub seeds: u64,

@@ -135,6 +135,7 @@ fn phase_of(ram: &Ram) -> Phase {
                 progress: report.progress,
             }),
             refused: None,
+            sees_people: false,
         }),
     }
 }

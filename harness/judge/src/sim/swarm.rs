@@ -203,7 +203,10 @@ impl Swarm {
         };
         let helpers = self.robots.iter().enumerate().filter(helps).count();
         helpers >= usize::from(leader.plan.followers)
-            && leader.plan.lets_cross(leader.config.settings().guarding)
+            && leader
+                .plan
+                .lead()
+                .lets_cross(leader.config.settings().guarding)
     }
 
     /// How long after healing a crossing is completed (W7): what went on before has ended, with people on the

@@ -10,7 +10,7 @@ macro_rules! measures {
     ($($measure:ident $property:literal $name:literal: $statement:literal;)*) => {
         /// What is measured.
         #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
-        #[serde(rename_all = "snake_case")]
+        #[serde(rename_all = "camelCase")]
         pub enum Measure {
             $(#[doc = $name] $measure,)*
         }
@@ -71,6 +71,7 @@ measures! {
 
 /// The longest time that was observed, with what it is held against.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Longest {
     /// In milliseconds.
     pub ms: u32,

@@ -49,6 +49,7 @@ const QUIET_US: u64 = 1_000_000;
 
 /// What a run has shown to be wrong.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Finding {
     /// Id of the property.
     pub property: String,

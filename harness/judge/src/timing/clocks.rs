@@ -50,6 +50,7 @@ struct Way {
 
 /// By how much one clock is ahead of another.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Offset {
     /// By so much, in µs.
     pub offset_us: i64,

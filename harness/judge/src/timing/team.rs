@@ -25,6 +25,7 @@ struct Formation {
 
 /// The times of teams of one size. All are by the leader's clock.
 #[derive(Clone, PartialEq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct TeamSummary {
     /// How many followers the teams had.
     pub followers: usize,

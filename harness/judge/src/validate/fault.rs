@@ -155,6 +155,47 @@ pub enum Fault {
         /// How often it is in the log.
         logged: u64,
     },
+    /// A guard left by an application's word while somebody was on the carriageway.
+    #[error(
+        "broke P1: guard {robot} left because of '{word}', and {by} saw somebody on the carriageway, {east:.1} m east \
+         and {north:.1} m north of the first place in the logs"
+    )]
+    GuardLeft {
+        /// The guard.
+        robot: String,
+        /// What an application said.
+        word: String,
+        /// The robot that saw the person.
+        by: String,
+        /// Where, in metres.
+        east: f64,
+        /// Likewise.
+        north: f64,
+    },
+    /// Go was shown while a guard was away from its place.
+    #[error(
+        "broke P2: go is shown, and guard {robot} was at its place {away_ms} ms ago; at most {may_ms} ms are allowed"
+    )]
+    GuardAway {
+        /// The guard.
+        robot: String,
+        /// For how long.
+        away_ms: u64,
+        /// How long it may be away.
+        may_ms: u64,
+    },
+    /// An escort moved on without its person.
+    #[error(
+        "broke P4: escort {robot} moves {ahead_m:.1} m ahead of somebody whom it sees on the carriageway; at most {may_m:.1} m are allowed"
+    )]
+    EscortAhead {
+        /// The escort.
+        robot: String,
+        /// How far it is ahead, in metres.
+        ahead_m: f64,
+        /// How far it may be.
+        may_m: f64,
+    },
     /// A property is broken.
     #[error("broke {}: {}", .0.name(), .0.statement())]
     Broken(PropertyId),

@@ -78,6 +78,10 @@ impl Follow {
         &self.config
     }
 
+    pub(super) const fn identifiers(&self) -> &Identifiers {
+        &self.identifiers
+    }
+
     pub(super) const fn may_reboot_with(&self, boot: u16) -> bool {
         boot > self.boot && (self.has_epoch || boot > self.robot.boot())
     }

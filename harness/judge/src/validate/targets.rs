@@ -7,7 +7,9 @@ use std::collections::BTreeMap;
 use crossguard_codec::view::{task_parameters_of, views_of_rmcm};
 use crossguard_codec::{Identifiers, Message, Position, Target, distance};
 use crossguard_endpoint::station::listen::message_of;
-use crossguard_protocol::{Answer, Input, List, RequestId, Rmcm, SessionId, StationId, Verdict};
+use crossguard_protocol::{
+    Answer, Command, Input, List, RequestId, Rmcm, SessionId, StationId, Verdict,
+};
 use crossguard_robot::plan_file::APART_M;
 
 use super::fault::Fault;
@@ -28,18 +30,7 @@ pub(super) struct Targets {
 impl Targets {
     /// The leader has sent an RMCM.
     pub(super) fn sent(&mut self, identifiers: &Identifiers, octets: &[u8]) {
-        let Ok(received) = Message::decode(identifiers, message_of(octets)) else {
-            return;
-        };
-        let Message::Rmcm(rmcm) = received.message else {
-            return;
-        };
-        for view in views_of_rmcm(&rmcm).iter().flat_map(List::iter) {
-            let Rmcm::Command(command) = view else {
-                continue;
-            };
-            let parameters = task_parameters_of(&rmcm, command.to);
-            let place = parameters.and_then(|parameters| position_of(parameters.target?));
+        for (command, place) in commands(identifiers, octets) {
             let follower = (command.session, command.to);
             self.commanded.insert(follower, (command.request, place));
         }
@@ -85,6 +76,27 @@ impl Targets {
         }
         Ok(())
     }
+}
+
+/// The commands in an RMCM, and where they lead.
+pub(super) fn commands(
+    identifiers: &Identifiers,
+    octets: &[u8],
+) -> Vec<(Command, Option<Position>)> {
+    let received = Message::decode(identifiers, message_of(octets));
+    let Ok(Message::Rmcm(rmcm)) = received.map(|received| received.message) else {
+        return Vec::new();
+    };
+    let views = views_of_rmcm(&rmcm);
+    let commands = views.iter().flat_map(List::iter).filter_map(|view| {
+        let Rmcm::Command(command) = *view else {
+            return None;
+        };
+        let parameters = task_parameters_of(&rmcm, command.to);
+        let place = parameters.and_then(|parameters| position_of(parameters.target?));
+        Some((command, place))
+    });
+    commands.collect()
 }
 
 /// A position on earth. Where an offset or a lane leads is not in the message.

@@ -24,6 +24,7 @@ const ROUNDING_US: u64 = 10_000;
 
 /// Steps that came later than the rules of the integrator allow.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Late {
     /// How many.
     pub steps: usize,

@@ -3,8 +3,8 @@
 The core speaks JSON in the form that its logs have. The classes of this package mirror its types name
 for name, and the functions here turn one into the other by the annotations of those classes alone:
 
-- a structure is a dataclass, and its fields have the core's names, with the unit behind them
-  (`t_ack_ms` is `t_ack`) and an underscore where the name is a keyword of Python (`from_`);
+- a structure is a dataclass, and its fields have the core's names in snake_case, with the unit behind them
+  (`t_ack_ms` is `tAck`) and an underscore where the name is a keyword of Python (`from_`);
 - an enumeration whose members hold nothing is an `enum.Enum` whose values are the core's names;
 - any other is a union of `Variant` classes, one for each member, with the core's names. Members whose
   fields have no names there are `Positional`.
@@ -45,13 +45,19 @@ class Positional(Variant):
     __slots__ = ()
 
 
+def camel(name: str) -> str:
+    """A name in camelCase."""
+    first, *rest = name.split("_")
+    return first + "".join(map(str.capitalize, rest))
+
+
 def name_of(field: str) -> str:
     """The core's name of a field."""
     field = field.removesuffix("_")
     for unit in sorted(UNITS, key=len, reverse=True):
         if field.endswith(unit):
-            return field.removesuffix(unit)
-    return field
+            return camel(field.removesuffix(unit))
+    return camel(field)
 
 
 def dumps(value: object) -> str:
@@ -171,7 +177,7 @@ def _struct_reader(kind: Any) -> Callable[[Any], Any]:
     def read(value: Any) -> Any:
         given = {
             # Reports of the command have their units in the names; the protocol's values have none.
-            field: read(value[name] if name in value else value[field])
+            field: read(value[name] if name in value else value[camel(field)])
             for field, name, read, is_optional in fields
             if not is_optional or name in value
         }

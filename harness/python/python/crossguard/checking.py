@@ -82,7 +82,7 @@ class Report:
     @property
     def unique_states(self) -> int:
         """Distinct states, up to renaming of numbers."""
-        return int(self._json["unique_states"])
+        return int(self._json["uniqueStates"])
 
     @property
     def transitions(self) -> int:
@@ -107,7 +107,7 @@ class Report:
     @property
     def cut_off(self) -> str | None:
         """Why not: `state-limit`, `time-limit`, `found-broken` or `counts-differ`."""
-        return self._json.get("cut_off")
+        return self._json.get("cutOff")
 
     @property
     def assumptions(self) -> tuple[str, ...]:

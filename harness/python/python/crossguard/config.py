@@ -13,7 +13,7 @@ from .types import FallbackPolicy, TaskSet, TaskType
 
 _DEFAULTS: dict[str, Any] = json.loads(_crossguard.default_settings())
 
-_T_EXEC_MS: Mapping[TaskType, int] = dict(zip(TaskType, _DEFAULTS["t_exec"], strict=True))
+_T_EXEC_MS: Mapping[TaskType, int] = dict(zip(TaskType, _DEFAULTS["tExec"], strict=True))
 _FALLBACK: Mapping[TaskType, FallbackPolicy] = dict(
     zip(TaskType, map(FallbackPolicy, _DEFAULTS["fallback"]), strict=True)
 )
@@ -30,38 +30,38 @@ class Config:
     hold and has its formula; and `ValueError` for a value that is out of range by itself.
     """
 
-    ram_period_ms: int = _DEFAULTS["ram_period"]
+    ram_period_ms: int = _DEFAULTS["ramPeriod"]
     """Interval of RAM in a session; a leader bumps its heartbeat at the same pace. 100 ms."""
-    t_select_ms: int = _DEFAULTS["t_select"]
+    t_select_ms: int = _DEFAULTS["tSelect"]
     """How long a requester gathers offers, counted from the first. It selects sooner at
     `events.AllAnswered`. 300 ms."""
-    t_offer_ms: int = _DEFAULTS["t_offer"]
+    t_offer_ms: int = _DEFAULTS["tOffer"]
     """How long a helper stays reserved after the newest heartbeat of its requester. 3000 ms."""
-    t_help_ms: int = _DEFAULTS["t_help"]
+    t_help_ms: int = _DEFAULTS["tHelp"]
     """How long a request for help stands. 10000 ms."""
-    t_ack_ms: int = _DEFAULTS["t_ack"]
+    t_ack_ms: int = _DEFAULTS["tAck"]
     """How long a leader waits for an acknowledgement before it repeats the command. 600 ms."""
-    n_ack: int = _DEFAULTS["n_ack"]
+    n_ack: int = _DEFAULTS["nAck"]
     """How often a leader repeats a command, 1..15. 3."""
-    t_safety_ms: int = _DEFAULTS["t_safety"]
+    t_safety_ms: int = _DEFAULTS["tSafety"]
     """How long a follower goes on without a newer heartbeat or command. 2000 ms."""
-    t_lease_ms: int = _DEFAULTS["t_lease"]
+    t_lease_ms: int = _DEFAULTS["tLease"]
     """How long a leader's lease stands after it sent the newest echoed heartbeat. 1900 ms."""
-    t_leave_ms: int = _DEFAULTS["t_leave"]
+    t_leave_ms: int = _DEFAULTS["tLeave"]
     """How long a follower stays in the session after `t_safety_ms` ran out. 5000 ms."""
-    t_farewell_ms: int = _DEFAULTS["t_farewell"]
+    t_farewell_ms: int = _DEFAULTS["tFarewell"]
     """How long a robot names a session as over. 1000 ms."""
-    t_lock_ms: int = _DEFAULTS["t_lock"]
+    t_lock_ms: int = _DEFAULTS["tLock"]
     """How long the identity may stay locked, farewells included. 300000 ms."""
-    t_cross_ms: int = _DEFAULTS["t_cross"]
+    t_cross_ms: int = _DEFAULTS["tCross"]
     """How long a pedestrian needs to cross at most. A corridor opens only where the identity lock and the
     execution limits leave so much time. 30000 ms."""
     t_exec_ms: Mapping[TaskType, int] = dataclasses.field(default_factory=dict, hash=False)
     """`T_exec` by task type: how long a maneuver may run. 5000 ms for `INITIAL_POS`, else 60000 ms. Task
     types that are not given keep their default."""
-    drift_ppm: int = _DEFAULTS["drift_ppm"]
+    drift_ppm: int = _DEFAULTS["driftPpm"]
     """Largest error of a robot's clock rate, in parts per million, 0..99999. 1000."""
-    delay_max_ms: int = _DEFAULTS["delay_max"]
+    delay_max_ms: int = _DEFAULTS["delayMax"]
     """Longest time by which the robot is told late that time has passed. 50 ms."""
     capabilities: TaskSet = TaskSet(_DEFAULTS["capabilities"])
     """The maneuvers that this robot can do. The three that have names."""
@@ -115,11 +115,11 @@ class Identifiers:
     Raises `ValueError` where RAM and RMCM cannot be told from each other or from the messages of ETSI.
     """
 
-    ram: MessageIdentifiers = MessageIdentifiers(**_IDENTIFIERS["ram"])
+    ram: MessageIdentifiers = _wire.reader(MessageIdentifiers)(_IDENTIFIERS["ram"])
     """Those of RAM."""
-    rmcm: MessageIdentifiers = MessageIdentifiers(**_IDENTIFIERS["rmcm"])
+    rmcm: MessageIdentifiers = _wire.reader(MessageIdentifiers)(_IDENTIFIERS["rmcm"])
     """Those of RMCM."""
-    robot_station_type: int = _IDENTIFIERS["robot_station_type"]
+    robot_station_type: int = _IDENTIFIERS["robotStationType"]
     """Station type in basic container and address, 0..255; 12, `lightVruVehicle`, by default."""
     dictionary: str = _IDENTIFIERS["dictionary"]
     """Version of the common data dictionary that VAM and CPM are built on: `2.4.1` or `2.1.1`."""

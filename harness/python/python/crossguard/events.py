@@ -104,6 +104,20 @@ class EpochRenewed(Positional):
     boot: int
 
 
+@dataclass(frozen=True, slots=True)
+class OutOfPosition(Positional):
+    """The body does not hold the place any more from which the maneuver guards. To be told as soon as it may
+    be so: the leader lets nobody on the road any more."""
+
+    id: ManeuverId
+
+
+@dataclass(frozen=True, slots=True)
+class PersonOnRoad(Variant):
+    """Somebody is on the road, seen by this follower itself. Until it tells `RoadClear` it stays, however its
+    leader ends the session."""
+
+
 Event: TypeAlias = (
     PedestrianDetected
     | CommandManeuver
@@ -119,6 +133,8 @@ Event: TypeAlias = (
     | CloseCorridor
     | IdentityChanged
     | EpochRenewed
+    | OutOfPosition
+    | PersonOnRoad
 )
 """An event of the robot's own application."""
 

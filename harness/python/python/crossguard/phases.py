@@ -242,6 +242,8 @@ class Following(Variant):
     """Newest command that it accepted."""
     refused: Refusal | None
     """Newest command that it rejected, where that is newer than the job."""
+    sees_people: bool
+    """Whether it has seen somebody on the road itself, and has not said since then that the road is clear."""
 
 
 Phase: TypeAlias = Idle | Requesting | Offering | Leading | Following

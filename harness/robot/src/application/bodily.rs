@@ -20,7 +20,7 @@ impl Application {
     /// Takes in what the body says besides how maneuvers go.
     pub(super) fn learn_of_body(&mut self, report: Report) {
         let trouble = match report {
-            Report::InPosition(_) | Report::Completed(_) => return,
+            Report::InPosition(_) | Report::Completed(_) => return self.feel_maneuver(report),
             Report::Failed(id) => return self.wish(Stimulus::Event(Event::ManeuverFailed(id))),
             // Nothing is wrong with a body that was not started yet, but its robot takes no part.
             Report::Absent => {
@@ -35,7 +35,7 @@ impl Application {
                 return;
             }
             Report::Silent => {
-                self.waits_for_people = None;
+                self.feel_maneuver(report);
                 self.bodily.missing = Some(Unavailability::EmergencyStop);
                 (
                     Cause::BodySilent,
@@ -48,8 +48,13 @@ impl Application {
             }
             Report::Garbled => (Cause::BodyGarbled, "a line of the body"),
         };
+        self.trouble(trouble.0, trouble.1);
+    }
+
+    /// Something is to be counted.
+    pub(super) fn trouble(&mut self, cause: Cause, what: &'static str) {
         if self.bodily.troubles.len() < TROUBLES {
-            self.bodily.troubles.push(trouble);
+            self.bodily.troubles.push((cause, what));
         }
     }
 

@@ -273,10 +273,12 @@ impl Body for Ported {
                 let policy = policy(how);
                 ToBody::FallBack { id, policy }
             }
+            BodyAct::Wait => ToBody::Wait,
+            BodyAct::GoOn => ToBody::GoOn,
         };
         match (self.presence, act) {
             // That it is silent was told; it stands still by itself, as it hears nothing either.
-            (Presence::Silent, BodyAct::Stop(..) | BodyAct::FallBack(..)) => Ok(()),
+            (Presence::Silent, BodyAct::Stop(..) | BodyAct::FallBack(..) | BodyAct::Wait) => Ok(()),
             _ => self.say(&line),
         }
     }

@@ -35,6 +35,8 @@ pub struct Simulated {
     /// The place to go to when contact is lost on the carriageway.
     safe_place: Place,
     motion: Option<Motion>,
+    /// Whether it stands in its maneuver until it is to go on.
+    waits: bool,
     /// Where it set out for the maneuver, and where it leads.
     way: Option<(Place, Place)>,
     /// How far it is with a fallback, if it carries one out.
@@ -67,6 +69,7 @@ impl Simulated {
             acceleration_mps2: 0.0,
             safe_place: place,
             motion: None,
+            waits: false,
             way: None,
             fallback: None,
             holding: TaskSet::of(&[TaskType::BLOCK]),
@@ -95,7 +98,7 @@ impl Simulated {
             .unwrap_or(f64::INFINITY)
             .min(self.build.speed_max());
         let gait = 1.0 + self.gait.random_range(-GAIT_VARIATION..GAIT_VARIATION);
-        self.fallback = None;
+        (self.fallback, self.waits) = (None, false);
         self.way = Some((self.place, to));
         self.motion = Some(Motion {
             to,
@@ -117,6 +120,7 @@ impl Simulated {
     fn fall_back(&mut self, policy: FallbackPolicy) {
         let pace_mps = self.motion.map(|motion| motion.speed_mps);
         let way = self.way.take();
+        self.waits = false;
         let to = match policy {
             FallbackPolicy::StopInPlace | FallbackPolicy::HoldUntilClear => {
                 self.where_it_can_stop()
@@ -157,7 +161,7 @@ impl Simulated {
     }
 
     fn stand_still(&mut self) {
-        self.motion = None;
+        (self.motion, self.waits) = (None, false);
         self.speed_mps = 0.0;
         self.acceleration_mps2 = 0.0;
     }
@@ -167,9 +171,12 @@ impl Simulated {
         let way = self.place.distance(motion.to);
         // The speed from which the body can still stop at its target.
         let brake = (2.0 * ACCELERATION * way).sqrt();
-        let speed = (self.speed_mps + ACCELERATION * seconds)
-            .min(motion.speed_mps)
-            .min(brake);
+        let speed = if self.waits {
+            (self.speed_mps - ACCELERATION * seconds).max(0.0)
+        } else {
+            (self.speed_mps + ACCELERATION * seconds).min(motion.speed_mps)
+        };
+        let speed = speed.min(brake);
         let step = speed * seconds;
         if way <= step.max(0.005) {
             self.place = motion.to;
@@ -193,6 +200,8 @@ impl Body for Simulated {
             BodyAct::Start(maneuver, parameters) => self.start(maneuver, parameters),
             BodyAct::Stop(..) => self.stop(),
             BodyAct::FallBack(_, policy) => self.fall_back(policy),
+            BodyAct::Wait => self.waits = self.motion.is_some(),
+            BodyAct::GoOn => self.waits = false,
         }
         Ok(())
     }
@@ -244,6 +253,7 @@ impl Body for Simulated {
     }
 
     fn walk_to(&mut self, place: Place) {
+        self.waits = false;
         self.motion = Some(Motion {
             to: place,
             speed_mps: self.build.speed_max(),
@@ -353,6 +363,43 @@ mod tests {
         assert_eq!(body.advance(60.0), Some(Report::InPosition(block.id)));
         assert_eq!(body.advance(600.0), None);
         assert!(body.place().distance(Place::new(0.0, 5.0)) < 0.01);
+    }
+
+    #[test]
+    fn an_escort_that_waits_stands_until_it_goes_on_with_the_same_maneuver() {
+        let mut body = walking(1.0);
+        assert_eq!(body.advance(4.0), None);
+        let before = body.place();
+        body.act(BodyAct::Wait).unwrap();
+        assert_eq!(body.advance(60.0), None);
+        let waits_at = body.place();
+        let braking_m = before.distance(waits_at);
+        assert!((0.05..0.2).contains(&braking_m), "{braking_m}");
+        assert!(body.state().speed.unwrap().value < 0.01);
+        assert_eq!(body.advance(60.0), None);
+        assert_eq!(body.place(), waits_at);
+        body.act(BodyAct::GoOn).unwrap();
+        assert_eq!(body.advance(60.0), Some(Report::Completed(maneuver().id)));
+        assert!(body.place().distance(Place::new(0.0, 5.0)) < 0.01);
+    }
+
+    #[test]
+    fn a_body_that_waits_falls_back_and_begins_another_maneuver_all_the_same() {
+        let waiting = || {
+            let mut body = walking(1.0);
+            body.advance(3.0);
+            body.act(BodyAct::Wait).unwrap();
+            body.advance(5.0);
+            body
+        };
+        let mut body = waiting();
+        body.fall_back(FallbackPolicy::EscortToKerb);
+        body.advance(30.0);
+        assert_eq!(body.fallback(), Some(Fallback::Finished));
+        assert!(body.place().distance(Place::default()) < 0.01);
+        let mut body = waiting();
+        body.start(maneuver(), TaskParameters::default());
+        assert_eq!(body.advance(1.0), Some(Report::Completed(maneuver().id)));
     }
 
     fn fallen_back(after_s: f64, policy: FallbackPolicy) -> Simulated {

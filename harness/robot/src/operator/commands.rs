@@ -11,9 +11,10 @@ use crossguard_protocol::{
     Availability, Event, HelpRequest, MAX_FOLLOWERS, StationId, TaskSet, TaskType, Urgency,
 };
 
+use super::port::order_of;
 use super::words::{
-    CHARGING, INTERSECTION, Kind, LOST, MAP_PLACE, NONE, SEGMENT, job, map_place, means, nothing,
-    number, only, seconds, signal, state, surplus, task, unavailability, urgency, wrong,
+    CHARGING, INTERSECTION, Kind, LOST, MAP_PLACE, NONE, SEGMENT, event_of, job, map_place, means,
+    nothing, number, only, seconds, signal, state, surplus, task, unavailability, urgency, wrong,
 };
 use super::{Line, Misunderstood};
 
@@ -113,6 +114,16 @@ pub(super) const COMMANDS: &[Command] = &[
         |words, _| nothing(words).map(|()| Line::Order(Order::InPosition)),
     ),
     Command::new(
+        "out-of-position",
+        "the body is not at that place any more",
+        |words, _| nothing(words).map(|()| Line::Order(Order::OutOfPosition)),
+    ),
+    Command::new(
+        "person-on-road",
+        "this robot itself sees somebody on the road: it stays until 'clear', however the session ends",
+        |words, _| event(words, Event::PersonOnRoad),
+    ),
+    Command::new(
         "done",
         "the maneuver that runs is finished, or the fallback that runs",
         |words, _| nothing(words).map(|()| Line::Order(Order::Finish { well: true })),
@@ -137,6 +148,8 @@ pub(super) const COMMANDS: &[Command] = &[
          finished its fallback",
         |words, _| nothing(words).map(|()| Line::Order(Order::Clear)),
     ),
+    Command::new("tell", "an event of the protocol that comes with nothing, by its name in JSON", told)
+        .taking("EVENT", &[&[Kind::Event]]),
     Command::new("leave", "leave the session", |words, _| {
         event(words, Event::LeaveRequested)
     }),
@@ -212,6 +225,15 @@ fn tell(event: Event) -> Line {
 fn event(words: &[&str], event: Event) -> Result<Line, Misunderstood> {
     nothing(words)?;
     Ok(tell(event))
+}
+
+fn told(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {
+    let name = only(words, "tell", "an event")?;
+    let event = event_of(name)
+        .ok_or_else(|| wrong(name, format!("one of {}", Kind::Event.names().join(", "))))?;
+    order_of(event)
+        .map(Line::Order)
+        .map_err(|why| wrong(name, why))
 }
 
 fn detect(words: &[&str], scope: &Scope<'_>) -> Result<Line, Misunderstood> {

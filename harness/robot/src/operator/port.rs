@@ -25,7 +25,7 @@ use serde_json::{Map, Value};
 
 use self::lines::{Fields, ToOperator, condition, said};
 use super::{Line, parse_with};
-use crate::perception;
+use crate::perception::{self, Observation, Taken, instant_of};
 use crate::port::{Heard, Listening, Stream};
 use crate::runtime::{Clock, Order, Orders};
 use crate::site::Site;
@@ -295,16 +295,19 @@ impl<O: Obeys> Counter<O> {
                     Err(error) => Err(error.to_string()),
                 }
             }
-            Some("person") => {
-                let person = perception::parse(&Value::Object(fields).to_string());
-                let person = person.map_err(|error| error.to_string())?;
-                match person.at_s {
-                    None => Ok(Some(Order::Perceived(person.vru))),
-                    Some(_) => Err("at_s is for files of --perceived".to_owned()),
+            Some("person") => match perceived(fields)? {
+                Observation::Person(vru, None) => Ok(Some(Order::Perceived(vru))),
+                _ => Err("a person without at_s is wanted".to_owned()),
+            },
+            Some("frame") => match perceived(fields)? {
+                Observation::Frame(frame, Taken::Unix(unix_s)) => {
+                    let taken = instant_of(unix_s)?;
+                    Ok(Some(Order::Looked(Arc::new(frame), taken)))
                 }
-            }
+                _ => Err("a frame with unix_s is wanted".to_owned()),
+            },
             Some("hello") => Ok(None),
-            _ => Err("a 'type' is wanted: event, command or person".to_owned()),
+            _ => Err("a 'type' is wanted: event, command, frame or person".to_owned()),
         }
     }
 
@@ -390,8 +393,13 @@ fn greeting(line: &str) -> Result<(), String> {
     }
 }
 
+/// What the other fields of a line say of people.
+fn perceived(fields: Map<String, Value>) -> Result<Observation, String> {
+    perception::parse(&Value::Object(fields).to_string()).map_err(|error| error.to_string())
+}
+
 /// What an event is to a robot. Some are for the kit alone.
-fn order_of(event: Event) -> Result<Order, String> {
+pub(super) fn order_of(event: Event) -> Result<Order, String> {
     Ok(match event {
         Event::RoadClear => Order::Clear,
         Event::CommandManeuver { follower, task } => Order::Wish(Stimulus::Order {

@@ -80,7 +80,6 @@ fn each_command_is_an_order() {
         ("done", Order::Finish { well: true }),
         ("fail", Order::Finish { well: false }),
         ("clear", Order::Clear),
-        (r#"{"nobody": true}"#, Order::Perceived(None)),
     ] {
         assert_eq!(parsed(text), Ok(Line::Order(expected)), "{text}");
     }
@@ -153,7 +152,7 @@ fn what_means_nothing_is_answered_with_what_would() {
         ),
         (
             r#"{"id": 1, "position_m": [1, 2], "at_s": 3}"#,
-            "at_s is for files of --perceived; here 'wait' does it",
+            "frames and at_s are for files of --perceived; here 'wait' does it",
         ),
     ] {
         assert_eq!(parsed(text), Err(answer.to_owned()), "{text}");
@@ -186,7 +185,7 @@ fn completed(text: &str) -> String {
 #[test]
 fn words_are_completed_by_what_can_stand_there() {
     for (text, words) in [
-        ("o", "order open"),
+        ("o", "order out-of-position open"),
         ("  det", "detect"),
         ("order ", "2 31"),
         ("order 2 b", "block"),

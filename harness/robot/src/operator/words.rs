@@ -5,7 +5,9 @@ use std::time::Duration;
 
 use crate::robot_file::{job_named, job_names};
 use crossguard_codec::{JobRole, MapPlace, PublicSignal, SignalMeans};
-use crossguard_protocol::{State, TaskNames, TaskSet, TaskType, Unavailability, Urgency};
+use crossguard_protocol::{
+    Event, EventKind, State, TaskNames, TaskSet, TaskType, Unavailability, Urgency,
+};
 
 use super::Misunderstood;
 
@@ -19,6 +21,8 @@ pub(super) enum Kind {
     Task,
     Urgency,
     Reason,
+    /// An event that comes with nothing.
+    Event,
     State,
     Job,
     /// A sign to vehicles.
@@ -89,6 +93,12 @@ impl Kind {
             Self::Task => tasks().map(|task| task.to_string()).collect(),
             Self::Urgency => URGENCIES.iter().map(ToString::to_string).collect(),
             Self::Reason => REASONS.into_iter().map(name_of).collect(),
+            Self::Event => EventKind::ALL
+                .iter()
+                .map(|kind| kind.name())
+                .filter(|name| event_of(name).is_some())
+                .map(str::to_owned)
+                .collect(),
             Self::State => STATES.iter().map(|(name, _)| (*name).to_owned()).collect(),
             Self::Job => job_names(),
             Self::Signal => texts(&SIGNALS),
@@ -101,6 +111,12 @@ impl Kind {
             Self::Word(word) => vec![word.to_owned()],
         }
     }
+}
+
+/// An event that comes with nothing, and is not for the kit alone.
+pub(super) fn event_of(name: &str) -> Option<Event> {
+    let event = EventKind::named(name).and_then(Event::bare);
+    event.filter(|event| super::port::order_of(*event).is_ok())
 }
 
 pub(super) fn wrong(word: &str, wanted: impl Into<Cow<'static, str>>) -> Misunderstood {

@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 
 use crossguard_codec::PublicSignal;
 use crossguard_protocol::{
-    EndReason, MAX_FOLLOWERS, ReleaseReason, StationId, TaskNames, TaskSet, TaskType, Urgency,
+    EndReason, MAX_FOLLOWERS, ReleaseReason, Settings, StationId, TaskNames, TaskSet, TaskType,
+    Urgency,
 };
 use toml::Spanned;
 
 use super::tables::{
     DemoTable, EndName, PartTable, PlanTables, RoleTable, SignalName, SpotName, UrgencyName,
 };
-use super::{APART_M, Ending, PlanFile, Role};
+use super::{APART_M, Ending, PlanFile, Role, safety};
 use crate::located::{self, METRES_MAX, Misfit};
 use crate::plan::{Leg, Stage, Who};
 use crate::site::Place;
@@ -22,7 +23,12 @@ const CROSSING_S: f64 = 8.0;
 const PATIENCE_S: f64 = 200.0;
 
 impl PlanTables {
-    pub(super) fn check(self, name: &str, site: SiteFile) -> Result<PlanFile, Misfit> {
+    pub(super) fn check(
+        self,
+        name: &str,
+        site: SiteFile,
+        settings: &Settings,
+    ) -> Result<PlanFile, Misfit> {
         let roles = roles(&self.roles, &site)?;
         let followers: Vec<_> = roles.iter().filter(|role| !role.leads).collect();
         let wanted = match &self.followers {
@@ -40,6 +46,8 @@ impl PlanTables {
         };
         let stages = stages(&self, &followers, &site)?;
         apart(&self, &roles, &stages)?;
+        safety::guards_first(&self, &followers, &stages, settings)?;
+        safety::ways_in_time(&self, &followers, &stages, settings)?;
         let number =
             |value: &Option<Spanned<f64>>, default, range: std::ops::RangeInclusive<f64>| {
                 let number = value.as_ref();
@@ -49,6 +57,8 @@ impl PlanTables {
             let crossing = Some((Purpose::Cross, "an escort"));
             Ok([place(&site, from, crossing)?, place(&site, to, crossing)?])
         });
+        let crossing_s = number(&self.crossing_s, CROSSING_S, 1.0..=600.0)?;
+        safety::crossing_in_time(&site, self.crossing_s.as_ref(), crossing_s, settings)?;
         let (loses_power, ends) = demo(self.demo.as_ref(), &roles)?;
         Ok(PlanFile {
             name: name.to_owned(),
@@ -60,7 +70,7 @@ impl PlanTables {
                 UrgencyName::High => Urgency::High,
                 UrgencyName::Emergency => Urgency::Emergency,
             },
-            crossing_s: number(&self.crossing_s, CROSSING_S, 1.0..=600.0)?,
+            crossing_s,
             patience_s: number(&self.patience_s, PATIENCE_S, 1.0..=3_600.0)?,
             either_way: either_way.transpose()?,
             site,

@@ -18,12 +18,14 @@ name = "second"
 first = { task = "initialPos", to = "near-kerb" }
 second = { task = "initialPos", to = [2.5, -1.0] }
 [[stages]]
-first = { task = "move", to = "far-kerb", speed_mps = 0.424 }
 second = { task = "block", to = "far-lane", heading_deg = 90.0 }
+[[stages]]
+first = { task = "move", to = "far-kerb", speed_mps = 0.424 }
 "#;
 
 fn parse(text: &str) -> Result<PlanFile, String> {
-    let plan = PlanFile::parse("p.toml", "p", text, SiteFile::street());
+    let settings = Settings::default();
+    let plan = PlanFile::parse("p.toml", "p", text, SiteFile::street(), &settings);
     plan.map_err(|error| error.to_string())
 }
 
@@ -42,7 +44,8 @@ fn every_shipped_plan_fits_the_street_and_the_crossing_is_that_of_the_paper() {
         (built.kerbs, built.crossing_s)
     );
     for stage in 0..2 {
-        assert_eq!(plan.leg(stage, 0), built.leg(stage, 0));
+        let leg = |plan: &Plan| plan.lead().leg(stage, 0, false);
+        assert_eq!(leg(&plan), leg(&built));
     }
 }
 
@@ -65,12 +68,13 @@ fn a_team_has_as_many_guards_as_there_are_followers_besides_the_escort() {
 #[test]
 fn two_dogs_go_to_two_places() {
     let plan = parse(TWO_DOGS).unwrap().plan(StationId(1), 2);
-    let [first, second] = [0, 1].map(|seat| plan.leg(0, seat).unwrap().to);
-    assert!(first.distance(second) >= APART_M);
-    let block = plan.leg(1, 1).unwrap();
+    let plan = plan.lead();
+    let [first, second] = [0, 1].map(|seat| plan.leg(0, seat, false).unwrap().to);
+    assert!(f64::from(first.distance_cm(second)) >= APART_M * 100.0);
+    let block = plan.leg(1, 1, false).unwrap();
     assert_eq!(
-        (block.task, block.heading_deg),
-        (TaskType::BLOCK, Some(90.0))
+        (block.task, block.heading_ddeg),
+        (TaskType::BLOCK, Some(900))
     );
 }
 
@@ -95,20 +99,45 @@ fn a_plan_that_does_not_fit_is_refused_with_its_line() {
         (
             "\"far-kerb\"",
             "\"bench\"",
-            "p.toml:15: site 'street' has no place 'bench'; it has ",
+            "p.toml:17: site 'street' has no place 'bench'; it has ",
         ),
         (
             "\"far-kerb\"",
             "\"far-lane\"",
-            "p.toml:15: place 'far-lane' is not for a move",
+            "p.toml:17: place 'far-lane' is not for a move",
         ),
         (
             "\"far-lane\"",
             "\"corner\"",
-            "p.toml:16: place 'corner' is not for a block",
+            "p.toml:15: place 'corner' is not for a block",
         ),
-        ("\"move\"", "\"dance\"", "p.toml:15: 'dance' is no task: "),
-        ("0.424", "9", "p.toml:15: "),
+        ("\"move\"", "\"dance\"", "p.toml:17: 'dance' is no task: "),
+        ("0.424", "9", "p.toml:17: "),
+        (
+            "0.424",
+            "0.1",
+            "p.toml:17: role 'first' goes 9.0 m at 0.1 m/s, which takes 90.0 s: t_exec is 60 s",
+        ),
+        (
+            "0.424",
+            "0.25",
+            "p.toml:17: role 'first' goes 9.0 m at 0.25 m/s, which takes 36.0 s: t_cross is 30 s",
+        ),
+        (
+            "[[stages]]\nfirst = { task = \"move\"",
+            "first = { task = \"move\"",
+            "p.toml:15: role 'second' is sent to guard in stage 2, and a person is escorted from stage 2 on",
+        ),
+        (
+            "task = \"initialPos\", to = \"near-kerb\"",
+            "task = \"move\", to = \"near-kerb\"",
+            "p.toml:15: role 'second' is sent to guard in stage 2, and a person is escorted from stage 1 on",
+        ),
+        (
+            "\n[[roles]]\nname = \"leader\"",
+            "crossing_s = 30.5\n[[roles]]\nname = \"leader\"",
+            "p.toml:1: a pedestrian crosses in 30.5 s: t_cross is 30 s",
+        ),
         (
             "heading_deg = 90.0",
             "heading_deg = 361.0",

@@ -12,14 +12,16 @@
 //! ```
 //!
 //! Where the site has its kerbs, `pavement_m = 2.5` is enough instead of the shapes: people cross between the kerbs, and
-//! wait up to that far behind them.
+//! wait up to that far behind them. The carriageway goes on beside the crossing then, as far as the site says.
 
+use crossguard_crossing::{Sensors, WaitingRules};
 use crossguard_endpoint::ras::area::Area;
+use crossguard_protocol::Millis;
 use serde::Deserialize;
 
 use crate::site::Place;
-use crate::site_file::{Purpose, SiteFile, Spot};
-use crate::zone::{WaitingRules, Zone};
+use crate::site_file::{Purpose, SiteFile, Spot, between};
+use crate::zone::Zone;
 
 /// Most corners of a polygon.
 const CORNERS_MAX: usize = 64;
@@ -38,6 +40,9 @@ pub(super) struct ZoneTable {
     place_m: Option<[f64; 2]>,
     radius_m: Option<f64>,
     road_m: Option<Vec<[f64; 2]>>,
+    /// The part of the carriageway between the kerbs of the site.
+    #[serde(skip)]
+    crossing_m: Option<Vec<[f64; 2]>>,
     escort_m: Option<[[f64; 2]; 2]>,
     dwell_s: Option<f64>,
     speed_max_mps: Option<f64>,
@@ -129,9 +134,11 @@ impl ZoneTable {
                 count: layout.kerbs.len(),
             });
         };
-        self.polygon_m = Some(between(near, far, pavement_m));
-        if self.road_m.is_none() {
-            self.road_m = Some(between(near, far, 0.0));
+        self.polygon_m = Some(corners(near, far, pavement_m));
+        if let (None, Some(carriageway)) = (&self.road_m, layout.carriageway()) {
+            let corners = |corners: [Place; 4]| corners.map(|at| [at.east, at.north]).to_vec();
+            self.crossing_m = Some(corners(carriageway.crossing));
+            self.road_m = Some(corners(carriageway.whole));
         }
         let crossed = layout.places.values();
         let crossed = crossed.filter(|spot| spot.purpose == Purpose::Cross);
@@ -173,71 +180,71 @@ impl ZoneTable {
             Ok([place(from)?, place(to)?])
         });
         let default = WaitingRules::default();
-        let or = |value: Option<f64>, default: f64| value.unwrap_or(default);
         let minute = "0 to 60 s";
+        let time = |field, value: Option<f64>, default: Millis, most: f64, wanted| match value {
+            Some(seconds) => within(field, seconds, 0.0..=most, wanted).map(millis),
+            None => Ok(default),
+        };
         let rules = WaitingRules {
-            dwell_s: within(
-                "dwell_s",
-                or(self.dwell_s, default.dwell_s),
-                0.0..=60.0,
-                minute,
-            )?,
-            speed_max_mps: within(
-                "speed_max_mps",
-                or(self.speed_max_mps, default.speed_max_mps),
-                0.05..=2.0,
-                "0.05 to 2 m/s",
-            )?,
-            approach_s: within(
+            dwell: time("dwell_s", self.dwell_s, default.dwell, 60.0, minute)?,
+            speed_max_cmps: match self.speed_max_mps {
+                Some(speed) => centi(within("speed_max_mps", speed, 0.05..=2.0, "0.05 to 2 m/s")?),
+                None => default.speed_max_cmps,
+            },
+            approach: time(
                 "approach_s",
-                or(self.approach_s, default.approach_s),
-                0.0..=10.0,
+                self.approach_s,
+                default.approach,
+                10.0,
                 "0 to 10 s",
             )?,
-            clear_s: within(
-                "clear_s",
-                or(self.clear_s, default.clear_s),
-                0.0..=60.0,
-                minute,
-            )?,
+            clear: time("clear_s", self.clear_s, default.clear, 60.0, minute)?,
+            confidence_min: percent(confidence_min),
         };
         let zone = Zone {
             waiting,
             road,
+            crossing: self.crossing_m.map(Area::Polygon),
             rules,
-            confidence_min,
+            sensors: Sensors::default(),
         };
         Ok((zone, kerbs.transpose()?))
     }
 }
 
-/// The area between two kerbs, and so many metres behind them.
-fn between(near: [Place; 2], far: [Place; 2], behind_m: f64) -> Vec<[f64; 2]> {
-    let middle = |[a, b]: [Place; 2]| {
-        Place::new(
-            f64::midpoint(a.east, b.east),
-            f64::midpoint(a.north, b.north),
-        )
-    };
-    let behind = |kerb: [Place; 2], other: [Place; 2]| {
-        let [a, b] = kerb;
-        let (along_e, along_n) = (b.east - a.east, b.north - a.north);
-        let length = along_e.hypot(along_n).max(f64::MIN_POSITIVE);
-        let (own, other) = (middle(kerb), middle(other));
-        let (away_e, away_n) = (own.east - other.east, own.north - other.north);
-        // Across the kerb, away from the other one.
-        let side = if along_n * away_e - along_e * away_n < 0.0 {
-            -1.0
-        } else {
-            1.0
-        };
-        let (east, north) = (side * along_n / length, -side * along_e / length);
-        kerb.map(|end| [end.east + behind_m * east, end.north + behind_m * north])
-    };
-    let ([a, b], [c, d]) = (behind(near, far), behind(far, near));
-    let runs_alike = (b[0] - a[0]) * (d[0] - c[0]) + (b[1] - a[1]) * (d[1] - c[1]) > 0.0;
-    let (c, d) = if runs_alike { (d, c) } else { (c, d) };
-    vec![a, b, c, d]
+/// Milliseconds.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "checked to be small and not negative"
+)]
+fn millis(seconds: f64) -> Millis {
+    Millis((seconds * 1e3).round() as u32)
+}
+
+/// Hundredths.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "checked to be small and not negative"
+)]
+fn centi(value: f64) -> u16 {
+    (value * 100.0).round() as u16
+}
+
+/// Percent.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "checked to be from 0 to 1"
+)]
+fn percent(share: f64) -> u8 {
+    (share * 100.0).round() as u8
+}
+
+fn corners(near: [Place; 2], far: [Place; 2], behind_m: f64) -> Vec<[f64; 2]> {
+    let corners = between(near, far, behind_m);
+    corners.map(|Place { east, north }| [east, north]).to_vec()
 }
 
 fn within(
@@ -328,10 +335,11 @@ mod tests {
         assert_eq!(kerbs, Some([Place::new(0.0, -1.0), Place::new(0.0, 8.0)]));
         assert!(corners.waiting.unwrap().contains([4.0, 9.0]) && corners.road.is_none());
         let rules = WaitingRules {
-            dwell_s: 2.0,
-            speed_max_mps: 0.3,
-            approach_s: 0.0,
-            clear_s: 5.0,
+            dwell: Millis(2_000),
+            speed_max_cmps: 30,
+            approach: Millis(0),
+            clear: Millis(5_000),
+            ..WaitingRules::default()
         };
         assert_eq!(corners.rules, rules);
         assert!(zone(ROAD, false).unwrap().0.waiting.is_none());
@@ -347,32 +355,15 @@ mod tests {
             ([1.0, 3.0], true, true),
             ([1.0, -2.6], false, false),
             ([1.0, 9.6], false, false),
-            ([5.1, 3.0], false, false),
+            // The carriageway goes on beside the crossing.
+            ([5.1, 3.0], false, true),
+            ([15.1, 3.0], false, false),
         ] {
             let found = (waiting.contains(place), road.contains(place));
             assert_eq!(found, (waits, is_on_road), "{place:?}");
         }
         let escort = escort.unwrap().map(|place| (place.east, place.north));
         assert_eq!(escort, [(1.0, 8.0), (1.0, -1.0)]);
-    }
-
-    #[test]
-    fn kerbs_in_any_direction_enclose_the_road() {
-        let kerb = |a: [f64; 2], b: [f64; 2]| [Place::new(a[0], a[1]), Place::new(b[0], b[1])];
-        let (near, far) = (kerb([0.0, 0.0], [8.0, 8.0]), kerb([-4.0, 4.0], [4.0, 12.0]));
-        let turned = |[a, b]: [Place; 2]| [b, a];
-        for (near, far) in [
-            (near, far),
-            (turned(near), far),
-            (near, turned(far)),
-            (far, near),
-        ] {
-            let road = polygon("road_m", between(near, far, 0.0)).unwrap();
-            assert!((road.size_m2() - 64.0).abs() < 1e-6, "{road:?}");
-            let wide = polygon("polygon_m", between(near, far, 2.0)).unwrap();
-            let width_m = 32.0_f64.sqrt() + 4.0;
-            assert!((wide.size_m2() - width_m * 128.0_f64.sqrt()).abs() < 1e-6);
-        }
     }
 
     #[test]

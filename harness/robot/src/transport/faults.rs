@@ -44,6 +44,7 @@ pub struct Burst {
 
 /// How long a datagram is under way.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Delay {
     /// At least, in ms.
     pub min_ms: u32,
@@ -56,6 +57,7 @@ pub struct Delay {
 
 /// A time in which nothing gets through: a partition, where all ways between two groups have it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Outage {
     /// From then on, in ms since the channel began.
     pub from_ms: u64,

@@ -24,9 +24,9 @@ from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Empty, String
 
 from crossguard_msgs.action import Maneuver
-from crossguard_msgs.msg import Corridor, Event, Follower, Person, Session, Status
+from crossguard_msgs.msg import Corridor, Event, Follower, People, Session, Status
 
-VERSION = 1
+BODY_PORT_VERSION, OPERATOR_PORT_VERSION = 2, 1
 TURN_S = 0.02
 SHOWN_S = 0.3  # a corridor is shown no longer than this after its line
 STATUS_S = 1.0
@@ -45,6 +45,14 @@ def task_of(number):
     return "" if number is None else TASKS.get(number, f"task{number}")
 
 
+def perceived(person):
+    """Somebody in a frame; what the source does not say is left out."""
+    at, by = person.position, person.velocity
+    said = {"class": person.kind, "error_m": person.error}
+    return dict(id=person.id, position_m=[at.x, at.y], velocity_mps=[by.x, by.y], confidence=person.confidence,
+                **{name: value for name, value in said.items() if value})
+
+
 def is_visible(environment):
     """Whether others than this machine may be on the ROS graph, as far as its environment tells."""
     own = ["ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER", "FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE",
@@ -61,8 +69,8 @@ def is_visible(environment):
 class Port:
     """Lines of JSON, from and to `crossguard run`."""
 
-    def __init__(self, address):
-        self.address, self.link, self.text, self.heard = address, None, b"", 0.0
+    def __init__(self, address, version):
+        self.address, self.version, self.link, self.text, self.heard = address, version, None, b"", 0.0
 
     def connect(self):
         """Whether it is connected now. It said hello, then."""
@@ -77,7 +85,7 @@ class Port:
             return False
         link.setblocking(False)
         self.link, self.text, self.heard = link, b"", time.monotonic()
-        return self.say("hello", crossguard=VERSION)
+        return self.say("hello", crossguard=self.version)
 
     def close(self):
         if self.link:
@@ -116,8 +124,9 @@ class Body:
     """The body port: each act is a goal of the action `maneuver`, and poses are the heartbeat of the body."""
 
     def __init__(self, node, address, silence_s):
-        self.node, self.port, self.silence_s = node, Port(address), silence_s
-        self.goal = self.hold = None  # the newest one
+        self.node, self.port, self.silence_s = node, Port(address, BODY_PORT_VERSION), silence_s
+        self.goal = None  # the newest one
+        self.waits = None  # the one that goes on after a wait
         self.pose = self.place = None  # not said yet; where and when it was before
         self.client = ActionClient(node, Maneuver, "~/maneuver")
         self.beat = node.create_publisher(Empty, "~/beat", 1)
@@ -133,7 +142,7 @@ class Body:
         speed = math.dist(place, before[0]) / (now - before[1]) if before and now > before[1] else 0.0
         z, w = message.pose.orientation.z, message.pose.orientation.w
         heading = 90.0 - math.degrees(2 * math.atan2(z, w))
-        self.pose = dict(east_m=place[0], north_m=place[1], heading_deg=heading % 360.0, speed_mps=speed)
+        self.pose = dict(eastM=place[0], northM=place[1], headingDeg=heading % 360.0, speedMps=speed)
 
     def turn(self, late_s):
         if late_s > self.silence_s:  # it was held: what has come meanwhile is of no use any more
@@ -149,10 +158,10 @@ class Body:
             self.act(line)
         if lines:
             self.beat.publish(Empty())
-        if self.goal and time.monotonic() - self.port.heard > self.silence_s:
-            done = self.goal["done"]
+        goal = self.goal or self.waits
+        if goal and time.monotonic() - self.port.heard > self.silence_s:
             self.stand()
-            done(False)
+            goal["done"](False)
         if self.pose:
             self.port.say("pose", **self.pose)
             self.pose = None
@@ -161,15 +170,15 @@ class Body:
         kind, to = line["type"], line.get("to")
         goal = Maneuver.Goal(has_target=bool(to))
         if to:
-            goal.target.x, goal.target.y = to["east_m"], to["north_m"]
+            goal.target.x, goal.target.y = to["eastM"], to["northM"]
             goal.latitude, goal.longitude = to["latitude"], to["longitude"]
         if kind == "start":
             report, maneuver = line["report"], line["id"]
             goal.task, goal.hold = line["task"], report == "in-position"
-            goal.speed = line["speed_mps"] or 0.0
-            goal.pedestrian_distance = line["pedestrian_distance_m"] or 0.0
-            goal.has_heading = line["heading_deg"] is not None
-            goal.heading = math.radians(90.0 - (line["heading_deg"] or 0.0))
+            goal.speed = line["speedMps"] or 0.0
+            goal.pedestrian_distance = line["pedestrianDistanceM"] or 0.0
+            goal.has_heading = line["headingDeg"] is not None
+            goal.heading = math.radians(90.0 - (line["headingDeg"] or 0.0))
             self.begin(goal, lambda is_done: self.port.say(report if is_done else "failed", id=maneuver))
         elif kind == "fall-back":
             goal.policy, policy = line["policy"], line["policy"]
@@ -177,6 +186,13 @@ class Body:
                        self.port.say("fault", text=f"the body did not finish {policy}"))
         elif kind == "go":
             self.begin(goal, lambda is_done: None)
+        elif kind == "wait" and self.goal:
+            goal = self.goal
+            self.stand()
+            self.waits = goal
+        elif kind == "go-on" and self.waits:
+            self.waits["asked"].resumes = True
+            self.begin(self.waits["asked"], self.waits["done"])
         elif kind in ("stop", "halt") or kind == "release" and self.holds():
             self.stand()
         elif kind == "refused":
@@ -216,7 +232,7 @@ class Body:
             end(False)
 
     def stand(self):
-        goal, self.goal = self.goal, None
+        goal, self.goal, self.waits = self.goal, None, None
         if goal and goal["handle"] and goal["handle"].accepted:
             goal["handle"].cancel_goal_async()
 
@@ -225,7 +241,7 @@ class Operator:
     """The operator port: commands and people go in; corridor, status and events come out."""
 
     def __init__(self, node, address):
-        self.node, self.port = node, Port(address)
+        self.node, self.port = node, Port(address, OPERATOR_PORT_VERSION)
         self.robot = self.said = self.offset = None
         self.told = self.asked = 0.0
         self.drops = {}
@@ -233,11 +249,11 @@ class Operator:
         self.status = node.create_publisher(Status, "~/status", 1)
         self.events = node.create_publisher(Event, "~/event", 100)
         node.create_subscription(String, "~/command", lambda it: self.say("command", line=it.data), 10)
-        node.create_subscription(Person, "~/perceived", self.perceive, 10)
+        node.create_subscription(People, "~/people", self.look, 10)
         node.create_subscription(BatteryState, "~/battery", self.charge, 10)
 
     def trusts(self):
-        return bool(self.robot and self.robot["trusts_ros_graph"])
+        return bool(self.robot and self.robot["trustsRosGraph"])
 
     def say(self, kind, **more):
         if not self.robot:
@@ -247,10 +263,10 @@ class Operator:
         else:
             self.port.say(kind, **more)
 
-    def perceive(self, person):
-        at, by = person.position, person.velocity
-        self.say("person", id=person.id, position_m=[at.x, at.y], velocity_mps=[by.x, by.y],
-                 confidence=person.confidence, **({"class": person.kind} if person.kind else {}))
+    def look(self, frame):
+        covers = [[it.x, it.y] for it in frame.covers.points]
+        self.say("frame", source=frame.source, unix_s=frame.stamp.sec + frame.stamp.nanosec / 1e9,
+                 people=[perceived(it) for it in frame.people], **({"covers_m": covers} if covers else {}))
 
     def charge(self, battery):
         if math.isfinite(battery.percentage):
@@ -297,31 +313,31 @@ class Operator:
         """Tells a state: its corridor if no newer one is known, and the rest when it changes or a second is over."""
         now = time.monotonic()
         # A line that waited, here or in the socket, is older than the quickest one would be.
-        passed = now - line["at_us"] / 1e6
+        passed = now - line["atUs"] / 1e6
         self.offset = passed if self.offset is None else min(passed, self.offset)
-        left = min(line.get("open_ms", 0) / 1e3, SHOWN_S) - (passed - self.offset)
+        left = min(line.get("openMs", 0) / 1e3, SHOWN_S) - (passed - self.offset)
         if is_newest:
-            corridor = Corridor(station=line["station"], open=left > 0, road_occupied=line["road_occupied"],
+            corridor = Corridor(station=line["station"], open=left > 0, road_occupied=line["roadOccupied"],
                                 valid_for=Duration(seconds=max(left, 0.0)).to_msg())
             corridor.header.stamp = self.node.now()
             self.corridor.publish(corridor)
-        what = {name: value for name, value in line.items() if name not in ("at_us", "open_ms")}
+        what = {name: value for name, value in line.items() if name not in ("atUs", "openMs")}
         if what == self.said and now - self.told < STATUS_S:
             return
         self.said, self.told = what, now
         executes = line.get("executes", {})
         status = Status(robot=self.robot["robot"], corridor=line.get("corridor", Status.CORRIDOR_CLEAR),
                         task=task_of(executes.get("task")), request=executes.get("request", 0),
-                        yields_to=line.get("yields_to", 0), duty=line.get("duty", ""),
-                        duty_request=line.get("duty_request", 0))
+                        yields_to=line.get("yieldsTo", 0), duty=line.get("duty", ""),
+                        duty_request=line.get("dutyRequest", 0))
         for name in ("station", "boot", "state", "role", "availability"):
             setattr(status, name, line[name])
         status.header.stamp = self.node.now()
         status.in_session, status.session = self.session(line.get("session"))
-        _, status.duty_session = self.session(line.get("duty_session"))
+        _, status.duty_session = self.session(line.get("dutySession"))
         status.followers = [
-            Follower(station=it["station"], has_joined=it["has_joined"], task=task_of(it.get("task")),
-                     progress=it.get("progress", ""), has_lease=it["has_lease"]) for it in line.get("followers", [])]
+            Follower(station=it["station"], has_joined=it["hasJoined"], task=task_of(it.get("task")),
+                     progress=it.get("progress", ""), has_lease=it["hasLease"]) for it in line.get("followers", [])]
         self.status.publish(status)
 
 

@@ -57,7 +57,7 @@ class Walker(Node):
             # To the nearer kerb with the escorted person; else it stands.
             ends = [self.begin, self.target] if goal.policy == Maneuver.Goal.ESCORT_TO_KERB else [self.place]
             target = min(ends, key=lambda end: math.dist(end, self.place))
-        else:
+        elif not goal.resumes:
             self.begin, self.target = self.place, target
         speed, last = (goal.speed or 0.5) * self.pace, time.monotonic()
         while self.current is handle and rclpy.ok():

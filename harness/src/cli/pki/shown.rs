@@ -18,6 +18,7 @@ const EPOCH_S: u64 = 1_072_915_200;
 
 /// A certificate for people and scripts.
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 pub(super) struct Shown {
     file: String,
     kind: &'static str,

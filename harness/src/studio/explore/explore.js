@@ -9,7 +9,7 @@ const GOALS = [
   ["Idle", null], ["HelpRequested", "requester"], ["HelpRequested", "helper"], ["RoleEstablished", "leader"], ["RoleEstablished", "follower"],
   ["ManeuverExecuting", "leader"], ["ManeuverExecuting", "follower"],
 ];
-const EVENTS = [["somebody is on the road", "person_on_road"], ["a sign shows go", "shows_go"], ["a body falls back", "falls_back"]];
+const EVENTS = [["somebody is on the road", "personOnRoad"], ["a sign shows go", "showsGo"], ["a body falls back", "fallsBack"]];
 
 let scenarios = [], properties = new Map(), runs = [];
 let shown = null, count = 0, chart = null;
@@ -108,12 +108,12 @@ async function attempt(work) {
 
 const fromFile = ({ file, run }) => ({
   title: `${file}: ${run.scenario}${run.property ? `, breaks ${run.property}` : ""}`, scenario: run.scenario, text: run.text, steps: run.steps,
-  repeatsAfter: run.repeats_after, broken: properties.get(run.property)?.statement ?? run.property, at: run.steps.length,
+  repeatsAfter: run.repeatsAfter, broken: properties.get(run.property)?.statement ?? run.property, at: run.steps.length,
 });
 
 const fromPaper = (it) => ({
-  title: `${it.id}: ${it.title}`, isPaper: true, robots: it.robots, steps: it.steps, repeatsAfter: it.repeats_after, broken: it.statement,
-  explanation: it.explanation, person: it.person, passage: `${it.kind}: section ${it.section}, ${it.paragraph}`, closedBy: it.closed_by,
+  title: `${it.id}: ${it.title}`, isPaper: true, robots: it.robots, steps: it.steps, repeatsAfter: it.repeatsAfter, broken: it.statement,
+  explanation: it.explanation, person: it.person, passage: `${it.kind}: section ${it.section}, ${it.paragraph}`, closedBy: it.closedBy,
   frames: it.frames.map((robots) => ({ robots, met: [], broken: [] })),
 });
 
@@ -158,7 +158,7 @@ async function find(event) {
   const found = await post("api/search", { run: runOf(name, null, []), goal });
   const states = `${found.states.toLocaleString("en")} states looked at`;
   if (!found.steps) {
-    id("found").textContent = found.is_complete ? `Never: all ${found.states.toLocaleString("en")} states were looked at.` : `Not found, and the search was cut off: ${states}.`;
+    id("found").textContent = found.isComplete ? `Never: all ${found.states.toLocaleString("en")} states were looked at.` : `Not found, and the search was cut off: ${states}.`;
     return;
   }
   id("found").textContent = `After ${found.steps.length} steps; ${states}.`;

@@ -99,13 +99,13 @@ function air() {
   const all = groups.some((ways) => ways.some(({ fate }) => fate === "arrives"))
     ? html("p", {}, html("button", { type: "button", id: "all", onclick: () => attempt(deliverAll) }, "Deliver all that is on air")) : "";
   const frame = walk.frames[walk.frames.length - 1];
-  const waiting = frame.on_air.length > 1 ? html("p", { class: "faint" }, `${frame.on_air.length} messages are on air; what becomes of them is decided one after the other.`) : "";
+  const waiting = frame.onAir.length > 1 ? html("p", { class: "faint" }, `${frame.onAir.length} messages are on air; what becomes of them is decided one after the other.`) : "";
   id("air").replaceChildren(rows.length ? html("ul", { class: "ways" }, rows) : html("p", { class: "faint" }, "None."), waiting, all);
 }
 
 function card(robot, lane) {
   const own = walk.possible.filter((step) => step.place.at === lane);
-  if (!own.length && walk.possible.some(isUnderWay) && !robot.is_down) return html("p", { class: "faint" }, "First decide what becomes of the messages on air.");
+  if (!own.length && walk.possible.some(isUnderWay) && !robot.isDown) return html("p", { class: "faint" }, "First decide what becomes of the messages on air.");
   const label = (step) => /^timer (.*) expires$/.test(step.action) ? step.action.replace(/^timer (.*) expires$/, "Let timer $1 run out") : step.action[0].toUpperCase() + step.action.slice(1);
   return html("div", { class: "acts", role: "group", "aria-label": `What may happen at ${walk.robots[lane]}` }, own.map((step) => button(label(step), step, BREAKDOWN.test(step.action) ? "harm" : undefined)));
 }
@@ -115,7 +115,7 @@ const fated = (fate) => messages()[0]?.find((it) => it.fate === fate)?.step;
 
 // A message to a robot that is down can only be lost.
 async function deliverAll() {
-  while (walk.frames[walk.frames.length - 1].on_air.length) {
+  while (walk.frames[walk.frames.length - 1].onAir.length) {
     const step = fated("arrives") ?? fated("lost");
     if (!step) return;
     await take(step);
@@ -133,7 +133,7 @@ function chance(seed, step) {
 // What happens by itself: messages get lost and delayed as often as the sliders say, and everything else is equally likely.
 function choice() {
   const roll = (salt) => chance(id("seed").value, play.steps.length * 7 + salt);
-  const onAir = walk.frames[walk.frames.length - 1].on_air.length > 0;
+  const onAir = walk.frames[walk.frames.length - 1].onAir.length > 0;
   if (onAir) {
     const wanted = roll(1) * 100 < Number(id("loss").value) ? "lost" : roll(2) * 100 < Number(id("delay").value) ? "delayed" : "arrives";
     return fated(wanted) ?? fated("arrives") ?? fated("lost");

@@ -40,8 +40,8 @@ export function drops(opening, moment) {
 export function times(overview) {
   const pair = (it, digits) => n(`${it.mean.toFixed(digits)} ± ${it.sd.toFixed(digits)}`);
   const rows = overview.times.flatMap((it) => [
-    { cells: [it.task, n(it.trials), pair(it.t_neg_s, 4), pair(it.round_trip_s, 4), pair(it.t_exec_s, 2), pair(it.t_tmct_s, 3)] },
-    ...(it.paper ? [{ attributes: { class: "faint" }, cells: [`${it.task} in the paper`, n(it.paper.trials), pair(it.paper.t_neg_s, 3), n("–"), n(it.paper.t_exec_s.toFixed(2)), pair(it.paper.t_tmct_s, 3)] }] : [])]);
+    { cells: [it.task, n(it.trials), pair(it.tNegS, 4), pair(it.roundTripS, 4), pair(it.tExecS, 2), pair(it.tTmctS, 3)] },
+    ...(it.paper ? [{ attributes: { class: "faint" }, cells: [`${it.task} in the paper`, n(it.paper.trials), pair(it.paper.tNegS, 3), n("–"), n(it.paper.tExecS.toFixed(2)), pair(it.paper.tTmctS, 3)] }] : [])]);
   const notes = overview.notesOnTimes.map((note) => html("p", { class: "faint" }, note));
   if (!rows.length) return [html("p", { class: "faint" }, "No maneuver was completed between robots whose logs are here."), ...notes];
   return [table("Times of maneuvers in seconds", ["maneuver", n("completed"), n("T_neg [s]"), n("round trip [s]"), n("T_exec [s]"), n("T_TMCT [s]")], rows),

@@ -46,7 +46,7 @@ export async function opened(input) {
 // Where a run left its scenario, in words.
 export function strayed(walk, steps) {
   if (!walk.stray) return null;
-  const { step, puts_out: output } = walk.stray;
+  const { step, putsOut: output } = walk.stray;
   const what = `Step ${step + 1}, “${steps[step].action}”,`;
   return output
     ? `${what} goes otherwise now: the robot puts out ${output.join(", ") || "nothing"}. The states from there on are not known.`

@@ -6,9 +6,9 @@ const SIGNS = { true: "shows go", false: "shows stop" };
 
 // `more` gives what else a card has; without it, the card names the timers.
 export function robots(names, frame, more) {
-  return frame.robots.map((robot, lane) => html("article", { class: robot.is_down ? "robot off" : "robot", "aria-label": names[lane] },
-    html("h3", {}, key(lane), names[lane], html("span", { class: "state" }, robot.is_down ? "down" : [robot.state, robot.role && `(${robot.role})`, robot.hangs && "hangs"].filter(Boolean).join(" "))),
-    robot.is_down ? "" : html("p", { class: "words" }, robot.words.replace(/; timers: .*$/, "")),
+  return frame.robots.map((robot, lane) => html("article", { class: robot.isDown ? "robot off" : "robot", "aria-label": names[lane] },
+    html("h3", {}, key(lane), names[lane], html("span", { class: "state" }, robot.isDown ? "down" : [robot.state, robot.role && `(${robot.role})`, robot.hangs && "hangs"].filter(Boolean).join(" "))),
+    robot.isDown ? "" : html("p", { class: "words" }, robot.words.replace(/; timers: .*$/, "")),
     robot.timers?.length && !more ? html("p", { class: "faint" }, `Timers: ${robot.timers.join(", ")}`) : "",
     more ? more(robot, lane) : ""));
 }
@@ -16,7 +16,7 @@ export function robots(names, frame, more) {
 const PERSON = {
   waiting: () => "Somebody waits at the kerb.",
   across: () => "The person is across.",
-  on_road: (names, at) => `Somebody is on the road, at the sign of ${names[at] ?? "a robot"}.`,
+  onRoad: (names, at) => `Somebody is on the road, at the sign of ${names[at] ?? "a robot"}.`,
 };
 
 export function person(names, frame) {
@@ -29,22 +29,22 @@ export function street(names, frame) {
   const where = person(names, frame);
   const [top, bottom] = [46, 134];
   const stripes = Array.from({ length: 6 }, (_, place) => svg("rect", { x: 290, y: top + 6 + place * 14, width: 60, height: 7, class: "stripe" }));
-  const spots = { parked: [70, 165], under_way: [180, 112], in_position: [235, 90], falling_back: [180, 150], ended: [70, 24] };
+  const spots = { parked: [70, 165], underWay: [180, 112], inPosition: [235, 90], fallingBack: [180, 150], ended: [70, 24] };
   const used = {};
   const bodies = frame.robots.map((robot, lane) => {
     const asks = robot.role === "leader" || robot.role === "requester";
     const kind = asks && robot.body === "parked" ? "sign" : robot.body;
     const row = used[kind] = (used[kind] ?? 0) + 1;
     const [x, y] = kind === "sign" ? [385 + (row - 1) * 90, 158] : [spots[kind][0] + (row - 1) * 62, spots[kind][1]];
-    return svg("g", { class: robot.is_down ? "gone" : "" },
+    return svg("g", { class: robot.isDown ? "gone" : "" },
       svg("path", { d: marker(lane, x, y, 8), class: `fill marker ${look(lane)}` }),
       svg("text", { x, y: y + 21, "text-anchor": "middle" }, short(names[lane])),
-      kind === "sign" || robot.shows_go ? svg("g", { class: robot.shows_go ? "sign go" : "sign stop" },
+      kind === "sign" || robot.showsGo ? svg("g", { class: robot.showsGo ? "sign go" : "sign stop" },
         svg("rect", { x: x - 19, y: y - 31, width: 38, height: 18, rx: 3 }),
-        svg("text", { x, y: y - 18, "text-anchor": "middle", class: "sign-text" }, robot.shows_go ? "GO" : "STOP")) : "");
+        svg("text", { x, y: y - 18, "text-anchor": "middle", class: "sign-text" }, robot.showsGo ? "GO" : "STOP")) : "");
   });
-  const at = { waiting: [320, bottom + 18], on_road: [320, (top + bottom) / 2], across: [320, top - 14] }[where.kind];
-  const labels = names.map((name, lane) => `${name} ${frame.robots[lane].body_words}${frame.robots[lane].shows_go ? `, its sign ${SIGNS[true]}` : ""}`);
+  const at = { waiting: [320, bottom + 18], onRoad: [320, (top + bottom) / 2], across: [320, top - 14] }[where.kind];
+  const labels = names.map((name, lane) => `${name} ${frame.robots[lane].bodyWords}${frame.robots[lane].showsGo ? `, its sign ${SIGNS[true]}` : ""}`);
   return svg("svg", { viewBox: "0 0 640 196", class: "scheme", role: "img", "aria-label": `${where.words} ${labels.join(". ")}.` },
     svg("rect", { x: 0, y: top, width: 640, height: bottom - top, class: "lane" }),
     svg("line", { x1: 0, y1: (top + bottom) / 2, x2: 640, y2: (top + bottom) / 2, class: "lane-middle" }),

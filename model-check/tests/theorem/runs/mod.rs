@@ -133,13 +133,16 @@ impl<'a> Run<'a> {
             }
             0..24 => {
                 let id = following?.executing()?.id;
-                match random.random_range(0..6) {
-                    0..3 => Event::InPosition(id),
-                    3..5 => Event::ManeuverCompleted(id),
+                match random.random_range(0..9) {
+                    0..5 => Event::InPosition(id),
+                    5..7 => Event::ManeuverCompleted(id),
+                    7 => Event::OutOfPosition(id),
                     _ => Event::ManeuverFailed(id),
                 }
             }
-            24..30 => Event::AllAnswered,
+            24..29 if leading.is_some() => Event::OpenCorridor,
+            24..29 => Event::AllAnswered,
+            29 => Event::PersonOnRoad,
             30 => Event::TaskCompleted,
             31 => Event::LeaveRequested,
             32 => Event::OpenCorridor,

@@ -5,9 +5,9 @@ use crossguard_protocol::laws::steps::{ignores, of_part_and_numbers};
 use crossguard_protocol::{EndReason, EventKind, NoticeKind, OutputKind, Role, TimerKind};
 
 use super::{FROM, IGNORED};
-use crate::protocol::stage::{becomes, steps};
+use crate::protocol::stage::{becomes, steps_of_leaders};
 
-steps! { FROM, of_part_and_numbers;
+steps_of_leaders! { FROM, of_part_and_numbers;
     @each |step| { "ignored": step.is_ignored() } {
         hears_a_request(IGNORED[0], ignores);
         hears_a_command(IGNORED[1], ignores);
@@ -25,6 +25,8 @@ steps! { FROM, of_part_and_numbers;
         "grants a lease": step.said.tells(NoticeKind::LeaseGranted),
         "counts as acknowledged": step.said.tells(NoticeKind::CommandAcknowledged),
         "counts as in position": step.said.tells(NoticeKind::ManeuverInPosition),
+        "counts as out of position": step.said.tells(NoticeKind::ManeuverReported)
+            && step.said.has(OutputKind::CorridorClosed),
         "counts as completed": step.said.tells(NoticeKind::ManeuverCompleted),
         "extends the corridor": step.said.has(OutputKind::CorridorExtended),
         "closes the corridor": step.said.has(OutputKind::CorridorClosed),
@@ -57,25 +59,6 @@ steps! { FROM, of_part_and_numbers;
     hears_an_answer(Kind::Answer) |step| {
         "acknowledged": step.said.tells(NoticeKind::CommandAcknowledged),
         "rejected": step.said.tells(NoticeKind::CommandRejected),
-        "ignored": step.is_ignored(),
-    }
-
-    /// The application commands a maneuver.
-    commands(Kind::Local(EventKind::CommandManeuver)) |step| {
-        "commands": step.said.commanded,
-        "renews the session": step.said.ended == Some(EndReason::Renewed),
-        "ignored": step.is_ignored(),
-    }
-
-    /// The application opens the corridor.
-    opens_the_corridor(Kind::Local(EventKind::OpenCorridor)) |step| {
-        "opens": step.said.has(OutputKind::CorridorOpened),
-        "ignored": step.is_ignored(),
-    }
-
-    /// The application closes the corridor.
-    closes_the_corridor(Kind::Local(EventKind::CloseCorridor)) |step| {
-        "closes": step.said.has(OutputKind::CorridorClosed),
         "ignored": step.is_ignored(),
     }
 

@@ -1,8 +1,8 @@
 //! Arbitrary messages.
 
 use super::{
-    Any, ME, PEER, Source, heartbeat, help_request, list, number, offer_number, option, place,
-    request_id, session, session_number, station, task, task_set,
+    Any, ME, PEER, Source, escort, heartbeat, help_request, list, number, offer_number, option,
+    place, request_id, session, session_number, station, task_set,
 };
 use crate::MAX_FOLLOWERS;
 use crate::config::Settings;
@@ -93,7 +93,7 @@ pub fn command(source: &mut impl Source) -> Command {
         session: session(source, PEER),
         to: station(source, ME),
         request: request_id(source),
-        task: task(source),
+        task: escort(source),
     }
 }
 

@@ -3,8 +3,8 @@
 use super::message::farewell;
 use super::{
     Any, AnyWord, BOOT, HEARTBEAT, ME, PEER, REQUEST, Source, availability, choice,
-    earlier_heartbeat, heartbeat, help_request, likely, list, maneuver_id, number, offer_number,
-    option, request_id, session, session_number, station, task, task_like, task_set,
+    earlier_heartbeat, escort, heartbeat, help_request, likely, list, maneuver_id, number,
+    offer_number, option, request_id, session, session_number, station, task, task_like, task_set,
 };
 use crate::config::Config;
 use crate::id::{Heartbeat, OfferNumber, RequestId, SessionNumber, StationId};
@@ -127,7 +127,7 @@ fn duty(source: &mut impl Source) -> Duty {
     } else {
         Duty::FallingBack(Maneuver {
             id: maneuver_id(source),
-            task: task(source),
+            task: escort(source),
         })
     }
 }
@@ -223,13 +223,18 @@ fn echo(source: &mut impl Source) -> Heartbeat {
 
 fn order(source: &mut impl Source, config: &Config, engaged: bool, hint: u8) -> Order {
     let request = RequestId(source.u8(hint));
-    let (hint, guards) = if engaged {
-        let executing = ProgressKind::Executing as u32;
-        (executing, u32::from(TaskType::MOVE.value()))
+    // Hints: it goes with people, or holds its place.
+    let guards = if source.flag() {
+        (ProgressKind::Executing, TaskType::MOVE)
+    } else {
+        (ProgressKind::InPosition, TaskType::BLOCK)
+    };
+    let (hint, task) = if engaged {
+        (guards.0 as u32, u32::from(guards.1.value()))
     } else {
         (u32::MAX, u32::MAX)
     };
-    let task = task_like(source, guards);
+    let task = task_like(source, task);
     let progress = option(source, |s| Progress::any_like(s, hint));
     let is_running = progress.is_none_or(Progress::is_running);
     Order {
@@ -260,5 +265,6 @@ fn following(source: &mut impl Source, config: &Config) -> Following {
             request: request_id(s).next(),
             reason: Rejection::any(s),
         }),
+        sees_people: source.flag(),
     }
 }

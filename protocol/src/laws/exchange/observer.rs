@@ -1,8 +1,9 @@
 //! How the history grows: by what a robot is told by its own body, by what it puts out, in this order, and by the part
 //! that it takes.
 //!
-//! Only the leader and the follower of the exchange make facts known, each its own. Each `match` names all inputs and
-//! outputs, so that a new one has to be considered here.
+//! Only the leader and the follower of the exchange make facts known, each its own. Each `match` names all outputs, so
+//! that a new one has to be considered here. An event is a fact only where an output is judged by it: one that is
+//! forgotten breaks the property of that output.
 
 use super::{Exchange, Heard, History, messages};
 use crate::id::{Heartbeat, StationId};
@@ -46,17 +47,7 @@ impl Observer {
         let history = &mut self.history;
         let id = match event {
             Event::InPosition(id) | Event::ManeuverCompleted(id) | Event::ManeuverFailed(id) => *id,
-            Event::PedestrianDetected(_)
-            | Event::CommandManeuver { .. }
-            | Event::TaskCompleted
-            | Event::RoadClear
-            | Event::AllAnswered
-            | Event::LeaveRequested
-            | Event::AvailabilityChanged(_)
-            | Event::OpenCorridor
-            | Event::CloseCorridor
-            | Event::IdentityChanged(..)
-            | Event::EpochRenewed(_) => return,
+            _ => return,
         };
         if self.station != self.exchange.follower || id != self.exchange.maneuver() {
             return;

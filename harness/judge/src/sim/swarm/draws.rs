@@ -254,15 +254,21 @@ impl Draws {
         } else {
             6.0
         };
-        let tasks = [TaskType::INITIAL_POS, TaskType::MOVE, TaskType::BLOCK];
-        let stages = (0..self.0.random_range(1..=4)).map(|_| {
+        // People are escorted in the last stage, in which the corridor is open.
+        let before = [TaskType::INITIAL_POS, TaskType::BLOCK];
+        let last = [TaskType::INITIAL_POS, TaskType::BLOCK, TaskType::MOVE];
+        let mut stages = Vec::new();
+        for left in (0..self.0.random_range(1..=4)).rev() {
+            let tasks: &[TaskType] = if left == 0 { &last } else { &before };
             let task = *tasks.choose(&mut self.0).expect("there are tasks");
-            Stage::everybody(Leg::new(task, self.place()))
-        });
-        let mut stages: Vec<_> = stages.collect();
+            stages.push(Stage::everybody(Leg::new(task, self.place())));
+        }
         // Who escorts for the second time has to come back first.
         if let [stage] = &stages[..]
-            && stage.is_escort()
+            && stage
+                .parts
+                .iter()
+                .any(|(_, leg)| leg.task == TaskType::MOVE)
         {
             let back = Stage::everybody(Leg::new(TaskType::INITIAL_POS, self.place()));
             stages.insert(0, back);

@@ -14,7 +14,7 @@ macro_rules! hazards {
     ($($hazard:ident $name:literal: $what:literal;)*) => {
         /// Something that makes a run hard.
         #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
-        #[serde(rename_all = "snake_case")]
+        #[serde(rename_all = "camelCase")]
         pub enum Hazard {
             $(#[doc = $what] $hazard,)*
         }

@@ -116,11 +116,11 @@ impl World<'_> {
     /// Who has had the time is across.
     pub(super) fn get_across(&mut self) {
         let now_us = self.now_us;
-        if self.people.iter().all(|it| it.across_us > now_us) {
-            return;
-        }
         for corner in &self.corners {
             corner.street.look(now_us, false);
+        }
+        if self.people.iter().all(|it| it.across_us > now_us) {
+            return;
         }
         let (monitor, progress) = (&mut self.monitor, &mut self.progress);
         self.people.retain(|it| {

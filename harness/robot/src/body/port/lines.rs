@@ -1,4 +1,4 @@
-//! The lines of the body port, version 1: one JSON object each, with its kind under `type`.
+//! The lines of the body port, version 2: one JSON object each, with its kind under `type`.
 
 use crossguard_codec::{Target, TaskParameters};
 use crossguard_protocol::{FallbackPolicy, Maneuver};
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::site::{Place, Site};
 
 /// The version that both sides say in `hello`.
-pub const VERSION: u8 = 1;
+pub const VERSION: u8 = 2;
 
 /// What the kit says to a body.
 #[derive(Clone, PartialEq, Debug, Serialize)]
@@ -17,6 +17,8 @@ pub(super) enum ToBody {
     Start(Start),
     Stop { id: String, why: String },
     FallBack { id: String, policy: &'static str },
+    Wait,
+    GoOn,
     Go { to: At },
     Halt,
     Release,
@@ -26,6 +28,7 @@ pub(super) enum ToBody {
 
 /// A maneuver that begins.
 #[derive(Clone, PartialEq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub(super) struct Start {
     id: String,
     task: String,
@@ -39,6 +42,7 @@ pub(super) struct Start {
 
 /// A place, on the site and on earth.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub(super) struct At {
     east_m: f64,
     north_m: f64,
@@ -48,7 +52,11 @@ pub(super) struct At {
 
 /// What a body says to the kit. Fields that are not named here are left alone.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
-#[serde(tag = "type", rename_all = "kebab-case")]
+#[serde(
+    rename_all_fields = "camelCase",
+    tag = "type",
+    rename_all = "kebab-case"
+)]
 pub(super) enum FromBody {
     Hello {
         crossguard: u8,

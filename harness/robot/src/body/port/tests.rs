@@ -61,7 +61,7 @@ fn acts_go_out_as_lines_and_what_the_body_says_comes_in() {
     );
     writeln!(
         other,
-        "{{\"type\": \"hello\", \"crossguard\": 1, \"name\": \"later\"}}"
+        "{{\"type\": \"hello\", \"crossguard\": 2, \"name\": \"later\"}}"
     )
     .unwrap();
     assert_eq!(report(&mut body), Some(Report::Here));
@@ -79,11 +79,11 @@ fn acts_go_out_as_lines_and_what_the_body_says_comes_in() {
         (&"1#1.0/0".into(), &"in-position".into())
     );
     assert!(
-        (line["to"]["east_m"].as_f64().unwrap() - 6.0).abs() < 1e-6,
+        (line["to"]["eastM"].as_f64().unwrap() - 6.0).abs() < 1e-6,
         "{line}"
     );
-    assert_eq!(line["heading_deg"], 90.0);
-    let said = "{\"type\": \"pose\", \"east_m\": 6.1, \"north_m\": 5}\n{\"type\": \"in-position\", \"id\": \"1#1.0/0\"}";
+    assert_eq!(line["headingDeg"], 90.0);
+    let said = "{\"type\": \"pose\", \"eastM\": 6.1, \"northM\": 5}\n{\"type\": \"in-position\", \"id\": \"1#1.0/0\"}";
     writeln!(other, "{said}").unwrap();
     let there = Report::InPosition(maneuver(TaskType::BLOCK).id);
     assert_eq!(report(&mut body), Some(there));
@@ -95,7 +95,7 @@ fn a_body_that_says_nothing_is_silent_once_and_the_end_of_its_connection_is_sile
     let folder = tempfile::tempdir().unwrap();
     let (mut body, mut other) = open(folder.path());
     assert_eq!(report(&mut body), Some(Report::Absent));
-    writeln!(other, "{{\"type\": \"hello\", \"crossguard\": 1}}").unwrap();
+    writeln!(other, "{{\"type\": \"hello\", \"crossguard\": 2}}").unwrap();
     assert_eq!(report(&mut body), Some(Report::Here));
     // It hangs.
     assert_eq!(report(&mut body), Some(Report::Silent));
@@ -105,24 +105,50 @@ fn a_body_that_says_nothing_is_silent_once_and_the_end_of_its_connection_is_sile
     let start = BodyAct::Start(maneuver(TaskType::MOVE), TaskParameters::default());
     assert!(body.act(start).is_err());
     let mut again = UnixStream::connect(folder.path().join("body.sock")).unwrap();
-    writeln!(again, "{{\"type\": \"hello\", \"crossguard\": 1}}").unwrap();
+    writeln!(again, "{{\"type\": \"hello\", \"crossguard\": 2}}").unwrap();
     assert_eq!(report(&mut body), Some(Report::Here));
     drop(again);
     assert_eq!(report(&mut body), Some(Report::Silent));
 }
 
 #[test]
-fn another_version_is_refused() {
+fn a_body_is_told_to_wait_and_to_go_on_in_its_maneuver() {
     let folder = tempfile::tempdir().unwrap();
     let (mut body, mut other) = open(folder.path());
     assert_eq!(report(&mut body), Some(Report::Absent));
     writeln!(other, "{{\"type\": \"hello\", \"crossguard\": 2}}").unwrap();
+    assert_eq!(report(&mut body), Some(Report::Here));
+    let escort = maneuver(TaskType::MOVE);
+    let start = BodyAct::Start(escort, TaskParameters::default());
+    for act in [start, BodyAct::Wait, BodyAct::GoOn] {
+        assert_eq!(body.act(act), Ok(()));
+    }
+    let mut lines = BufReader::new(other.try_clone().unwrap());
+    let said = std::iter::repeat_with(|| heard(&mut lines)["type"].clone());
+    let said: Vec<_> = said.filter(|it| it != "beat").take(4).collect();
+    assert_eq!(said, ["hello", "start", "wait", "go-on"]);
+    writeln!(other, "{{\"type\": \"completed\", \"id\": \"1#1.0/0\"}}").unwrap();
+    assert_eq!(report(&mut body), Some(Report::Completed(escort.id)));
+    assert_eq!(report(&mut body), Some(Report::Silent));
+    assert_eq!(body.act(BodyAct::Wait), Ok(()), "it stands by itself");
+    assert!(body.act(BodyAct::GoOn).is_err());
+}
+
+#[test]
+fn a_body_of_the_version_without_wait_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut body, mut other) = open(folder.path());
+    assert_eq!(report(&mut body), Some(Report::Absent));
+    writeln!(other, "{{\"type\": \"hello\", \"crossguard\": 1}}").unwrap();
     assert_eq!(report(&mut body), Some(Report::Garbled));
     let mut lines = BufReader::new(other);
     assert_eq!(heard(&mut lines)["type"], "hello");
     let refused = heard(&mut lines);
     assert!(
-        refused["why"].as_str().unwrap().starts_with("version 2"),
+        refused["why"]
+            .as_str()
+            .unwrap()
+            .starts_with("version 1: 2 is spoken"),
         "{refused}"
     );
 }

@@ -14,7 +14,11 @@ use crate::around::Around;
 
 /// What the kit says to a program at the operator port.
 #[derive(Serialize)]
-#[serde(tag = "type", rename_all = "kebab-case")]
+#[serde(
+    rename_all_fields = "camelCase",
+    tag = "type",
+    rename_all = "kebab-case"
+)]
 pub(super) enum ToOperator<'a> {
     Hello {
         crossguard: u64,
@@ -98,7 +102,7 @@ pub(super) fn said(output: &Output) -> Fields {
         "request": said.request,
         "station": said.station,
         "session": said.session.map(session),
-        "open_ms": said.open,
+        "openMs": said.open,
         "text": output.to_string(),
     }))
 }
@@ -135,11 +139,11 @@ pub(super) fn condition(robot: &Robot) -> Fields {
         "followers": followers,
         "executes": executes.map(|it| json!({ "task": it.task, "request": it.id.request })),
         "corridor": corridor.name(),
-        "road_occupied": corridor != Corridor::Clear || matches!(robot.duty(), Some(Duty::Crossing(_))),
-        "yields_to": leading.and_then(|it| it.yields_to),
+        "roadOccupied": corridor != Corridor::Clear || matches!(robot.duty(), Some(Duty::Crossing(_))),
+        "yieldsTo": leading.and_then(|it| it.yields_to),
         "duty": duty,
-        "duty_session": duty_session.map(session),
-        "duty_request": duty_request,
+        "dutySession": duty_session.map(session),
+        "dutyRequest": duty_request,
     }))
 }
 
@@ -147,9 +151,9 @@ fn follower(member: &Member) -> Value {
     let order = member.order;
     Value::Object(fields(json!({
         "station": member.station,
-        "has_joined": member.has_joined(),
+        "hasJoined": member.has_joined(),
         "task": order.map(|it| it.task),
         "progress": order.and_then(|it| it.progress).map(|it| it.kind().name()),
-        "has_lease": member.lease.stands(),
+        "hasLease": member.lease.stands(),
     })))
 }

@@ -94,7 +94,7 @@ fn each_line_is_an_order_or_is_refused_and_counted() {
     assert_eq!(
         heard(&mut lines),
         serde_json::json!({"type": "hello", "crossguard": 1, "robot": "Go2", "station": 2, "boot": 7,
-            "trusts_ros_graph": true})
+            "trustsRosGraph": true})
     );
     say(&mut counter, 0, HELLO);
     let tell = |event| Ok(Some(Order::Wish(Stimulus::Event(event))));
@@ -140,8 +140,8 @@ fn each_line_is_an_order_or_is_refused_and_counted() {
             Ok(Some(Order::Stop)),
         ),
         (
-            r#"{"type": "person", "nobody": true}"#,
-            Ok(Some(Order::Perceived(None))),
+            r#"{"type": "frame", "people": []}"#,
+            Err("a frame wants either 'at_s'"),
         ),
         (HELLO, Ok(None)),
         (r#"{"type": "command", "line": " "}"#, Ok(None)),
@@ -215,11 +215,11 @@ fn what_the_robot_does_is_told_with_its_state_at_every_change_and_as_a_beat() {
         (&state["state"], &state["role"], &state["session"]["leader"]),
         (&"HelpRequested".into(), &"requester".into(), &2.into())
     );
-    assert!(state.get("open_ms").is_none() && state["corridor"] == "clear");
+    assert!(state.get("openMs").is_none() && state["corridor"] == "clear");
     // Nothing more is told before it is time.
     counter.elapse(BEAT_US);
     counter.elapse(BEAT_US + 9);
-    assert_eq!(heard(&mut lines)["at_us"], BEAT_US + 9);
+    assert_eq!(heard(&mut lines)["atUs"], BEAT_US + 9);
 }
 
 #[test]

@@ -1,0 +1,426 @@
+//! P1, P2 and P4 of the crossing, on logs that have people and positions.
+//!
+//! | property | what logs show | judged when |
+//! |---|---|---|
+//! | P1 | While somebody is on the carriageway, no guard leaves because of an application's word. | a guard ends its maneuver or duty by a word of its own application (`ManeuverCompleted`, `RoadClear`) or by its leader's `TaskCompleted` |
+//! | P2 | While go is shown, each guard that holds a place is within [`TOLERANCE_M`] of it, or left it a short time ago. | a guard sends a RAM, or go begins or goes on |
+//! | P4 | An escort that moves is no further than [`AHEAD_M`] ahead of somebody whom it sees on the carriageway. | an escort sends a RAM while it sees somebody on the carriageway |
+//!
+//! What people do is worked out of their [places](super::ground) alone, never of what a robot made of them. Guards are
+//! judged by what bodies are told (start, stop, fall back), positions by the robots' own RAM, to which the error that
+//! they state is added. Clocks of several machines are taken as they are.
+//!
+//! A person who stepped on the road under go may be seen there a moment after the team was freed: that breaks P1 as
+//! well, until a second of the robots' own time after go.
+
+use std::collections::{BTreeMap, HashMap};
+
+use crossguard_codec::{Identifiers, Position, Service};
+use crossguard_endpoint::station::listen::overhear;
+use crossguard_protocol::{
+    Config, Event, FallbackPolicy, Input, Maneuver, ManeuverId, Output, Outputs, ReleaseReason,
+    Robot, SessionId, StationId, StopReason,
+};
+use crossguard_robot::trace::Entry;
+
+use super::fault::Fault;
+use super::ground::{Ground, Metres, distance, seconds};
+use super::targets;
+
+/// How far a guard may be from its place, and an escort ahead of its person, besides the stated error of its
+/// position.
+const TOLERANCE_M: f64 = 2.0;
+const AHEAD_M: f64 = 2.0;
+
+/// A slower body stands.
+const MOVES_MPS: f64 = 0.3;
+
+/// An escort stops within so many seconds.
+const STOPS_S: f64 = 1.0;
+
+/// For how long after its last position a robot still is where it was, in µs.
+const PLACED_US: u64 = 1_000_000;
+
+/// Guards, signs and people of a run.
+#[derive(Debug, Default)]
+pub(super) struct Crossing {
+    ground: Ground,
+    guards: BTreeMap<String, Guard>,
+    /// The newest place of each robot and its stated error, in metres, and when.
+    places: BTreeMap<String, (u64, Metres, f64)>,
+    /// Until when the sign of each leader shows go.
+    go: BTreeMap<String, Go>,
+    targets: HashMap<(ManeuverId, StationId), Metres>,
+    /// The guard that left last by its leader's word, and until when a person who saw go may be seen to step on the
+    /// road.
+    freed: Option<(String, u64)>,
+    left: usize,
+    held: usize,
+    escorted: usize,
+    has_guards: bool,
+    may_be_away_ms: u64,
+}
+
+/// A body that guards.
+#[derive(Clone, Copy, Debug)]
+struct Guard {
+    maneuver: Maneuver,
+    station: StationId,
+    /// Whether it holds a place.
+    holds: bool,
+    /// When it was at its place last, or was sent there.
+    there_us: u64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Go {
+    session: SessionId,
+    until_us: u64,
+    /// For how long a guard may have left its place.
+    may_be_away_us: u64,
+}
+
+impl Crossing {
+    /// A robot made a record at this time since 1970.
+    pub(super) fn take(
+        &mut self,
+        robot: &str,
+        at_us: u64,
+        entry: &Entry,
+        (config, identifiers): (&Config, &Identifiers),
+    ) -> Result<(), Fault> {
+        self.ground.lives(robot, at_us);
+        match entry {
+            Entry::Stopped { .. } => self.forget(robot),
+            Entry::Zone(outline) => self.ground.outline(robot, outline),
+            Entry::People(sight) => {
+                self.ground.see(robot, at_us, sight);
+                self.freed_too_early(at_us)?;
+            }
+            Entry::Step {
+                input,
+                outputs,
+                state,
+            } => {
+                self.show(robot, at_us, outputs, state, config);
+                self.guard(robot, at_us, *input, outputs, state, config)?;
+                if outputs.iter().any(|it| go_for(it).is_some()) {
+                    self.guards_are_there(at_us)?;
+                }
+            }
+            Entry::Sent {
+                message, octets, ..
+            } => {
+                self.targets(identifiers, octets, *message);
+                if *message == Service::Ram {
+                    self.is_at(robot, at_us, identifiers, octets)?;
+                    self.guards_are_there(at_us)?;
+                }
+            }
+            Entry::Heard {
+                message, octets, ..
+            } => self.targets(identifiers, octets, *message),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// A robot starts, which moves so many times as fast as real.
+    pub(super) fn start(&mut self, robot: &str, speed: f64) {
+        self.ground.move_at(speed);
+        self.forget(robot);
+    }
+
+    /// A robot is down.
+    pub(super) fn forget(&mut self, robot: &str) {
+        self.ground.forget(robot);
+        self.guards.remove(robot);
+    }
+
+    /// Keeps where commands lead.
+    fn targets(&mut self, identifiers: &Identifiers, octets: &[u8], message: Service) {
+        if message != Service::Rmcm {
+            return;
+        }
+        for (command, place) in targets::commands(identifiers, octets) {
+            let degrees = place.and_then(|it: Position| it.latitude.zip(it.longitude));
+            if let Some(degrees) = degrees {
+                let place = self.ground.metres(degrees);
+                let id = ManeuverId {
+                    session: command.session,
+                    request: command.request,
+                };
+                self.targets.insert((id, command.to), place);
+            }
+        }
+    }
+
+    /// What a step means for the sign.
+    fn show(&mut self, robot: &str, at_us: u64, outputs: &Outputs, state: &Robot, config: &Config) {
+        for output in outputs.iter() {
+            if let (Some(time_us), Some(session)) = (go_for(output), state.session()) {
+                let may_be_away_us = u64::from(config.settings().t_lease.0) * 1_000 + PLACED_US;
+                self.may_be_away_ms = self.may_be_away_ms.max(may_be_away_us / 1_000);
+                self.go.insert(
+                    robot.to_owned(),
+                    Go {
+                        session,
+                        until_us: at_us + time_us,
+                        may_be_away_us,
+                    },
+                );
+            }
+            if let (Output::CorridorClosed(_), Some(go)) = (output, self.go.get_mut(robot)) {
+                go.until_us = go.until_us.min(at_us);
+            }
+        }
+    }
+
+    /// What a step means for a body that guards, or begins to (P1).
+    fn guard(
+        &mut self,
+        robot: &str,
+        at_us: u64,
+        input: Input,
+        outputs: &Outputs,
+        state: &Robot,
+        config: &Config,
+    ) -> Result<(), Fault> {
+        let settings = config.settings();
+        let before = self.guards.remove(robot);
+        let (mut guards, mut word) = (before, None);
+        let is_taken = outputs.ignored().is_none();
+        match input {
+            Input::Local(event @ Event::ManeuverCompleted(_)) if is_taken => {
+                (guards, word) = (None, Some(event.to_string()));
+            }
+            Input::Local(Event::ManeuverFailed(_)) => guards = None,
+            Input::Local(event @ Event::RoadClear) if is_taken && state.duty().is_none() => {
+                (guards, word) = (None, Some(event.to_string()));
+            }
+            _ => {}
+        }
+        for output in outputs.iter() {
+            match *output {
+                Output::StartManeuver(maneuver) => {
+                    guards = settings.guarding.contains(maneuver.task).then_some(Guard {
+                        maneuver,
+                        station: state.station(),
+                        holds: settings.holding.contains(maneuver.task),
+                        there_us: at_us,
+                    });
+                }
+                Output::StopManeuver(_, why) => {
+                    guards = None;
+                    if before.is_some() && why == StopReason::Released(ReleaseReason::TaskCompleted)
+                    {
+                        word = Some("task completed".to_owned());
+                        let go_us = self.go.values().map(|go| go.until_us.min(at_us)).max();
+                        let freed =
+                            go_us.map(|go_us| (robot.to_owned(), go_us + self.ground.stays_us()));
+                        self.freed = freed.or(self.freed.take());
+                    }
+                }
+                Output::FallBack(_, policy) => {
+                    let stays = matches!(
+                        policy,
+                        FallbackPolicy::HoldUntilClear | FallbackPolicy::EscortToKerb
+                    );
+                    guards = guards.filter(|_| stays);
+                }
+                _ => {}
+            }
+        }
+        if let Some(guard) = guards {
+            self.has_guards = true;
+            self.guards.insert(robot.to_owned(), guard);
+        }
+        let (Some(_), None, Some(word)) = (before, guards, word) else {
+            return Ok(());
+        };
+        self.left += usize::from(self.ground.has_sights());
+        match self.ground.on_road(at_us).next() {
+            Some(person) => Err(Fault::GuardLeft {
+                robot: robot.to_owned(),
+                word,
+                by: person.by.to_owned(),
+                east: person.at[0],
+                north: person.at[1],
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// Somebody is seen on the road who saw go, and whose guards have left since (P1).
+    fn freed_too_early(&self, at_us: u64) -> Result<(), Fault> {
+        let freed = self
+            .freed
+            .as_ref()
+            .filter(|(_, until_us)| at_us <= *until_us);
+        match (freed, self.ground.on_road(at_us).next()) {
+            (Some((robot, _)), Some(person)) => Err(Fault::GuardLeft {
+                robot: robot.clone(),
+                word: "task completed".to_owned(),
+                by: person.by.to_owned(),
+                east: person.at[0],
+                north: person.at[1],
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Guards that hold a place are there while go is shown (P2).
+    fn guards_are_there(&mut self, at_us: u64) -> Result<(), Fault> {
+        for (robot, guard) in &self.guards {
+            let shows = |go: &&Go| go.session == guard.maneuver.id.session && at_us < go.until_us;
+            let Some(go) = self.go.values().find(shows) else {
+                continue;
+            };
+            let has_place =
+                self.places.contains_key(robot) && guard.target(&self.targets).is_some();
+            if !guard.holds || !has_place {
+                continue;
+            }
+            self.held += 1;
+            let away_us = at_us.saturating_sub(guard.there_us);
+            if away_us > go.may_be_away_us {
+                return Err(Fault::GuardAway {
+                    robot: robot.clone(),
+                    away_ms: away_us / 1_000,
+                    may_ms: go.may_be_away_us / 1_000,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// A robot says where it is.
+    fn is_at(
+        &mut self,
+        robot: &str,
+        at_us: u64,
+        identifiers: &Identifiers,
+        octets: &[u8],
+    ) -> Result<(), Fault> {
+        let state = overhear(identifiers, octets)
+            .ok()
+            .and_then(|heard| heard.state);
+        let position = state.map(|state| state.position).unwrap_or_default();
+        let Some(degrees) = position.latitude.zip(position.longitude) else {
+            return Ok(());
+        };
+        let here = self.ground.metres(degrees);
+        let error = position.ellipse.map_or(0.0, |ellipse| ellipse.semi_major);
+        let before = self.places.insert(robot.to_owned(), (at_us, here, error));
+        let Some(guard) = self.guards.get_mut(robot) else {
+            return Ok(());
+        };
+        if guard.holds {
+            let target = guard.target(&self.targets);
+            if target.is_some_and(|target| distance(here, target) <= TOLERANCE_M + error) {
+                guard.there_us = at_us;
+            }
+            return Ok(());
+        }
+        match before {
+            Some(before) => self.escorts(robot, before, (at_us, here, error)),
+            None => Ok(()),
+        }
+    }
+
+    /// An escort has moved from one place to another (P4).
+    fn escorts(
+        &mut self,
+        robot: &str,
+        (before_us, before, _): (u64, Metres, f64),
+        (at_us, here, error): (u64, Metres, f64),
+    ) -> Result<(), Fault> {
+        let (way, passed_s) = (
+            distance(before, here),
+            seconds(at_us.saturating_sub(before_us)),
+        );
+        // An escort without sensors cannot know.
+        let people = self.ground.on_road(at_us).filter(|it| it.by == robot);
+        let nearest = people.min_by(|a, b| distance(a.at, here).total_cmp(&distance(b.at, here)));
+        let Some(person) = nearest.filter(|_| way > MOVES_MPS * passed_s && passed_s > 0.0) else {
+            return Ok(());
+        };
+        self.escorted += 1;
+        let along =
+            |axis: usize| (here[axis] - person.at[axis]) * (here[axis] - before[axis]) / way;
+        let (ahead_m, may_m) = (
+            along(0) + along(1),
+            AHEAD_M + error + way / passed_s * STOPS_S,
+        );
+        if ahead_m <= may_m {
+            return Ok(());
+        }
+        Err(Fault::EscortAhead {
+            robot: robot.to_owned(),
+            ahead_m,
+            may_m,
+        })
+    }
+
+    /// What was judged, and what was not.
+    pub(super) fn verdict(&self) -> Vec<String> {
+        let people = match (self.ground.has_sights(), self.ground.has_road()) {
+            (false, _) => Some("no sight in the log"),
+            (true, false) => Some("no outline of a road in the log"),
+            (true, true) => None,
+        };
+        let guards = (!self.has_guards).then_some("nobody guarded");
+        let verdict = |id: &str, why: Option<&str>, kept: String| match why {
+            Some(why) => format!("{id} not judged: {why}"),
+            None => format!("{id} kept {kept}"),
+        };
+        let left = (self.left == 0).then_some("no guard left by an application's word");
+        let held =
+            (self.held == 0).then_some("no position of a guard at a place while go was shown");
+        let escorted =
+            (self.escorted == 0).then_some("no escort moved while it saw somebody on the road");
+        vec![
+            verdict(
+                "P1",
+                people.or(guards).or(left),
+                format!(
+                    "{} times: nobody on the road when a guard left by an application's word",
+                    self.left
+                ),
+            ),
+            verdict(
+                "P2",
+                guards.or(held),
+                format!(
+                    "{} times: under go, each guard within {TOLERANCE_M} m and its error of its place, or away for less \
+                     than {} ms",
+                    self.held, self.may_be_away_ms
+                ),
+            ),
+            verdict(
+                "P4",
+                people.or(guards).or(escorted),
+                format!(
+                    "{} times: no escort further ahead than {AHEAD_M} m, its error and {STOPS_S} s of its way",
+                    self.escorted
+                ),
+            ),
+        ]
+    }
+}
+
+impl Guard {
+    fn target(&self, targets: &HashMap<(ManeuverId, StationId), Metres>) -> Option<Metres> {
+        targets.get(&(self.maneuver.id, self.station)).copied()
+    }
+}
+
+/// For how many µs an output shows go.
+fn go_for(output: &Output) -> Option<u64> {
+    match output {
+        Output::CorridorOpened(time) | Output::CorridorExtended(time) => {
+            Some(u64::from(time.0) * 1_000)
+        }
+        _ => None,
+    }
+}

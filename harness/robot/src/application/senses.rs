@@ -1,0 +1,268 @@
+//! What the crossing machine takes in of a robot: its body, its sensors, a simulated street, and other stations.
+
+use std::collections::BTreeMap;
+
+use crossguard_codec::{Identity, Kind, Position, Target, TaskParameters};
+use crossguard_crossing::{
+    BodyReport, Coverage, Frame, Input, Point, Pose, RoadUser, Sighting, Vehicle,
+};
+use crossguard_endpoint::ras::clustering::PerceivedVru;
+use crossguard_endpoint::station::{LocalDynamicMap, Neighbour};
+use crossguard_protocol::{Millis, Phase, Robot, StationId};
+
+use super::{Application, Conduct};
+use crate::body::Report;
+use crate::perception::SensorFrame;
+use crate::sight::{Seen, Sight};
+use crate::site::Place;
+use crate::street::Road;
+use crate::zone::{class, place, point, sighting, velocity};
+
+/// Shortest time between two sights in which as many people are on the road, in seconds of the robot's own time.
+const SIGHT_PERIOD_S: f64 = 0.2;
+
+/// Error of a position of which nobody says how right it is, in centimetres.
+const UNKNOWN_ERROR_CM: u16 = 100;
+
+/// What was said of the people last.
+#[derive(Debug, Default)]
+pub(super) struct Said {
+    /// When, in seconds.
+    last: Option<(f64, Sight)>,
+    /// When each follower's position was heard last, on the robot's clock in ms.
+    heard_ms: BTreeMap<StationId, u64>,
+}
+
+impl Application {
+    /// The sensors have somebody, at a place on the site, now: that adds them, and takes nobody away.
+    pub fn perceive(&mut self, vru: &PerceivedVru) {
+        // In a simulation there is nobody else.
+        if matches!(self.road, Road::Known(_)) {
+            return;
+        }
+        self.step(Input::Heard(sighting(vru, 0.0), Millis::ZERO));
+    }
+
+    /// A sensor source delivered a frame that it made `age` ago.
+    pub fn look(&mut self, frame: &SensorFrame, age: Millis) {
+        let Road::Watched(zone) = &self.road else {
+            return;
+        };
+        let covers = zone.covered(frame.covers.as_ref());
+        let seen: Vec<_> = frame.people.iter().map(|it| it.sighting()).collect();
+        self.step(Input::Frame(Frame {
+            source: frame.source,
+            age,
+            covers,
+            sightings: &seen,
+        }));
+    }
+
+    /// A sensor source delivered something that is no frame.
+    pub fn look_in_vain(&mut self) {
+        self.step(Input::BadFrame);
+    }
+
+    /// Looks at the simulated street, if there is one that it counts on.
+    pub(super) fn look_at_street(&mut self) {
+        let street = match &self.road {
+            Road::Known(street) => street,
+            Road::Own(street) => {
+                let shown = super::micros(self.at_s);
+                street.look(shown, self.sign.shows_go(shown));
+                if !self.counts {
+                    return;
+                }
+                street
+            }
+            Road::Unknown | Road::Watched(_) => return,
+        };
+        let seen = street.sightings();
+        self.step(Input::Frame(Frame {
+            source: 0,
+            age: Millis::ZERO,
+            covers: Coverage::ALL,
+            sightings: &seen,
+        }));
+    }
+
+    /// Takes in where the body is, and whether a fallback moves it.
+    pub(super) fn feel_body(&mut self) {
+        let pose = self.pose(&self.body.state().position);
+        self.step(Input::Pose(pose, Millis::ZERO));
+        self.step(Input::BodyIsFree(self.is_body_free()));
+    }
+
+    /// Takes in how the maneuver of the body goes.
+    pub(super) fn feel_maneuver(&mut self, report: Report) {
+        let report = match report {
+            Report::InPosition(id) => BodyReport::InPosition(id),
+            Report::Completed(id) => BodyReport::Completed(id),
+            Report::Silent => BodyReport::Gone,
+            _ => return,
+        };
+        self.step(Input::Body(report));
+    }
+
+    fn pose(&self, position: &Position) -> Option<Pose> {
+        Some(Pose {
+            at: self.at_point(position)?,
+            error_cm: error_cm(position),
+        })
+    }
+
+    fn at_point(&self, position: &Position) -> Option<Point> {
+        let (latitude, longitude) = position.latitude.zip(position.longitude)?;
+        Some(point(self.site.place(latitude, longitude)))
+    }
+
+    /// Where a command leads, if it says that.
+    pub(super) fn target(&self, parameters: &TaskParameters) -> Option<Point> {
+        match parameters.target {
+            Some(Target::Position {
+                latitude,
+                longitude,
+                ..
+            }) => Some(point(self.site.place(latitude, longitude))),
+            _ => None,
+        }
+    }
+
+    /// Takes in what was heard of others at `now_ms`, on the robot's clock: its followers, vehicles, and people.
+    pub fn listen(&mut self, map: &LocalDynamicMap, robot: &Robot, now_ms: u64) {
+        if let Phase::Leading(leading) = robot.phase() {
+            for member in leading.members.iter() {
+                let known = map.get(Identity::Station(member.station.0));
+                if let Some(known) = known {
+                    let (pose, age) = (self.pose(&known.user.position), age(known, now_ms));
+                    let is_new = self.said.heard_ms.insert(member.station, known.heard_ms)
+                        != Some(known.heard_ms);
+                    if is_new {
+                        self.step(Input::FollowerAt(member.station, pose, age));
+                    }
+                }
+            }
+        }
+        if !matches!(self.road, Road::Known(_)) {
+            let is_news = |known: &&Neighbour| known.heard_ms == now_ms;
+            for known in map.of_kind(Kind::Vehicle).filter(is_news) {
+                self.hear_vehicle(known);
+            }
+            for known in map.of_kind(Kind::Vru).filter(is_news) {
+                self.hear_person(known);
+            }
+        }
+    }
+
+    fn hear_vehicle(&mut self, known: &Neighbour) {
+        let (user, position) = (&known.user, &known.user.position);
+        let Some(at) = self.at_point(position) else {
+            return;
+        };
+        let way = match (user.speed, user.heading) {
+            (Some(speed), Some(heading)) => {
+                let (east, north) = heading.to_radians().sin_cos();
+                [speed * east, speed * north]
+            }
+            // It moves, and nobody knows whereto: towards the crossing.
+            (Some(speed), None) => self.towards_crossing(at, speed),
+            (None, _) => return,
+        };
+        let vehicle = Vehicle {
+            key: key(user.identity),
+            at,
+            error_cm: error_cm(position),
+            velocity: velocity(way),
+        };
+        self.step(Input::Vehicle(vehicle, Millis::ZERO));
+    }
+
+    fn towards_crossing(&self, at: Point, speed: f64) -> [f64; 2] {
+        let ground = &self.setup.ground;
+        let Some(crossing) = ground.crossing.or(ground.road) else {
+            return [0.0; 2];
+        };
+        let (from, to) = (place(at), place(crossing.middle()));
+        let (east, north) = from.bearing(to).to_radians().sin_cos();
+        [speed * east, speed * north]
+    }
+
+    fn hear_person(&mut self, known: &Neighbour) {
+        let Some(at) = self.at_point(&known.user.position) else {
+            return;
+        };
+        let seen = Sighting {
+            id: Some(key(known.user.identity)),
+            at,
+            error_cm: error_cm(&known.user.position),
+            velocity: None,
+            what: RoadUser::Pedestrian,
+            confidence: 100,
+        };
+        self.step(Input::Heard(seen, Millis::ZERO));
+    }
+
+    /// What the sensors have now, if that has changed since it was said last.
+    pub fn next_sight(&mut self) -> Option<Sight> {
+        let now_s = self.at_s;
+        let period_s = SIGHT_PERIOD_S / self.time_scale();
+        let is_early = |(said_s, said): &(f64, Sight)| {
+            now_s - said_s < period_s && said.on_road() == self.on_road()
+        };
+        if self.said.last.as_ref().is_some_and(is_early) {
+            return None;
+        }
+        let tracks = self.crossing.tracks().iter();
+        let seen = tracks.filter(|track| track.is_fresh() || track.is_on_road());
+        let people = seen.map(|track| {
+            let at: Place = place(track.at());
+            Seen {
+                place: self.site.coordinates(at),
+                class: class(track.what()),
+                conduct: track.conduct(&self.setup),
+            }
+        });
+        let sight = Sight {
+            people: people.collect(),
+        };
+        let said = self.said.last.as_ref();
+        let is_new = said.map_or(!sight.people.is_empty(), |(_, said)| *said != sight);
+        is_new.then(|| {
+            self.said.last = Some((now_s, sight.clone()));
+            sight
+        })
+    }
+
+    /// How many people the sensors have on the road now.
+    fn on_road(&self) -> usize {
+        let tracks = self.crossing.tracks().iter();
+        tracks
+            .filter(|track| track.conduct(&self.setup) == Conduct::OnRoad)
+            .count()
+    }
+}
+
+/// Error of a position, in centimetres.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "casts of numbers saturate"
+)]
+fn error_cm(position: &Position) -> u16 {
+    position.ellipse.map_or(UNKNOWN_ERROR_CM, |ellipse| {
+        (ellipse.semi_major * 100.0).ceil() as u16
+    })
+}
+
+/// How long ago somebody was heard.
+fn age(known: &Neighbour, now_ms: u64) -> Millis {
+    Millis(u32::try_from(now_ms.saturating_sub(known.heard_ms)).unwrap_or(u32::MAX))
+}
+
+/// What somebody is known by.
+fn key(identity: Identity) -> u32 {
+    match identity {
+        Identity::Station(id) => id,
+        Identity::Object { by, number } => by.rotate_left(16) ^ u32::from(number) ^ 1 << 31,
+    }
+}

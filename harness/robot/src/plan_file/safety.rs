@@ -1,0 +1,135 @@
+//! Whether people are guarded for as long as a plan has them on the road.
+
+use crossguard_protocol::{Millis, Settings, TaskSet};
+use toml::Spanned;
+
+use super::Role;
+use super::tables::PlanTables;
+use crate::located::Misfit;
+use crate::plan::{Stage, Who};
+use crate::site_file::SiteFile;
+
+/// The maneuvers that take a person on the road: they guard, and hold no place.
+const fn escorts(settings: &Settings) -> TaskSet {
+    TaskSet(settings.guarding.0 & !settings.holding.0)
+}
+
+fn seconds(time: Millis) -> f64 {
+    f64::from(time.0) / 1_000.0
+}
+
+/// What is wrong with the part of a role in the stage with this number, at its line.
+fn at(tables: &PlanTables, stage: usize, role: &str, what: String) -> Misfit {
+    let part = tables.stages[stage].get_ref().get(role);
+    match part {
+        Some(part) => Misfit::at(part, what),
+        None => Misfit::whole(what),
+    }
+}
+
+/// Looks that people are escorted in the last stage alone, in which the corridor is open, and that a robot that guards from a
+/// place is sent there in a stage before.
+pub(super) fn guards_first(
+    tables: &PlanTables,
+    followers: &[&Role],
+    stages: &[Stage],
+    settings: &Settings,
+) -> Result<(), Misfit> {
+    let escorts = escorts(settings);
+    let has_escort =
+        |stage: &Stage| (stage.parts.iter()).any(|(_, leg)| escorts.contains(leg.task));
+    let Some(first) = stages.iter().position(has_escort) else {
+        return Ok(());
+    };
+    let mut sent = vec![false; followers.len()];
+    for (number, stage) in stages.iter().enumerate() {
+        for (who, leg) in &stage.parts {
+            let Who::Role(seat) = who else { continue };
+            if !settings.holding.contains(leg.task) {
+                continue;
+            }
+            if number >= first && !sent[*seat] {
+                let name = &followers[*seat].name;
+                let what = format!(
+                    "role '{name}' is sent to guard in stage {}, and a person is escorted from stage {} on: \
+                     guards are wanted in a stage before",
+                    number + 1,
+                    first + 1
+                );
+                return Err(at(tables, number, name, what));
+            }
+            sent[*seat] = true;
+        }
+    }
+    if first + 1 < stages.len() {
+        let what = format!(
+            "a person is escorted in stage {}, and the corridor is open in the last stage alone: escort them in that",
+            first + 1
+        );
+        return Err(Misfit::whole(what));
+    }
+    Ok(())
+}
+
+/// Looks that each way can be walked at its speed in the time of its task, and an escort's in that of a crossing. Where a
+/// follower is before its first part is known where the plan says it.
+pub(super) fn ways_in_time(
+    tables: &PlanTables,
+    followers: &[&Role],
+    stages: &[Stage],
+    settings: &Settings,
+) -> Result<(), Misfit> {
+    let escorts = escorts(settings);
+    let mut places: Vec<_> = followers.iter().map(|role| role.waits).collect();
+    for (number, stage) in stages.iter().enumerate() {
+        for (who, leg) in &stage.parts {
+            let Who::Role(seat) = who else { continue };
+            let Some(from) = places[*seat].replace(leg.to) else {
+                continue;
+            };
+            let way_m = from.distance(leg.to);
+            let way_s = way_m / leg.speed_mps;
+            let of_task = settings.t_exec[usize::from(leg.task.value())];
+            let of_crossing = escorts.contains(leg.task).then_some(settings.t_cross);
+            let limits = [("t_exec", Some(of_task)), ("t_cross", of_crossing)];
+            for (limit, time) in limits {
+                if let Some(time) = time
+                    && way_s > seconds(time)
+                {
+                    let (name, most_s) = (&followers[*seat].name, seconds(time));
+                    let what = format!(
+                        "role '{name}' goes {way_m:.1} m at {} m/s, which takes {way_s:.1} s: \
+                         {limit} is {most_s} s",
+                        leg.speed_mps
+                    );
+                    return Err(at(tables, number, name, what));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Looks that people cross within `t_cross`: those of a simulation, and slow walkers on the site.
+pub(super) fn crossing_in_time(
+    site: &SiteFile,
+    said: Option<&Spanned<f64>>,
+    crossing_s: f64,
+    settings: &Settings,
+) -> Result<(), Misfit> {
+    let t_cross_s = seconds(settings.t_cross);
+    if crossing_s > t_cross_s {
+        let what = format!("a pedestrian crosses in {crossing_s} s: t_cross is {t_cross_s} s");
+        return Err(match said {
+            Some(said) => Misfit::at(said, what),
+            None => Misfit::whole(what),
+        });
+    }
+    match site.walk_s() {
+        Some(walk_s) if walk_s > t_cross_s => Err(Misfit::whole(format!(
+            "a slow walker crosses on site '{}' in {walk_s:.1} s: t_cross is {t_cross_s} s",
+            site.name
+        ))),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,43 @@
+//! Settings that do not fit the site.
+
+use std::path::Path;
+
+use super::*;
+
+fn read(protocol: &str) -> Result<RobotFile, String> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("robot.toml");
+    let text = format!(
+        "name = \"ARI\"\nstation = 1\nbuild = \"humanoid\"\nboot_file = \"ari.boot\"\n\
+         [link]\naddress = \"127.0.0.1:1\"\npeers = [\"127.0.0.1:2\"]\n[protocol]\n{protocol}"
+    );
+    std::fs::write(&path, text).unwrap();
+    let besides = Besides {
+        plan_file: Some(Path::new("crossing")),
+        ..Besides::default()
+    };
+    RobotFile::read_with(&path, besides).map_err(|error| error.to_string())
+}
+
+#[test]
+fn settings_that_switch_a_protection_off_are_refused() {
+    assert!(read("").is_ok());
+    for (protocol, cause) in [
+        ("holding = 0", "[protocol] the settings break 'block-holds'"),
+        (
+            "guarding = 0",
+            "[protocol] the settings break 'named-tasks-guard'",
+        ),
+        (
+            "t_cross = 1",
+            "[protocol] t_cross is 0.001 s: a slow walker (0.9 m/s) is between the kerbs of the site for 7.8 s",
+        ),
+        (
+            "t_cross = 20000",
+            "plan crossing:26: role 'escort' goes 9.0 m at 0.424 m/s, which takes 21.2 s: t_cross is 20 s",
+        ),
+    ] {
+        let error = read(protocol).unwrap_err();
+        assert!(error.contains(cause), "{protocol}: {error}");
+    }
+}

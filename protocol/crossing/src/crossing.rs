@@ -1,0 +1,733 @@
+//! The transition function of the crossing: [`Crossing::step`] takes one input and says what is to be done.
+
+use crossguard_protocol::{
+    Availability, Corridor, Duty, Event, FallbackPolicy, HelpRequest, Maneuver, ManeuverId, Millis,
+    Notice, Phase, Progress, Robot,
+};
+
+use crate::ground::Point;
+use crate::input::{
+    BodyReport, Frame, FrameDrop, Hindrance, Input, Output, Outputs, Pose, RoadUser, Sighting,
+};
+use crate::lead::{Lead, View};
+use crate::occupancy::Occupancy;
+use crate::position::Presence;
+use crate::setup::Setup;
+use crate::tracks::{OTHERS, Tracks};
+use crate::traffic::Traffic;
+
+/// How long a robot waits after a call before it calls again.
+const CALL_PERIOD: Millis = Millis(2_000);
+
+/// Where outputs go.
+pub(crate) trait Sink {
+    /// Puts one out. One that does not fit is put out again in a later step: what is said follows from the state.
+    fn put(&mut self, output: Output);
+
+    /// Tells the protocol an event.
+    fn tell(&mut self, event: Event) {
+        self.put(Output::Tell(event));
+    }
+}
+
+impl Sink for Outputs {
+    fn put(&mut self, output: Output) {
+        if !self.iter().any(|known| *known == output) {
+            let _ = self.push(output);
+        }
+    }
+}
+
+/// What the robot may do about a call.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+enum Standing {
+    /// It may call.
+    #[default]
+    Free,
+    /// It asks for help.
+    Requesting,
+    /// It leads.
+    Leading,
+    /// It follows in another robot's session.
+    Following,
+    /// It has another part in another robot's session, a duty, or is unavailable.
+    Bound,
+}
+
+/// What a robot waits for with the road: that it is clear.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+struct Obligation {
+    about: About,
+    /// Until then a sign that counts on this robot may still show go.
+    wait: Millis,
+    /// Whether a person has said that the road is clear.
+    is_said_clear: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+enum About {
+    /// The duty of a session or maneuver that ended early.
+    Duty(Duty),
+    /// The corridor that was closed, in a session that goes on.
+    Clearing,
+}
+
+/// What the protocol has the robot's body do.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a belief of its own")]
+struct Task {
+    maneuver: Maneuver,
+    /// Where it leads.
+    place: Option<Point>,
+    presence: Presence,
+    /// Whether the body has said that it is in position.
+    has_arrived: bool,
+    /// Whether the protocol knows that it is.
+    is_reported: bool,
+    /// Whether the body has finished.
+    is_completed: bool,
+    /// Whether the body was told to wait for its person.
+    waits: bool,
+}
+
+/// What a robot believes of its crossing, and what it is about to do.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a belief of its own")]
+pub struct Crossing<const N: usize = 64> {
+    tracks: Tracks<N>,
+    occupancy: Occupancy,
+    traffic: Traffic,
+    standing: Standing,
+    corridor: Corridor,
+    /// Whether the session is one that it called for.
+    is_called: bool,
+    /// Whether somebody was let across in the session.
+    has_opened: bool,
+    /// Until then it does not call again.
+    call_pause: Millis,
+    /// Time until the zone counts as deserted.
+    wanted: Millis,
+    /// For how long yet its sign shows go.
+    sign: Millis,
+    /// Time since nobody has been let on the road any more by a sign that counts on this robot, saturating.
+    quiet: Millis,
+    obligation: Option<Obligation>,
+    is_body_free: bool,
+    /// Whether the protocol knows that the robot itself sees somebody on the road.
+    is_person_told: bool,
+    task: Option<Task>,
+    /// Whether the body was told to wait for somebody, while its fallback takes it to the kerb.
+    kerbward: Option<bool>,
+    /// Where its own body is, and how long ago that was measured.
+    pose: Option<(Pose, Millis)>,
+    /// Whether its body is at the place of its plan.
+    own: Presence,
+    lead: Option<Lead>,
+    /// Whether its plan goes the other way round.
+    turned: bool,
+}
+
+impl<const N: usize> Default for Crossing<N> {
+    fn default() -> Self {
+        Self {
+            tracks: Tracks::default(),
+            occupancy: Occupancy::default(),
+            traffic: Traffic::default(),
+            standing: Standing::Free,
+            corridor: Corridor::Clear,
+            is_called: false,
+            has_opened: false,
+            call_pause: Millis::ZERO,
+            wanted: Millis::ZERO,
+            sign: Millis::ZERO,
+            quiet: Millis::ZERO,
+            obligation: None,
+            is_body_free: true,
+            is_person_told: false,
+            task: None,
+            kerbward: None,
+            pose: None,
+            own: Presence::NOWHERE,
+            lead: None,
+            turned: false,
+        }
+    }
+}
+
+impl<const N: usize> Crossing<N> {
+    /// Takes `input` in and returns what is to be done, in order. It is total: every input in every state has a
+    /// defined outcome.
+    pub fn step(&mut self, setup: &Setup, input: Input<'_>) -> Outputs {
+        let mut out = Outputs::EMPTY;
+        match input {
+            Input::Elapsed(time) => self.elapse(setup, time, &mut out),
+            Input::Frame(frame) => self.frame(setup, &frame, &mut out),
+            Input::BadFrame => {
+                self.occupancy.start_anew();
+                out.put(Output::Dropped(FrameDrop::Malformed));
+            }
+            Input::Heard(sighting, age) => self.heard(setup, sighting, age),
+            Input::Vehicle(vehicle, age) => {
+                self.traffic.hear(setup, vehicle, age);
+                self.guard_corridor(setup, &mut out);
+            }
+            Input::Pose(pose, age) => self.is_at(setup, pose, age),
+            Input::FollowerAt(station, pose, age) => {
+                if let (Some(plan), Some(lead)) = (&setup.plan, &mut self.lead) {
+                    lead.follower_is_at(setup, plan, station, pose, age);
+                }
+                self.guard_corridor(setup, &mut out);
+            }
+            Input::Body(report) => self.body_reports(report),
+            Input::BodyIsFree(is_free) => self.is_body_free = is_free,
+            Input::Started(maneuver, place) => self.start(setup, maneuver, place),
+            Input::Stopped => (self.task, self.kerbward) = (None, None),
+            Input::FellBack(_, policy) => {
+                self.task = None;
+                self.kerbward = (policy == FallbackPolicy::EscortToKerb).then_some(false);
+            }
+            Input::Notice(notice) => self.notice(setup, notice, &mut out),
+            Input::CorridorOpen(left) => self.show_go(setup, left, &mut out),
+            Input::CorridorClosed => self.show_stop(&mut out),
+            Input::CallIgnored => self.end_call(),
+            Input::SaidClear => {
+                if let Some(obligation) = &mut self.obligation {
+                    obligation.is_said_clear = true;
+                }
+            }
+        }
+        out
+    }
+
+    /// Takes in what the protocol knows after a step.
+    pub fn learn(&mut self, setup: &Setup, robot: &Robot) -> Outputs {
+        let mut out = Outputs::EMPTY;
+        let is_available = robot.availability() == Availability::Available;
+        let before = self.standing;
+        self.standing = match robot.phase() {
+            Phase::Idle if is_available && robot.duty().is_none() => Standing::Free,
+            Phase::Requesting(_) => Standing::Requesting,
+            Phase::Leading(_) => Standing::Leading,
+            Phase::Following(_) => Standing::Following,
+            Phase::Idle | Phase::Offering(_) => Standing::Bound,
+        };
+        let was_own = matches!(before, Standing::Requesting | Standing::Leading);
+        let is_own = matches!(self.standing, Standing::Requesting | Standing::Leading);
+        if was_own && !is_own {
+            self.end_call();
+            self.lead = None;
+        }
+        self.corridor = match robot.phase() {
+            Phase::Leading(leading) => leading.corridor,
+            _ => Corridor::Clear,
+        };
+        self.is_person_told = match robot.phase() {
+            Phase::Following(following) => following.sees_people,
+            _ => false,
+        };
+        if robot.duty().is_none() {
+            self.kerbward = None;
+        }
+        // What was finished or failed is not told again.
+        let runs = executing(robot);
+        self.task = self.task.filter(|task| runs == Some(task.maneuver));
+        if let Some(task) = &mut self.task {
+            task.is_reported = match robot.phase() {
+                Phase::Following(following) => following.job.is_some_and(|job| {
+                    let is_own = job.request == task.maneuver.id.request;
+                    is_own && job.progress == Progress::InPosition
+                }),
+                _ => false,
+            };
+        }
+        self.learn_obligation(setup, robot, &mut out);
+        out
+    }
+
+    fn learn_obligation(&mut self, setup: &Setup, robot: &Robot, out: &mut Outputs) {
+        let about = match robot.duty() {
+            Some(duty) => Some(About::Duty(duty)),
+            None => (self.corridor == Corridor::Clearing).then_some(About::Clearing),
+        };
+        if self.obligation.map(|it| it.about) == about {
+            return;
+        }
+        // A duty that ends because its task goes on leaves the body where it is.
+        if self.obligation.is_some() && about.is_none() && executing(robot).is_none() {
+            out.put(Output::Release);
+        }
+        self.obligation = about.map(|about| Obligation {
+            about,
+            // No sign that counts on this robot shows go for longer than its own `t_safety`.
+            wait: match about {
+                About::Duty(_) => setup.t_safety,
+                About::Clearing => Millis::ZERO,
+            },
+            is_said_clear: false,
+        });
+        self.hold_count();
+    }
+
+    fn elapse(&mut self, setup: &Setup, time: Millis, out: &mut Outputs) {
+        self.tracks.elapse(setup, time, self.sign > Millis::ZERO);
+        self.occupancy.elapse(setup, time);
+        self.traffic.elapse(setup, time);
+        self.call_pause = self.call_pause.saturating_sub(time);
+        self.wanted = self.wanted.saturating_sub(time);
+        // A wait that ended meanwhile ended within this step, and not before it.
+        let waited = self.obligation.map_or(Millis::ZERO, |it| it.wait);
+        let shown = self.sign.max(waited);
+        self.sign = self.sign.saturating_sub(time);
+        let newest = setup.sensors.age_max.saturating_add(Millis(1));
+        let quiet = self.quiet.saturating_add(time.saturating_sub(shown));
+        self.quiet = quiet.min(newest);
+        self.own.elapse(setup.position, time);
+        let known = self
+            .pose
+            .map(|(pose, age)| (pose, age.saturating_add(time)));
+        self.pose = known.filter(|(_, age)| *age < setup.position.lease);
+        if let Some(task) = &mut self.task {
+            task.presence.elapse(setup.position, time);
+        }
+        if let Some(obligation) = &mut self.obligation {
+            obligation.wait = obligation.wait.saturating_sub(time);
+        }
+        if let Some(lead) = &mut self.lead {
+            lead.elapse(setup, time);
+        }
+        self.hold_count();
+        if self.is_wanted() {
+            self.wanted = setup.waiting.clear;
+        }
+        self.guard_corridor(setup, out);
+        self.watch_task(setup, out);
+        self.watch_road(setup, out);
+        self.watch_zone(setup, out);
+        self.lead_on(setup, out);
+    }
+
+    /// While a sign that counts on this robot may show go, no frame counts for a clear road.
+    fn hold_count(&mut self) {
+        let leads_across = self.standing == Standing::Leading
+            && (self.corridor == Corridor::Open || self.sign > Millis::ZERO);
+        let waits = self.obligation.is_some_and(|it| it.wait > Millis::ZERO);
+        if leads_across || waits {
+            self.occupancy.start_anew();
+            self.quiet = Millis::ZERO;
+        }
+    }
+
+    fn frame(&mut self, setup: &Setup, frame: &Frame<'_>, out: &mut Outputs) {
+        if let Err(why) = self.occupancy.admit(setup, frame) {
+            let mut people = frame.sightings.iter();
+            let is_person = |it: &Sighting| it.what != RoadUser::Vehicle;
+            if matches!(why, FrameDrop::OutOfOrder | FrameDrop::Stale)
+                && people.any(|it| is_person(it) && may_be_on_road(setup, it))
+            {
+                self.occupancy.occupy(setup);
+            }
+            return out.put(Output::Dropped(why));
+        }
+        let mut is_occupied = false;
+        self.tracks
+            .observe(setup, frame.source, frame.age, frame.sightings, |person| {
+                is_occupied |= may_be_on_road(setup, person);
+            });
+        if is_occupied {
+            self.occupancy.owe(setup, frame);
+            // The word of a person was said before this.
+            if let Some(obligation) = &mut self.obligation {
+                obligation.is_said_clear = false;
+            }
+        } else if frame.age < self.quiet {
+            self.occupancy.count(frame);
+            if self.occupancy.settle(setup) {
+                self.tracks.resolve();
+            }
+        } else {
+            self.occupancy.doubt(frame.source);
+        }
+        for (number, sighting) in frame.sightings.iter().enumerate() {
+            if let (RoadUser::Vehicle, Some(velocity)) = (sighting.what, sighting.velocity) {
+                let number = u32::try_from(number).unwrap_or(u32::MAX);
+                let vehicle = crate::input::Vehicle {
+                    // Apart from those of stations and of other sources.
+                    key: u32::MAX
+                        - u32::from(frame.source) * 4_096
+                        - sighting.id.unwrap_or(number) % 4_096,
+                    at: sighting.at,
+                    error_cm: sighting.error_cm,
+                    velocity,
+                };
+                self.traffic.hear(setup, vehicle, frame.age);
+            }
+        }
+    }
+
+    /// Another station reports somebody. It adds people, and takes none away.
+    fn heard(&mut self, setup: &Setup, sighting: Sighting, age: Millis) {
+        if age > setup.sensors.age_max.max(crate::tracks::FRESH)
+            || sighting.what == RoadUser::Vehicle
+        {
+            return;
+        }
+        let mut is_occupied = false;
+        self.tracks
+            .observe(setup, OTHERS, age, &[sighting], |person| {
+                is_occupied |= may_be_on_road(setup, person);
+            });
+        if is_occupied {
+            self.occupancy.occupy(setup);
+        }
+    }
+
+    fn is_at(&mut self, setup: &Setup, pose: Option<Pose>, age: Millis) {
+        let is_news = age < setup.position.lease && self.pose.is_none_or(|(_, known)| age <= known);
+        if pose.is_none() || is_news {
+            self.pose = pose.map(|pose| (pose, age));
+        }
+        if let Some(place) = setup.plan.as_ref().and_then(|plan| plan.own_place) {
+            self.own.learn(setup.position, place, pose, age);
+        }
+        if let Some(task) = &mut self.task {
+            task.place = task.place.or(self.pose.map(|(pose, _)| pose.at));
+            if let Some(place) = task.place {
+                task.presence.learn(setup.position, place, pose, age);
+            }
+        }
+    }
+
+    fn body_reports(&mut self, report: BodyReport) {
+        let is_own = |id: ManeuverId, task: &Task| task.maneuver.id == id;
+        match (report, &mut self.task) {
+            (BodyReport::InPosition(id), Some(task)) if is_own(id, task) => task.has_arrived = true,
+            (BodyReport::Completed(id), Some(task)) if is_own(id, task) => task.is_completed = true,
+            (BodyReport::Gone, Some(task)) => {
+                (task.has_arrived, task.is_completed) = (false, false);
+                task.presence = Presence::NOWHERE;
+            }
+            _ => {}
+        }
+    }
+
+    fn start(&mut self, setup: &Setup, maneuver: Maneuver, place: Option<Point>) {
+        // Without a place, the maneuver is done where the body stands.
+        let place = place.or(self.pose.map(|(pose, _)| pose.at));
+        let mut presence = Presence::NOWHERE;
+        if let (Some(place), Some((pose, age))) = (place, self.pose) {
+            presence.learn(setup.position, place, Some(pose), age);
+        }
+        self.kerbward = None;
+        self.task = Some(Task {
+            maneuver,
+            place,
+            presence,
+            has_arrived: false,
+            is_reported: false,
+            is_completed: false,
+            waits: false,
+        });
+    }
+
+    /// Tells the protocol how the maneuver of the body goes, and the body to wait for its person.
+    fn watch_task(&mut self, setup: &Setup, out: &mut Outputs) {
+        let sees_somebody = self.sees_somebody(setup);
+        if self.standing == Standing::Following && self.occupancy.has_sources() {
+            if self.occupancy.owes() && !self.is_person_told {
+                out.tell(Event::PersonOnRoad);
+            } else if self.is_person_told && !sees_somebody && self.obligation.is_none() {
+                out.tell(Event::RoadClear);
+            }
+        }
+        if let Some(waits) = self.kerbward {
+            let is_apart = self.is_person_apart(setup);
+            self.kerbward = Some(is_apart);
+            wait(waits, is_apart, out);
+        }
+        let is_behind = self.is_person_behind(setup);
+        let Some(task) = &mut self.task else { return };
+        let id = task.maneuver.id;
+        let is_guarding = setup.guarding.contains(task.maneuver.task);
+        if setup.holding.contains(task.maneuver.task) && task.has_arrived {
+            if task.presence.is_there() && !task.is_reported {
+                out.tell(Event::InPosition(id));
+            } else if !task.presence.is_there() && task.is_reported {
+                out.tell(Event::OutOfPosition(id));
+            }
+        } else if task.has_arrived && !task.is_reported {
+            out.tell(Event::InPosition(id));
+        }
+        if setup.escorts().contains(task.maneuver.task) {
+            wait(task.waits, is_behind, out);
+            task.waits = is_behind;
+        }
+        // Who guards people that it knows of is not done before they are off the road.
+        if task.is_completed && !(is_guarding && sees_somebody) {
+            out.tell(Event::ManeuverCompleted(id));
+        }
+    }
+
+    /// Whether the robot itself has somebody on the road, or cannot tell any more. Without sensors: whether others say so,
+    /// or said so of somebody and fell silent.
+    fn sees_somebody(&self, setup: &Setup) -> bool {
+        let knows_nothing = if self.occupancy.has_sources() {
+            !self.occupancy.sees_nobody(setup)
+        } else {
+            self.tracks.is_on_road()
+        };
+        self.occupancy.was_seen() || knows_nothing
+    }
+
+    /// Whether the robot sees somebody on the road who is too far from the body for it to go on to the kerb. Whom it has lost, it
+    /// does not wait for in the middle of the road.
+    fn is_person_apart(&self, setup: &Setup) -> bool {
+        let Some((pose, _)) = self.pose else {
+            return false;
+        };
+        let limit = u32::from(setup.position.ahead_cm);
+        let mut people = self.tracks.iter();
+        people.any(|it| it.is_fresh() && it.is_on_road() && it.at().distance_cm(pose.at) > limit)
+    }
+
+    /// Whether somebody who is escorted is too far behind the body.
+    fn is_person_behind(&self, setup: &Setup) -> bool {
+        let (Some(task), Some((pose, _))) = (&self.task, self.pose) else {
+            return false;
+        };
+        let Some(target) = task.place else {
+            return false;
+        };
+        let own = pose.at.distance_cm(target);
+        let limit = own.saturating_add(u32::from(setup.position.ahead_cm));
+        let is_behind = |at: Point| at.distance_cm(target) > limit;
+        let mut on_road = self
+            .tracks
+            .iter()
+            .filter(|track| track.is_on_road())
+            .peekable();
+        if on_road.peek().is_some() {
+            return on_road.any(|track| is_behind(track.at()));
+        }
+        let mut waiting = self.tracks.iter().filter(|track| track.waits());
+        waiting.any(|track| is_behind(track.at()))
+    }
+
+    fn notice(&mut self, setup: &Setup, notice: Notice, out: &mut Outputs) {
+        let Some(plan) = &setup.plan else { return };
+        if let Notice::RolesEstablished(_) = notice {
+            self.own = Presence::NOWHERE;
+            if let Some(place) = plan.own_place {
+                out.put(Output::WalkTo(place));
+                if let Some((pose, age)) = self.pose {
+                    self.own.learn(setup.position, place, Some(pose), age);
+                }
+            }
+            self.lead = Some(Lead::new(plan, self.turned));
+        }
+        let view = self.view(setup);
+        if let Some(lead) = &mut self.lead
+            && !lead.notice(setup, plan, &view, notice, out)
+        {
+            self.lead = None;
+        }
+    }
+
+    fn lead_on(&mut self, setup: &Setup, out: &mut Outputs) {
+        let view = self.view(setup);
+        if let (Some(plan), Some(lead)) = (&setup.plan, &mut self.lead)
+            && self.standing == Standing::Leading
+            && !lead.lead_on(setup, plan, &view, out)
+        {
+            self.lead = None;
+        }
+    }
+
+    fn view(&self, setup: &Setup) -> View {
+        let knows = self.occupancy.has_sources() && setup.ground.waiting.is_some();
+        View {
+            corridor: self.corridor,
+            own: self.own,
+            hindrance: self.hindrance(setup),
+            is_wanted: !knows || self.is_wanted(),
+            has_opened: self.has_opened,
+            everybody_is_across: self.occupancy.is_clear(setup) && !self.is_wanted(),
+            nobody_is_lost: self.occupancy.is_clear(setup)
+                && !self.occupancy.was_seen()
+                && !self.tracks.is_somebody_lost(),
+        }
+    }
+
+    /// What keeps people from crossing, besides the plan.
+    fn hindrance(&self, setup: &Setup) -> Option<Hindrance> {
+        if setup.watches && !self.occupancy.is_covered(setup) {
+            return Some(Hindrance::NoSight);
+        }
+        self.traffic.hindrance(setup).map(Hindrance::Vehicle)
+    }
+
+    /// What keeps people from crossing now, if anything does.
+    #[must_use]
+    pub fn hindered(&self, setup: &Setup) -> Option<Hindrance> {
+        match (&setup.plan, &self.lead) {
+            (Some(plan), Some(lead)) => lead.hindrance(setup, plan, &self.view(setup)),
+            _ => self.hindrance(setup),
+        }
+    }
+
+    /// Closes an open corridor in the step in which something keeps people from crossing.
+    fn guard_corridor(&mut self, setup: &Setup, out: &mut Outputs) {
+        if self.corridor != Corridor::Open && self.sign == Millis::ZERO {
+            return;
+        }
+        if let Some(why) = self.hindered(setup) {
+            self.show_stop(out);
+            out.put(Output::Hindered(why));
+            out.tell(Event::CloseCorridor);
+        }
+    }
+
+    fn show_go(&mut self, setup: &Setup, left: Millis, out: &mut Outputs) {
+        self.has_opened = true;
+        if let Some(why) = self.hindered(setup) {
+            self.show_stop(out);
+            out.put(Output::Hindered(why));
+            return out.tell(Event::CloseCorridor);
+        }
+        let there = match (&setup.plan, &self.lead) {
+            (Some(plan), Some(lead)) => lead.presence_left(setup, plan, &self.view(setup)),
+            _ => left,
+        };
+        self.sign = left.min(there);
+        out.put(Output::Go(self.sign));
+        self.hold_count();
+    }
+
+    fn show_stop(&mut self, out: &mut Outputs) {
+        self.sign = Millis::ZERO;
+        out.put(Output::Stop);
+    }
+
+    /// Says that the road is clear as soon as that is so: the body is free, and nobody is on the road as far as the
+    /// robot's sensors or a person know.
+    fn watch_road(&mut self, setup: &Setup, out: &mut Outputs) {
+        let Some(obligation) = self.obligation else {
+            return;
+        };
+        let lets_nobody_cross = match obligation.about {
+            About::Duty(Duty::FallingBack(maneuver)) => !setup.guarding.contains(maneuver.task),
+            About::Duty(Duty::Crossing(_)) | About::Clearing => false,
+        };
+        let is_clear = obligation.is_said_clear
+            || lets_nobody_cross
+            || obligation.wait == Millis::ZERO && self.occupancy.is_clear(setup);
+        if is_clear && self.is_body_free {
+            out.tell(Event::RoadClear);
+        }
+    }
+
+    /// Whether somebody wants to cross, or is on the road.
+    fn is_wanted(&self) -> bool {
+        self.occupancy.was_seen() || self.tracks.is_waiting()
+    }
+
+    /// Calls for help when somebody waits to cross, and ends the call when everybody has left before they were let
+    /// across.
+    fn watch_zone(&mut self, setup: &Setup, out: &mut Outputs) {
+        if setup.calls
+            && let Some(urgency) = self.tracks.urgency()
+            && self.standing == Standing::Free
+            && !self.is_called
+            && self.call_pause == Millis::ZERO
+        {
+            (self.is_called, self.call_pause) = (true, CALL_PERIOD);
+            self.turned = match (&setup.plan, self.tracks.middle()) {
+                (Some(plan), Some(people)) => plan.begins_over_there(people),
+                _ => false,
+            };
+            let request = HelpRequest {
+                urgency,
+                ..setup.request
+            };
+            return out.tell(Event::PedestrianDetected(request));
+        }
+        let may_end = match self.standing {
+            Standing::Requesting => true,
+            // Once guards are commanded the plan goes to its end, and they are free then: a session that is left
+            // would have them wait for somebody's word that the road is clear. Without a plan, somebody else says
+            // when the task is over.
+            Standing::Leading => self.is_preparing(setup) && self.corridor == Corridor::Clear,
+            Standing::Free | Standing::Following | Standing::Bound => false,
+        };
+        if self.is_called && may_end && !self.has_opened && self.wanted == Millis::ZERO {
+            out.tell(Event::LeaveRequested);
+        }
+    }
+
+    /// Whether its plan has stages before the last one, in which nobody crosses.
+    fn is_preparing(&self, setup: &Setup) -> bool {
+        match (&setup.plan, &self.lead) {
+            (Some(plan), Some(lead)) => !plan.is_last(lead.stage()),
+            _ => false,
+        }
+    }
+
+    /// The call is over, or had no effect.
+    fn end_call(&mut self) {
+        (self.is_called, self.has_opened) = (false, false);
+        self.call_pause = CALL_PERIOD;
+    }
+
+    /// It is somewhere else: what it knew of people and vehicles says nothing of this place.
+    pub fn come_elsewhere(&mut self) {
+        self.tracks = Tracks::default();
+        self.occupancy = Occupancy::default();
+        self.traffic = Traffic::default();
+    }
+
+    /// The people that it knows of.
+    #[must_use]
+    pub const fn tracks(&self) -> &Tracks<N> {
+        &self.tracks
+    }
+
+    /// What it knows of the carriageway.
+    #[must_use]
+    pub const fn occupancy(&self) -> &Occupancy {
+        &self.occupancy
+    }
+
+    /// For how long yet its sign shows go.
+    #[must_use]
+    pub const fn shows_go(&self) -> Millis {
+        self.sign
+    }
+
+    /// Whether it waits for a clear road.
+    #[must_use]
+    pub const fn waits_for_clear(&self) -> bool {
+        self.obligation.is_some()
+    }
+}
+
+/// Has the body wait for its person or go on, if it does the other.
+fn wait(waits: bool, is_to_wait: bool, out: &mut Outputs) {
+    match (waits, is_to_wait) {
+        (false, true) => out.put(Output::Wait),
+        (true, false) => out.put(Output::GoOn),
+        _ => {}
+    }
+}
+
+/// The maneuver of another robot's session that the robot executes.
+fn executing(robot: &Robot) -> Option<Maneuver> {
+    match robot.phase() {
+        Phase::Following(following) => following.executing(),
+        _ => None,
+    }
+}
+
+/// Whether somebody may be on the carriageway.
+fn may_be_on_road(setup: &Setup, sighting: &Sighting) -> bool {
+    let error = sighting.error_cm.max(setup.sensors.error_cm);
+    setup.ground.may_be_road(sighting.at, u32::from(error))
+}

@@ -1,0 +1,197 @@
+//! What the crossing machine takes in, and what it puts out.
+
+use crossguard_protocol::{
+    Event, FallbackPolicy, List, MAX_FOLLOWERS, Maneuver, ManeuverId, Millis, Notice, StationId,
+};
+
+use crate::ground::{Coverage, Point, Way};
+use crate::plan::Leg;
+
+/// What a road user is.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum RoadUser {
+    /// A person on foot.
+    Pedestrian,
+    /// A person in a wheelchair.
+    WheelchairUser,
+    /// A person on a bicycle.
+    Bicyclist,
+    /// A person on a motorcycle.
+    Motorcyclist,
+    /// An animal.
+    Animal,
+    /// A vehicle.
+    Vehicle,
+}
+
+/// Somebody in a frame.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Sighting {
+    /// What the source calls them: a hint.
+    pub id: Option<u32>,
+    /// Where they are.
+    pub at: Point,
+    /// Error of the place, in centimetres.
+    pub error_cm: u16,
+    /// Their velocity, in cm/s, where it is known.
+    pub velocity: Option<Way>,
+    /// What they are.
+    pub what: RoadUser,
+    /// How sure the source is, in percent.
+    pub confidence: u8,
+}
+
+/// What a source saw at one time.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Frame<'a> {
+    /// The source, below [`SOURCES`](crate::occupancy::SOURCES).
+    pub source: u8,
+    /// How long ago it looked.
+    pub age: Millis,
+    /// Which parts of the carriageway it could see.
+    pub covers: Coverage,
+    /// Everybody it saw there.
+    pub sightings: &'a [Sighting],
+}
+
+/// A vehicle that is heard or seen.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Vehicle {
+    /// What it is known by: a hint.
+    pub key: u32,
+    /// Where its front is.
+    pub at: Point,
+    /// Error of the place, in centimetres.
+    pub error_cm: u16,
+    /// Its velocity, in cm/s.
+    pub velocity: Way,
+}
+
+/// Where a body is, as it says.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Pose {
+    /// Where it is.
+    pub at: Point,
+    /// Error of the place, in centimetres.
+    pub error_cm: u16,
+}
+
+/// What a body reports of its maneuver.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum BodyReport {
+    /// It is at the place from which it guards.
+    InPosition(ManeuverId),
+    /// It has finished the maneuver.
+    Completed(ManeuverId),
+    /// It is gone.
+    Gone,
+}
+
+/// One input of the crossing machine.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Input<'a> {
+    /// Time has passed. It comes before every other input.
+    Elapsed(Millis),
+    /// A source delivered a frame.
+    Frame(Frame<'a>),
+    /// A source delivered something that is no frame, which may have been of any source.
+    BadFrame,
+    /// Another station reports somebody who is no vehicle. It may add people, and takes none away.
+    Heard(Sighting, Millis),
+    /// A vehicle was heard or seen, so long ago.
+    Vehicle(Vehicle, Millis),
+    /// The position of the robot's own body, measured so long ago; `None` where it is not known.
+    Pose(Option<Pose>, Millis),
+    /// The position of a follower by its RAM, measured so long ago; `None` where it does not say.
+    FollowerAt(StationId, Option<Pose>, Millis),
+    /// The robot's body reports.
+    Body(BodyReport),
+    /// The robot's body has ended its fallback, or carries out none: `true`. It moves because of one: `false`.
+    BodyIsFree(bool),
+    /// The protocol starts a maneuver of the body, towards a place if it has one.
+    Started(Maneuver, Option<Point>),
+    /// The protocol ends the maneuver of the body.
+    Stopped,
+    /// The protocol has the body fall back.
+    FellBack(Maneuver, FallbackPolicy),
+    /// The protocol tells.
+    Notice(Notice),
+    /// The corridor is open for so long from now.
+    CorridorOpen(Millis),
+    /// The corridor is closed.
+    CorridorClosed,
+    /// A call for help had no effect.
+    CallIgnored,
+    /// A person says that the road is clear.
+    SaidClear,
+}
+
+/// Why a frame was dropped.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum FrameDrop {
+    /// It is older than `age_max`.
+    Stale,
+    /// It is not newer than the one before.
+    OutOfOrder,
+    /// There is no such source.
+    NoSuchSource,
+    /// It is no frame.
+    Malformed,
+}
+
+impl FrameDrop {
+    /// Its name in counters.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Stale => "stale",
+            Self::OutOfOrder => "out of order",
+            Self::NoSuchSource => "no such source",
+            Self::Malformed => "malformed",
+        }
+    }
+}
+
+/// What keeps people from crossing.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Hindrance {
+    /// A guard is not at its place, or nobody knows where it is.
+    GuardElsewhere(StationId),
+    /// The leader itself is not at its place.
+    LeaderElsewhere,
+    /// The sensors do not cover the carriageway now.
+    NoSight,
+    /// A vehicle can no longer stop comfortably: its key.
+    Vehicle(u32),
+}
+
+/// What the crossing machine puts out.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Output {
+    /// To the protocol: an event.
+    Tell(Event),
+    /// To the protocol: a command to a follower.
+    Order(StationId, Leg),
+    /// To the sign: show go for so long from now.
+    Go(Millis),
+    /// To the sign: show stop.
+    Stop,
+    /// To the body: go to the leader's place.
+    WalkTo(Point),
+    /// To the body: stand until [`GoOn`](Self::GoOn); the person of the escort is behind.
+    Wait,
+    /// To the body: go on.
+    GoOn,
+    /// To the body: it need not hold any more.
+    Release,
+    /// To the log: a frame was dropped.
+    Dropped(FrameDrop),
+    /// To the log: why an open corridor is closed.
+    Hindered(Hindrance),
+}
+
+/// Capacity for outputs of one step.
+pub const MAX_OUTPUTS: usize = 2 * MAX_FOLLOWERS + 16;
+
+/// The outputs of one step, in order.
+pub type Outputs = List<Output, MAX_OUTPUTS>;

@@ -1,0 +1,86 @@
+//! The laws with random values.
+
+use proptest::prelude::*;
+
+use super::*;
+
+/// Random numbers, half of them as hinted.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u32 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        u32::try_from((z ^ (z >> 31)) >> 32).unwrap()
+    }
+}
+
+impl Source for Random {
+    fn number(&mut self, max: u32, hint: u32) -> u32 {
+        let (kind, value) = (self.next() % 16, self.next());
+        let number = match kind {
+            0 => value,
+            1 => max,
+            2 => 0,
+            3 => value % 1_000,
+            _ if hint <= max => hint,
+            _ => value,
+        };
+        if max == u32::MAX {
+            number
+        } else {
+            number % (max + 1)
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1_500))]
+
+    #[test]
+    fn it_is_total(seed: u64) {
+        total(&mut Random(seed));
+    }
+
+    #[test]
+    fn a_repeated_observation_changes_nothing(seed: u64) {
+        repeated(&mut Random(seed));
+    }
+
+    #[test]
+    fn less_support_clears_no_road(seed: u64) {
+        less_support(&mut Random(seed));
+    }
+
+    #[test]
+    fn late_support_clears_no_road(seed: u64) {
+        late_support(&mut Random(seed));
+    }
+
+    #[test]
+    fn more_against_clears_no_road(seed: u64) {
+        more_against(&mut Random(seed));
+    }
+
+    #[test]
+    fn one_more_vehicle_opens_nothing(seed: u64) {
+        one_more_vehicle(&mut Random(seed));
+    }
+}
+
+/// The laws are about something: random machines have clear roads, and would show go.
+#[test]
+fn the_premises_are_reached() {
+    let (mut clear, mut go) = (0, 0);
+    for seed in 0..2_000 {
+        let source = &mut Random(seed);
+        let setup = setup(source);
+        let mut machine = machine(source, &setup);
+        clear += u32::from(is_clear(&machine, &setup));
+        machine.step(&setup, Input::CorridorOpen(Millis(1_900)));
+        go += u32::from(machine.shows_go() > Millis::ZERO);
+    }
+    assert!(clear > 20 && go > 20, "clear {clear}, go {go} of 2000");
+}

@@ -1,0 +1,577 @@
+//! How a plan goes while its robot leads: who has which part, what is commanded, and when that is done.
+
+use crossguard_protocol::{
+    Corridor, Event, Failure, List, MAX_FOLLOWERS, Millis, Notice, Rejection, StationId,
+};
+
+use crate::crossing::Sink;
+use crate::input::{Hindrance, Output, Pose};
+use crate::plan::{Leg, Plan};
+use crate::position::Presence;
+use crate::setup::Setup;
+
+/// How often a leg that failed is commanded again before the leader gives up.
+const ATTEMPTS: u8 = 3;
+
+/// How long a leader waits at least between a command and the same one again.
+const AGAIN: Millis = Millis(500);
+
+/// How long a leader waits before it asks again for an open corridor or an escort.
+const OPENING_PERIOD: Millis = Millis(500);
+
+/// For how long people step on the road beside an escort, which waits for each of them. Who comes later waits for its next
+/// way: a stream of people would keep it on the road.
+const STEP_ON: Millis = Millis(10_000);
+
+/// How far a follower is with its part of the stage.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+enum Part {
+    /// Commanded so often; not begun, or under way.
+    Commanded(u8),
+    /// Goes on until it is ended.
+    Holds,
+    /// Done, or nothing to do.
+    Done,
+}
+
+/// A seat of the plan: a role, or the next place in the row.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+struct Seat {
+    station: Option<StationId>,
+    part: Part,
+    /// Its leg is to be commanded again, as soon as that is not too soon.
+    again: bool,
+    /// It said that it has left its place.
+    has_left: bool,
+    /// Until then it is too soon.
+    pause: Millis,
+    presence: Presence,
+}
+
+impl Seat {
+    const EMPTY: Self = Self {
+        station: None,
+        part: Part::Done,
+        again: false,
+        has_left: false,
+        pause: Millis::ZERO,
+        presence: Presence::NOWHERE,
+    };
+}
+
+/// How a plan goes.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub(crate) struct Lead {
+    stage: u8,
+    /// Whether the plan goes the other way round between its kerbs.
+    turned: bool,
+    seats: List<Seat, MAX_FOLLOWERS>,
+    /// Until then it does not ask for an open corridor again.
+    tried: Millis,
+    /// After that time it gives up.
+    patience: Millis,
+    /// Until then people step on the road beside an escort.
+    opened: Millis,
+}
+
+/// What the leader believes besides its plan.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct View {
+    pub corridor: Corridor,
+    /// Whether the robot's own body is where the plan wants it.
+    pub own: Presence,
+    /// What else keeps people from crossing.
+    pub hindrance: Option<Hindrance>,
+    /// Whether somebody wants to cross, or is not known not to.
+    pub is_wanted: bool,
+    /// Whether somebody was let across in the session.
+    pub has_opened: bool,
+    /// Whether everybody who wanted to cross is known to be across.
+    pub everybody_is_across: bool,
+    /// Whether the road is clear, and everybody who waited is still seen.
+    pub nobody_is_lost: bool,
+}
+
+impl Lead {
+    pub(crate) fn new(plan: &Plan, turned: bool) -> Self {
+        let seats = plan.roles.iter().map(|_| Seat::EMPTY);
+        Self {
+            stage: 0,
+            turned,
+            seats: seats.collect(),
+            tried: Millis::ZERO,
+            patience: plan.patience,
+            opened: STEP_ON,
+        }
+    }
+
+    /// The stage that it is in.
+    pub(crate) const fn stage(&self) -> u8 {
+        self.stage
+    }
+
+    pub(crate) fn elapse(&mut self, setup: &Setup, time: Millis) {
+        self.tried = self.tried.saturating_sub(time);
+        self.patience = self.patience.saturating_sub(time);
+        self.opened = self.opened.saturating_sub(time);
+        for seat in self.seats.iter_mut() {
+            seat.pause = seat.pause.saturating_sub(time);
+            seat.presence.elapse(setup.position, time);
+        }
+    }
+
+    fn leg(&self, plan: &Plan, seat: usize) -> Option<Leg> {
+        if !plan.roles.is_empty() && seat >= plan.roles.len() {
+            return None;
+        }
+        plan.leg(self.stage, seat, self.turned)
+    }
+
+    fn seat_of(&self, station: StationId) -> Option<usize> {
+        let mut seats = self.seats.iter();
+        seats.position(|seat| seat.station == Some(station))
+    }
+
+    fn at(&mut self, seat: usize) -> Option<&mut Seat> {
+        self.seats.iter_mut().nth(seat)
+    }
+
+    /// Takes in where a follower says that it is.
+    pub(crate) fn follower_is_at(
+        &mut self,
+        setup: &Setup,
+        plan: &Plan,
+        station: StationId,
+        pose: Option<Pose>,
+        age: Millis,
+    ) {
+        let Some(seat) = self.seat_of(station) else {
+            return;
+        };
+        let Some(leg) = self.held_leg(plan, seat) else {
+            return;
+        };
+        if let Some(seat) = self.at(seat) {
+            seat.presence.learn(setup.position, leg.to, pose, age);
+        }
+    }
+
+    /// The leg of this stage, or else the newest one before it: who has no part in a stage stays where its last one led.
+    fn held_leg(&self, plan: &Plan, seat: usize) -> Option<Leg> {
+        if !plan.roles.is_empty() && seat >= plan.roles.len() {
+            return None;
+        }
+        let mut stages = (0..=self.stage).rev();
+        stages.find_map(|stage| plan.leg(stage, seat, self.turned))
+    }
+
+    /// Takes in what the protocol tells. `false` when the plan is over.
+    pub(crate) fn notice(
+        &mut self,
+        setup: &Setup,
+        plan: &Plan,
+        view: &View,
+        notice: Notice,
+        out: &mut impl Sink,
+    ) -> bool {
+        match notice {
+            Notice::FollowerJoined(station) => self.seat(setup, plan, view, station, out),
+            Notice::ManeuverReported(station, _) => {
+                self.goes_on(station);
+                self.open(setup, plan, view, out);
+            }
+            Notice::ManeuverInPosition(station, _) => {
+                self.in_position(setup, plan, view, station, out);
+            }
+            Notice::ManeuverCompleted(station, _) => {
+                self.completed(setup, plan, view, station, out);
+            }
+            // It will not do it, however often it is told.
+            Notice::ManeuverFailed(_, _, Failure::Unavailable(_))
+            | Notice::CommandRejected(_, _, Rejection::Unavailable(_)) => {
+                out.tell(Event::LeaveRequested);
+                return false;
+            }
+            Notice::ManeuverFailed(station, ..)
+            | Notice::FollowerSafeIdle(station, _)
+            | Notice::CommandRejected(station, ..) => {
+                self.again(station);
+                self.command_again(setup, plan, view, out);
+            }
+            Notice::FollowerGone(station, _) => self.miss(plan, station, out),
+            // The session ends once the road is clear.
+            Notice::Yielded(_) | Notice::SessionEnded(..) => return false,
+            _ => {}
+        }
+        self.finish_stage(setup, plan, view, out);
+        true
+    }
+
+    /// Gives a follower its seat in the plan: its role, the first one that is for any, or the next place in the row.
+    fn seat(
+        &mut self,
+        setup: &Setup,
+        plan: &Plan,
+        view: &View,
+        station: StationId,
+        out: &mut impl Sink,
+    ) {
+        let seat = self.seat_of(station).or_else(|| {
+            let mut roles = plan.roles.iter();
+            let own = roles.position(|role| *role == Some(station));
+            let is_free = |seat: usize, taken: &Seat| {
+                let role = plan.roles.iter().nth(seat);
+                taken.station.is_none() && role.is_none_or(Option::is_none)
+            };
+            let mut seats = self.seats.iter().enumerate();
+            own.or_else(|| {
+                seats
+                    .find(|(seat, it)| is_free(*seat, it))
+                    .map(|(seat, _)| seat)
+            })
+        });
+        let seat = match seat {
+            Some(seat) => seat,
+            None if self.seats.push(Seat::EMPTY).is_ok() => self.seats.len() - 1,
+            None => return,
+        };
+        if let Some(it) = self.at(seat) {
+            *it = Seat {
+                station: Some(station),
+                ..Seat::EMPTY
+            };
+        }
+        self.begin_part(setup, plan, view, seat, out);
+    }
+
+    fn begin_part(
+        &mut self,
+        setup: &Setup,
+        plan: &Plan,
+        view: &View,
+        seat: usize,
+        out: &mut impl Sink,
+    ) {
+        if let Some(it) = self.at(seat) {
+            it.part = Part::Commanded(0);
+            it.presence = Presence::NOWHERE;
+        }
+        self.command(setup, plan, view, seat, out);
+    }
+
+    /// A guard has left its place again.
+    fn goes_on(&mut self, station: StationId) {
+        let seat = self.seat_of(station).and_then(|seat| self.at(seat));
+        if let Some(seat) = seat
+            && seat.part == Part::Holds
+        {
+            (seat.part, seat.has_left) = (Part::Commanded(1), true);
+        }
+    }
+
+    /// A follower is in position, where it guards from a place.
+    fn in_position(
+        &mut self,
+        setup: &Setup,
+        plan: &Plan,
+        view: &View,
+        station: StationId,
+        out: &mut impl Sink,
+    ) {
+        let Some(seat) = self.seat_of(station) else {
+            return;
+        };
+        if self.is_elsewhere(seat) {
+            return self.command(setup, plan, view, seat, out);
+        }
+        let holds = self
+            .leg(plan, seat)
+            .is_some_and(|leg| setup.holding.contains(leg.task));
+        if let Some(it) = self.at(seat)
+            && holds
+        {
+            (it.part, it.has_left) = (Part::Holds, false);
+        }
+        self.open(setup, plan, view, out);
+    }
+
+    /// A follower has completed its leg.
+    fn completed(
+        &mut self,
+        setup: &Setup,
+        plan: &Plan,
+        view: &View,
+        station: StationId,
+        out: &mut impl Sink,
+    ) {
+        let Some(seat) = self.seat_of(station) else {
+            return;
+        };
+        if self.is_elsewhere(seat) {
+            return self.command(setup, plan, view, seat, out);
+        }
+        if let Some(it) = self.at(seat) {
+            it.part = Part::Done;
+        }
+    }
+
+    fn is_elsewhere(&self, seat: usize) -> bool {
+        let mut seats = self.seats.iter();
+        seats
+            .nth(seat)
+            .is_some_and(|seat| seat.presence.is_elsewhere())
+    }
+
+    /// A follower is to be commanded its leg again.
+    fn again(&mut self, station: StationId) {
+        if let Some(seat) = self.seat_of(station).and_then(|seat| self.at(seat)) {
+            seat.again = true;
+        }
+    }
+
+    /// Commands again what was to wait for that.
+    fn command_again(&mut self, setup: &Setup, plan: &Plan, view: &View, out: &mut impl Sink) {
+        for seat in 0..self.seats.len() {
+            let is_due = |it: &Seat| it.again && it.pause == Millis::ZERO;
+            if self.seats.iter().nth(seat).is_some_and(is_due) {
+                self.command(setup, plan, view, seat, out);
+            }
+        }
+    }
+
+    /// Commands the follower's leg, again if it failed; in the end the leader gives up. A leg that takes a person on the road
+    /// waits for everybody who guards from a place.
+    fn command(
+        &mut self,
+        setup: &Setup,
+        plan: &Plan,
+        view: &View,
+        seat: usize,
+        out: &mut impl Sink,
+    ) {
+        let leg = self.leg(plan, seat);
+        let is_escort = leg.is_some_and(|leg| setup.escorts().contains(leg.task));
+        let is_hindered = is_escort && self.hindrance(setup, plan, view).is_some();
+        let Some(it) = self.at(seat) else { return };
+        let Some(leg) = leg else {
+            it.part = Part::Done;
+            return;
+        };
+        it.again = is_hindered;
+        if is_hindered {
+            it.pause = Millis(100);
+            it.part = Part::Commanded(0);
+            return;
+        }
+        let Some(station) = it.station else { return };
+        let attempts = match it.part {
+            Part::Commanded(attempts) => attempts,
+            // A part that was begun well has all its attempts before it.
+            Part::Holds | Part::Done => 0,
+        };
+        if attempts >= ATTEMPTS {
+            return out.tell(Event::LeaveRequested);
+        }
+        (it.part, it.has_left) = (Part::Commanded(attempts + 1), false);
+        it.pause = AGAIN;
+        out.put(Output::Order(station, leg));
+    }
+
+    /// A follower is gone, and with it a part of the plan that nobody else does.
+    fn miss(&mut self, plan: &Plan, station: StationId, out: &mut impl Sink) {
+        let Some(gone) = self.seat_of(station) else {
+            return;
+        };
+        let had_part = plan.roles.is_empty() || gone < plan.roles.len();
+        if let Some(seat) = self.at(gone) {
+            *seat = Seat::EMPTY;
+        }
+        if had_part && self.seats.iter().any(|seat| seat.station.is_some()) {
+            out.tell(Event::LeaveRequested);
+        }
+    }
+
+    /// Goes on to the next stage when every follower has done its part or holds it.
+    fn finish_stage(&mut self, setup: &Setup, plan: &Plan, view: &View, out: &mut impl Sink) {
+        if self.is_ready(plan) && !plan.is_last(self.stage) {
+            self.begin_stage(setup, plan, view, self.stage + 1, out);
+        }
+    }
+
+    /// Whether every follower has done its part or holds it.
+    fn is_ready(&self, plan: &Plan) -> bool {
+        let seats = self.seats.iter().enumerate();
+        let has_role = |seat: usize| plan.roles.is_empty() || seat < plan.roles.len();
+        let seated = seats.filter(|(seat, it)| has_role(*seat) && it.station.is_some());
+        let is_ready = |seat: &Seat| !matches!(seat.part, Part::Commanded(_));
+        seated.count() >= usize::from(plan.followers) && self.seats.iter().all(is_ready)
+    }
+
+    /// Whether every follower has done its part, holds it, or is an escort at the end of its way. That one goes on
+    /// as long as it only hears of its person: what it hears is less exact than what its leader sees.
+    fn is_over_there(&self, setup: &Setup, plan: &Plan) -> bool {
+        let mut at_end = self.clone();
+        for (seat, it) in at_end.seats.iter_mut().enumerate() {
+            let leg = self.leg(plan, seat);
+            let is_escort = leg.is_some_and(|leg| setup.escorts().contains(leg.task));
+            if is_escort && it.presence.is_there() && it.pause == Millis::ZERO && !it.again {
+                it.part = Part::Done;
+            }
+        }
+        at_end.is_ready(plan)
+    }
+
+    /// Whether the newest position of every follower is fresh.
+    fn are_heard(&self, setup: &Setup, plan: &Plan) -> bool {
+        let seated = self.seats.iter().filter(|it| it.station.is_some());
+        seated.clone().count() >= usize::from(plan.followers) && { seated }
+            .all(|it| it.presence.is_fresh(setup.position))
+    }
+
+    fn begin_stage(
+        &mut self,
+        setup: &Setup,
+        plan: &Plan,
+        view: &View,
+        stage: u8,
+        out: &mut impl Sink,
+    ) {
+        self.stage = stage;
+        for seat in 0..self.seats.len() {
+            let is_taken = self
+                .seats
+                .iter()
+                .nth(seat)
+                .is_some_and(|it| it.station.is_some());
+            // Who holds goes on holding unless the stage has something else for it.
+            if is_taken && self.leg(plan, seat).is_some() {
+                self.begin_part(setup, plan, view, seat, out);
+            }
+        }
+    }
+
+    /// What keeps people from crossing, besides that nobody wants to and that the plan is not so far.
+    pub(crate) fn hindrance(&self, setup: &Setup, plan: &Plan, view: &View) -> Option<Hindrance> {
+        for (seat, it) in self.seats.iter().enumerate() {
+            let Some(station) = it.station else { continue };
+            let leg = self.held_leg(plan, seat);
+            let holds = leg.is_some_and(|leg| setup.holding.contains(leg.task));
+            if holds && (it.part != Part::Holds || !it.presence.is_there()) {
+                return Some(Hindrance::GuardElsewhere(station));
+            }
+        }
+        if plan.own_place.is_some() && !view.own.is_there() {
+            return Some(Hindrance::LeaderElsewhere);
+        }
+        view.hindrance
+    }
+
+    /// For how long yet everybody who guards from a place is there.
+    pub(crate) fn presence_left(&self, setup: &Setup, plan: &Plan, view: &View) -> Millis {
+        let mut left = Millis(u32::MAX);
+        for (seat, it) in self.seats.iter().enumerate() {
+            let leg = self.held_leg(plan, seat);
+            let holds = leg.is_some_and(|leg| setup.holding.contains(leg.task));
+            if it.station.is_some() && holds {
+                left = left.min(it.presence.left());
+            }
+        }
+        if plan.own_place.is_some() {
+            left = left.min(view.own.left());
+        }
+        left
+    }
+
+    /// Asks for the corridor to be opened in the last stage, where nothing hinders. While it is open no guard is
+    /// commanded anything, so an earlier stage would be the last one.
+    fn open(&mut self, setup: &Setup, plan: &Plan, view: &View, out: &mut impl Sink) {
+        if !plan.is_last(self.stage) {
+            return;
+        }
+        self.tried = OPENING_PERIOD;
+        let is_free = self.hindrance(setup, plan, view).is_none();
+        if view.corridor != Corridor::Open && view.is_wanted && is_free {
+            out.tell(Event::OpenCorridor);
+        }
+    }
+
+    /// What a leader does by the clock: it opens the corridor when it did not open before, closes it when nobody wants it any
+    /// more, ends the task when everybody is across, and gives up in the end. `false` when the plan is over.
+    pub(crate) fn lead_on(
+        &mut self,
+        setup: &Setup,
+        plan: &Plan,
+        view: &View,
+        out: &mut impl Sink,
+    ) -> bool {
+        self.command_again(setup, plan, view, out);
+        self.return_guards(setup, plan, view, out);
+        self.finish_stage(setup, plan, view, out);
+        let is_done = plan.is_last(self.stage) && self.is_ready(plan);
+        let is_over_there = plan.is_last(self.stage) && self.is_over_there(setup, plan);
+        let may_try = self.tried == Millis::ZERO;
+        if view.corridor != Corridor::Open {
+            self.opened = STEP_ON;
+        }
+        match view.corridor {
+            Corridor::Open => {
+                // Who comes when the escort is over there waits for its next way; a team that holds lets everybody across.
+                let is_escorted = plan.is_escort(self.stage, setup.escorts());
+                let is_full = is_escorted && self.opened == Millis::ZERO;
+                if is_full || is_over_there && (is_escorted || !view.is_wanted) {
+                    out.tell(Event::CloseCorridor);
+                }
+            }
+            Corridor::Clearing => {}
+            Corridor::Clear => {
+                let lets_cross = plan.lets_cross(setup.guarding);
+                // An escort that lost its person on the road waits there; its leader knows where they are. One that is
+                // not heard any more may be lost itself.
+                let is_escorted = plan.is_last(self.stage)
+                    && plan.is_escort(self.stage, setup.escorts())
+                    && self.are_heard(setup, plan);
+                let is_over = is_over_there || is_escorted && view.has_opened;
+                // Who waits by then is called for anew.
+                let is_through = is_escorted && view.has_opened && view.nobody_is_lost;
+                if is_done && !lets_cross
+                    || is_over && view.everybody_is_across
+                    || is_over_there && is_through
+                {
+                    out.tell(Event::TaskCompleted);
+                } else if self.patience == Millis::ZERO {
+                    out.tell(Event::LeaveRequested);
+                    return false;
+                } else if may_try && is_done && plan.is_escort(self.stage, setup.escorts()) {
+                    // The escort is over there, and nobody came along.
+                    self.tried = OPENING_PERIOD;
+                    self.begin_stage(setup, plan, view, 0, out);
+                } else if may_try {
+                    self.open(setup, plan, view, out);
+                }
+            }
+        }
+        true
+    }
+
+    /// Commands guards back that have left their place, while nobody may be on the road.
+    fn return_guards(&mut self, setup: &Setup, plan: &Plan, view: &View, out: &mut impl Sink) {
+        if view.corridor != Corridor::Clear {
+            return;
+        }
+        for seat in 0..self.seats.len() {
+            let is_away = |it: &Seat| {
+                let is_away = it.part == Part::Holds && it.presence.is_elsewhere() || it.has_left;
+                is_away && it.pause == Millis::ZERO
+            };
+            let holds = self
+                .leg(plan, seat)
+                .is_some_and(|leg| setup.holding.contains(leg.task));
+            if holds && self.seats.iter().nth(seat).is_some_and(is_away) {
+                self.command(setup, plan, view, seat, out);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

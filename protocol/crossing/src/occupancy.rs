@@ -1,0 +1,209 @@
+//! Whether the carriageway is empty: decided by frames, and by nothing else.
+//!
+//! The road is clear when, after the last sign went to stop, each of its parts was covered by more than `miss_max`
+//! consecutive frames without anybody on the carriageway, and is covered now. Whatever speaks against that starts the count
+//! anew: somebody on the road, also as another station reports them, a frame that comes too late, a gap between two
+//! frames, a line that is no frame. Silence counts nothing.
+
+use crossguard_protocol::Millis;
+
+use crate::ground::Coverage;
+use crate::input::{Frame, FrameDrop};
+use crate::setup::{Sensors, Setup};
+
+/// Capacity for sources of one robot.
+pub const SOURCES: usize = 4;
+
+/// Capacity of a [`Coverage`] for parts.
+const PARTS: usize = 32;
+
+/// What is known of one source.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+struct Source {
+    /// Time since its newest frame was made; `None` before the first.
+    age: Option<Millis>,
+    /// What its newest frame covers.
+    covers: Coverage,
+    /// In how many consecutive frames each part was covered and nobody on the road, saturating.
+    empty: [u8; PARTS],
+    /// What it covered when it had somebody on the road, until that is empty again.
+    owed: Coverage,
+}
+
+/// What is known of the carriageway.
+#[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
+pub struct Occupancy {
+    sources: [Source; SOURCES],
+    /// For how long yet somebody counts as on the road, or has just left it.
+    seen: Millis,
+}
+
+impl Source {
+    fn is_fresh(&self, sensors: &Sensors) -> bool {
+        self.age.is_some_and(|age| age <= sensors.gap_max)
+    }
+
+    /// The parts that are known to be empty.
+    fn clear(&self, sensors: &Sensors) -> Coverage {
+        let parts = self.empty.iter().enumerate();
+        let clear = parts.filter(|(_, empty)| **empty > sensors.miss_max);
+        clear.fold(Coverage::NONE, |all, (part, _)| {
+            all.union(Coverage(1 << part))
+        })
+    }
+
+    const fn start_anew(&mut self) {
+        self.empty = [0; PARTS];
+    }
+}
+
+impl Occupancy {
+    /// Lets time pass.
+    pub(crate) fn elapse(&mut self, setup: &Setup, time: Millis) {
+        self.seen = self.seen.saturating_sub(time);
+        // What is older than any limit is as old as it gets.
+        let oldest = setup
+            .sensors
+            .gap_max
+            .saturating_add(setup.sensors.age_max)
+            .saturating_add(Millis(1));
+        for source in &mut self.sources {
+            source.age = source.age.map(|age| age.saturating_add(time).min(oldest));
+            if source.age.is_some() && !source.is_fresh(&setup.sensors) {
+                source.start_anew();
+            }
+        }
+    }
+
+    /// Whether a frame counts; that it came is noted.
+    pub(crate) fn admit(&mut self, setup: &Setup, frame: &Frame<'_>) -> Result<(), FrameDrop> {
+        let source = self.sources.get_mut(usize::from(frame.source));
+        let source = source.ok_or(FrameDrop::NoSuchSource)?;
+        if frame.age > setup.sensors.age_max {
+            source.start_anew();
+            return Err(FrameDrop::Stale);
+        }
+        if let Some(age) = source.age.filter(|age| frame.age >= *age) {
+            // One that was on its way while others overtook it: those were not consecutive.
+            if frame.age > age {
+                source.start_anew();
+            }
+            return Err(FrameDrop::OutOfOrder);
+        }
+        let gap = source.age.map(|age| age.saturating_sub(frame.age));
+        if gap.is_none_or(|gap| gap > setup.sensors.gap_max) {
+            source.start_anew();
+        }
+        (source.age, source.covers) = (Some(frame.age), frame.covers);
+        Ok(())
+    }
+
+    /// Counts a frame that was admitted and had nobody on the road.
+    pub(crate) fn count(&mut self, frame: &Frame<'_>) {
+        let Some(source) = self.sources.get_mut(usize::from(frame.source)) else {
+            return;
+        };
+        for (part, empty) in source.empty.iter_mut().enumerate() {
+            let is_covered = frame.covers.has(Coverage(1 << part));
+            *empty = if is_covered {
+                empty.saturating_add(1)
+            } else {
+                0
+            };
+        }
+    }
+
+    /// A frame that was admitted has somebody on the road.
+    pub(crate) fn owe(&mut self, setup: &Setup, frame: &Frame<'_>) {
+        if let Some(source) = self.sources.get_mut(usize::from(frame.source)) {
+            let parts = if frame.covers == Coverage::NONE {
+                setup.ground.parts
+            } else {
+                frame.covers
+            };
+            source.owed = source.owed.union(parts);
+        }
+        self.occupy(setup);
+    }
+
+    /// Whether its own sensors have had nobody on the road for more than `miss_max` frames; what they covered before
+    /// is forgotten then.
+    pub(crate) fn settle(&mut self, setup: &Setup) -> bool {
+        let is_empty = self.sees_nobody(setup);
+        if is_empty {
+            for source in &mut self.sources {
+                source.owed = Coverage::NONE;
+            }
+        }
+        is_empty
+    }
+
+    /// A source delivered something that is no frame.
+    pub(crate) fn doubt(&mut self, source: u8) {
+        if let Some(source) = self.sources.get_mut(usize::from(source)) {
+            source.start_anew();
+        }
+    }
+
+    /// Somebody is on the road.
+    pub(crate) fn occupy(&mut self, setup: &Setup) {
+        self.start_anew();
+        self.seen = setup.sensors.linger;
+    }
+
+    /// Starts the count anew.
+    pub(crate) fn start_anew(&mut self) {
+        for source in &mut self.sources {
+            source.start_anew();
+        }
+    }
+
+    /// Whether any source has ever delivered a frame.
+    #[must_use]
+    pub fn has_sources(&self) -> bool {
+        self.sources.iter().any(|source| source.age.is_some())
+    }
+
+    /// Whether the sources cover the whole carriageway now.
+    #[must_use]
+    pub fn is_covered(&self, setup: &Setup) -> bool {
+        let fresh = self.sources.iter().filter(|it| it.is_fresh(&setup.sensors));
+        covers_all(setup, fresh.map(|source| source.covers))
+    }
+
+    /// Whether the carriageway is known to be empty now.
+    #[must_use]
+    pub fn is_clear(&self, setup: &Setup) -> bool {
+        let sensors = &setup.sensors;
+        let fresh = self.sources.iter().filter(|it| it.is_fresh(sensors));
+        setup.ground.road.is_some() && covers_all(setup, fresh.map(|it| it.clear(sensors)))
+    }
+
+    /// Whether the robot's own sensors all work and have had nobody on the road for more than `miss_max` frames, in what
+    /// they cover, and in what they covered when they saw somebody last.
+    #[must_use]
+    pub fn sees_nobody(&self, setup: &Setup) -> bool {
+        let sensors = &setup.sensors;
+        let mut known = self.sources.iter().filter(|source| source.age.is_some());
+        known.all(|it| it.is_fresh(sensors) && it.clear(sensors).has(it.covers.union(it.owed)))
+    }
+
+    /// Whether the robot's own sensors had somebody on the road, and have not had nobody there since.
+    #[must_use]
+    pub fn owes(&self) -> bool {
+        self.sources
+            .iter()
+            .any(|source| source.owed != Coverage::NONE)
+    }
+
+    /// Whether somebody was seen or reported on the road within the last `linger`.
+    #[must_use]
+    pub fn was_seen(&self) -> bool {
+        self.seen > Millis::ZERO
+    }
+}
+
+fn covers_all(setup: &Setup, parts: impl Iterator<Item = Coverage>) -> bool {
+    let covered = parts.fold(Coverage::NONE, Coverage::union);
+    setup.ground.parts != Coverage::NONE && covered.has(setup.ground.parts)
+}

@@ -1,0 +1,197 @@
+//! What a crossing machine is set up with: what its sensors are assumed to see, its rules, its ground and its plan.
+
+use crossguard_protocol::{Config, HelpRequest, Millis, Place, TaskSet, Urgency};
+
+use crate::ground::Ground;
+use crate::plan::Plan;
+
+/// What is assumed of sensors (assumption `sees`), and which frames count.
+///
+/// Somebody who is on a covered part of the carriageway is in at least one of any `miss_max` consecutive frames that
+/// cover it, within `error_cm`, and nobody walks faster than `speed_max_cmps`.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Sensors {
+    /// In so many consecutive frames somebody who is there may be missed, less one; 5 by default. The road is clear
+    /// after more than so many empty frames.
+    pub miss_max: u8,
+    /// Largest error of a place, in centimetres, unless a sighting says more; 20 by default.
+    pub error_cm: u16,
+    /// Largest speed of people, in cm/s; 400 by default.
+    pub speed_max_cmps: u16,
+    /// Largest age of a frame, counted from when it was measured; 500 ms by default.
+    pub age_max: Millis,
+    /// Longest time from one frame of a source to its next; 500 ms by default. A longer one starts the count anew.
+    pub gap_max: Millis,
+    /// For how long a person on the road counts as wanting the corridor after they were seen there last; 1 s by
+    /// default.
+    pub linger: Millis,
+}
+
+impl Default for Sensors {
+    fn default() -> Self {
+        Self {
+            miss_max: 5,
+            error_cm: 20,
+            speed_max_cmps: 400,
+            age_max: Millis(500),
+            gap_max: Millis(500),
+            linger: Millis(1_000),
+        }
+    }
+}
+
+/// When somebody waits to cross: see [`tracks`](crate::tracks).
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct WaitingRules {
+    /// For how long somebody has to stand or to come to the road; 1 s by default.
+    pub dwell: Millis,
+    /// Largest speed of a person who stands, in cm/s; 50 by default.
+    pub speed_max_cmps: u16,
+    /// A person who heads for the road counts from so long before it; 3 s by default. 0: only standing people wait.
+    pub approach: Millis,
+    /// The zone is deserted after so long in which nobody waited or was on the road; 3 s by default.
+    pub clear: Millis,
+    /// Smallest confidence of a person who waits, in percent; 50 by default. Half of it is enough for a person who
+    /// waits already.
+    pub confidence_min: u8,
+}
+
+impl Default for WaitingRules {
+    fn default() -> Self {
+        Self {
+            dwell: Millis(1_000),
+            speed_max_cmps: 50,
+            approach: Millis(3_000),
+            clear: Millis(3_000),
+            confidence_min: 50,
+        }
+    }
+}
+
+/// When it is safe to let somebody cross in front of vehicles: see [`traffic`](crate::traffic).
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct TrafficRules {
+    /// Time of reaction of a driver; 2 s by default.
+    pub reaction: Millis,
+    /// Comfortable deceleration, in cm/s²; 300 by default.
+    pub deceleration_cmps2: u16,
+    /// A slower vehicle stands, in cm/s; 50 by default.
+    pub standing_cmps: u16,
+    /// How far from the middle of the crossing the line of a vehicle may pass it, in centimetres, besides half of
+    /// the crossing; 1,000 by default.
+    pub aside_cm: u16,
+    /// For how long a vehicle counts after it was heard last; 5 s by default.
+    pub keep: Millis,
+}
+
+impl Default for TrafficRules {
+    fn default() -> Self {
+        Self {
+            reaction: Millis(2_000),
+            deceleration_cmps2: 300,
+            standing_cmps: 50,
+            aside_cm: 1_000,
+            keep: Millis(5_000),
+        }
+    }
+}
+
+/// When a robot is where it should be: see [`position`](crate::position).
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct PositionRules {
+    /// How far a body may be from its place, error of its position included, in centimetres; 200 by default, less
+    /// than the width of a lane.
+    pub tolerance_cm: u16,
+    /// For how long a position counts, from when it was measured; 1 s by default.
+    pub lease: Millis,
+    /// How far an escort may be ahead of its person, in centimetres; 200 by default.
+    pub ahead_cm: u16,
+}
+
+impl Default for PositionRules {
+    fn default() -> Self {
+        Self {
+            tolerance_cm: 200,
+            lease: Millis(1_000),
+            ahead_cm: 200,
+        }
+    }
+}
+
+/// What a crossing machine is set up with.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub struct Setup {
+    /// Whether the robot has sensors of its own for people: without frames it lets nobody cross then.
+    pub watches: bool,
+    /// Whether it calls for help when somebody waits, or somebody else tells of them.
+    pub calls: bool,
+    /// What is assumed of its sensors.
+    pub sensors: Sensors,
+    /// When somebody waits.
+    pub waiting: WaitingRules,
+    /// When it is safe in front of vehicles.
+    pub traffic: TrafficRules,
+    /// When a robot is in position.
+    pub position: PositionRules,
+    /// Where people wait and cross.
+    pub ground: Ground,
+    /// What it calls for when somebody waits; the urgency is that of the people.
+    pub request: HelpRequest,
+    /// What it does when it leads; without a plan, somebody else says.
+    pub plan: Option<Plan>,
+    /// The maneuvers under which people cross, as in the protocol's settings.
+    pub guarding: TaskSet,
+    /// The maneuvers that guard from a place.
+    pub holding: TaskSet,
+    /// The protocol's `t_safety`: no sign that counts on this robot shows go for longer.
+    pub t_safety: Millis,
+}
+
+impl Default for Setup {
+    /// No ground, no plan, and the protocol's default settings.
+    fn default() -> Self {
+        Self {
+            watches: false,
+            calls: false,
+            sensors: Sensors::default(),
+            waiting: WaitingRules::default(),
+            traffic: TrafficRules::default(),
+            position: PositionRules::default(),
+            ground: Ground::default(),
+            request: HelpRequest {
+                urgency: Urgency::Medium,
+                followers: 1,
+                tasks: TaskSet::EMPTY,
+                place: Place::UNKNOWN,
+            },
+            plan: None,
+            guarding: TaskSet::EMPTY,
+            holding: TaskSet::EMPTY,
+            t_safety: Millis::ZERO,
+        }
+        .with(&Config::default())
+    }
+}
+
+impl Setup {
+    /// The same, beside a protocol with these settings.
+    #[must_use]
+    pub fn with(mut self, config: &Config) -> Self {
+        self.learn(config);
+        self
+    }
+
+    /// The protocol beside it has these settings.
+    pub fn learn(&mut self, config: &Config) {
+        let settings = config.settings();
+        self.guarding = settings.guarding;
+        self.holding = settings.holding;
+        self.t_safety = settings.t_safety;
+    }
+
+    /// The maneuvers that guard people on their way: escorts.
+    #[must_use]
+    pub const fn escorts(&self) -> TaskSet {
+        TaskSet(self.guarding.0 & !self.holding.0)
+    }
+}

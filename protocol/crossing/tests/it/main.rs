@@ -1,0 +1,10 @@
+//! The crossing machine in virtual time: who waits, what is clear, who is where, and whole crossings with real robots.
+#![allow(clippy::wildcard_imports, reason = "scripts use the whole vocabulary")]
+
+mod occupancy;
+mod position;
+mod scene;
+mod team;
+mod tracks;
+mod traffic;
+mod whole;

@@ -1,0 +1,230 @@
+//! When the carriageway is clear (hazards A, B, C): only by fresh, consecutive, empty frames that cover it.
+
+use crossguard_crossing::*;
+
+use crate::scene::*;
+
+/// How many empty frames are needed.
+const NEEDED: usize = 6;
+
+fn watch() -> Scene {
+    let mut scene = Scene::new(street());
+    scene.look(1_000, &[person(1, 100, 300)]);
+    scene
+}
+
+#[test]
+fn the_road_is_clear_after_more_than_miss_max_empty_frames() {
+    let mut scene = watch();
+    for frame in 1..=NEEDED {
+        assert!(!scene.is_clear());
+        scene.look(100, &[]);
+        assert_eq!(scene.is_clear(), frame == NEEDED, "frame {frame}");
+    }
+    // People beside it, and vehicles on it, change nothing.
+    let car = Sighting {
+        what: RoadUser::Vehicle,
+        ..person(3, 200, 300)
+    };
+    scene.look(100, &[person(2, 100, -100), car]);
+    assert!(scene.is_clear());
+    scene.pass(501);
+    assert!(!scene.is_clear(), "silence");
+}
+
+#[test]
+fn each_of_these_starts_the_count_anew() {
+    type Case = (&'static str, fn(&mut Scene));
+    let cases: [Case; 10] = [
+        ("somebody on the road", |it| {
+            it.look(100, &[person(9, 0, 100)]);
+        }),
+        ("somebody beside the crossing, on the carriageway", |it| {
+            it.look(100, &[person(9, 2_500, 100)]);
+        }),
+        ("somebody whose place may be on the road", |it| {
+            let unsure = Sighting {
+                error_cm: 150,
+                ..person(9, 0, -140)
+            };
+            it.look(100, &[unsure]);
+        }),
+        ("something that is no vehicle", |it| {
+            let what = RoadUser::Animal;
+            it.look(
+                100,
+                &[Sighting {
+                    what,
+                    ..person(9, 0, 100)
+                }],
+            );
+        }),
+        ("a stale frame", |it| {
+            it.pass(100);
+            let out = it.frame(0, 501, 0b11, &[]);
+            assert_eq!(out, [Output::Dropped(FrameDrop::Stale)]);
+        }),
+        ("a malformed frame", |it| {
+            let out = it.tell(Input::BadFrame);
+            assert_eq!(out, [Output::Dropped(FrameDrop::Malformed)]);
+        }),
+        ("a frame that was overtaken", |it| {
+            it.pass(100);
+            it.frame(0, 0, 0b11, &[]);
+            it.frame(0, 50, 0b11, &[]);
+        }),
+        ("a gap", |it| it.pass(501)),
+        ("a gap between frames that came late", |it| {
+            it.pass(400);
+            it.frame(0, 390, 0b11, &[]);
+            it.pass(120);
+            it.frame(0, 0, 0b11, &[]);
+        }),
+        ("a frame that does not cover everything", |it| {
+            it.look(100, &[]);
+            it.pass(100);
+            it.frame(0, 0, 0b01, &[]);
+        }),
+    ];
+    for (name, disturb) in cases {
+        for at in 1..NEEDED {
+            let mut scene = watch();
+            (0..at).for_each(|_| drop(scene.look(100, &[])));
+            disturb(&mut scene);
+            let already = usize::from(name.starts_with("a gap between"));
+            for _ in 0..NEEDED - 1 - already {
+                scene.look(100, &[]);
+                assert!(!scene.is_clear(), "{name}, after {at}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_frame_that_is_not_newer_is_dropped() {
+    let mut scene = watch();
+    scene.look(100, &[]);
+    scene.pass(50);
+    for age in [50, 60, 500] {
+        let out = scene.frame(0, age, 0b11, &[]);
+        assert_eq!(out, [Output::Dropped(FrameDrop::OutOfOrder)]);
+    }
+    assert_eq!(
+        scene.frame(9, 0, 0b11, &[]),
+        [Output::Dropped(FrameDrop::NoSuchSource)]
+    );
+}
+
+/// A repeated frame is no further observation.
+#[test]
+fn a_frame_counts_once() {
+    let mut scene = watch();
+    for _ in 0..NEEDED - 1 {
+        scene.look(100, &[]);
+        (0..3).for_each(|_| drop(scene.frame(0, 0, 0b11, &[])));
+    }
+    assert!(!scene.is_clear());
+    scene.look(100, &[]);
+    assert!(scene.is_clear());
+}
+
+#[test]
+fn two_sources_cover_the_road_together_and_each_must_have_counted_enough() {
+    let mut scene = watch();
+    for frame in 0..10 {
+        scene.pass(100);
+        scene.frame(1, 0, 0b01, &[]);
+        if frame >= 4 {
+            scene.frame(2, 0, 0b10, &[]);
+        }
+        assert_eq!(scene.is_clear(), frame == 9, "frame {frame}");
+    }
+    // One of them is covered up.
+    scene.pass(100);
+    scene.frame(1, 0, 0, &[]);
+    scene.frame(2, 0, 0b10, &[]);
+    assert!(!scene.is_clear());
+}
+
+#[test]
+fn a_road_that_nobody_has_measured_is_never_clear() {
+    for change in [
+        (|it: &mut Ground| it.road = None) as fn(&mut Ground),
+        |it| it.parts = Coverage::NONE,
+    ] {
+        let mut setup = street();
+        change(&mut setup.ground);
+        let mut scene = Scene::new(setup);
+        (0..20).for_each(|_| drop(scene.look(100, &[])));
+        assert!(!scene.is_clear());
+    }
+    assert!(!Scene::new(street()).is_clear(), "nothing is known");
+}
+
+/// Another station can add people, and take none away.
+#[test]
+fn what_others_report_counts_against_a_clear_road_and_never_for_it() {
+    let mut scene = watch();
+    (0..NEEDED).for_each(|_| drop(scene.look(100, &[])));
+    assert!(scene.is_clear());
+    scene.tell(Input::Heard(
+        person(5, 0, -100),
+        crossguard_protocol::Millis(100),
+    ));
+    assert!(scene.is_clear());
+    scene.tell(Input::Heard(
+        person(5, 0, 100),
+        crossguard_protocol::Millis(100),
+    ));
+    assert!(!scene.is_clear());
+    scene.tell(Input::Heard(
+        person(5, 0, -100),
+        crossguard_protocol::Millis(0),
+    ));
+    assert!(!scene.is_clear());
+}
+
+/// A frame that comes after newer ones still shows who was there, and at once again as a repetition changes nothing.
+#[test]
+fn a_person_in_a_frame_that_was_overtaken_is_on_the_road() {
+    for age in [0, 50] {
+        let mut scene = watch();
+        (0..NEEDED).for_each(|_| drop(scene.look(100, &[])));
+        assert!(scene.is_clear());
+        scene.frame(0, age, 0b11, &[person(1, 100, 300)]);
+        assert!(!scene.is_clear(), "{age} ms old");
+    }
+}
+
+/// A guard with sensors of its own that look away does not know that the person whom it saw has gone.
+#[test]
+fn a_source_that_looks_away_sees_nobody_leave() {
+    let mut scene = watch();
+    for _ in 0..20 {
+        scene.pass(100);
+        scene.frame(0, 0, 0b01, &[]);
+        assert!(!scene.crossing.occupancy().sees_nobody(&scene.setup));
+    }
+    (0..NEEDED).for_each(|_| drop(scene.look(100, &[])));
+    assert!(scene.crossing.occupancy().sees_nobody(&scene.setup));
+    // Now it owes nothing, and what it covers is enough.
+    (0..NEEDED).for_each(|_| drop(scene.look(100, &[])));
+    for _ in 0..NEEDED {
+        scene.pass(100);
+        scene.frame(0, 0, 0b01, &[]);
+    }
+    assert!(scene.crossing.occupancy().sees_nobody(&scene.setup));
+}
+
+/// A lorry hides a part for one frame: that part is counted anew, and not lost for ever.
+#[test]
+fn parts_are_counted_each_for_itself() {
+    let mut scene = watch();
+    (0..NEEDED).for_each(|_| drop(scene.look(100, &[])));
+    scene.pass(100);
+    scene.frame(0, 0, 0b01, &[]);
+    for frame in 1..=NEEDED {
+        scene.look(100, &[]);
+        assert_eq!(scene.is_clear(), frame == NEEDED, "frame {frame}");
+    }
+}

@@ -1,0 +1,360 @@
+//! Who waits to cross, and who does not, whatever happens to ids (hazards D and E).
+
+use crossguard_crossing::tracks::*;
+use crossguard_crossing::*;
+use crossguard_protocol::{Millis, Urgency};
+
+use crate::scene::*;
+
+fn watch() -> Scene {
+    Scene::new(street())
+}
+
+#[test]
+fn a_person_who_stands_at_the_kerb_waits_after_the_dwell_time() {
+    let mut scene = watch();
+    let mut who = person(1, 100, -100);
+    assert_eq!(scene.sees(&mut who, 900), None);
+    assert_eq!(scene.conducts(), [Conduct::Passing]);
+    assert_eq!(scene.sees(&mut who, 300), Some(Urgency::Medium));
+    assert_eq!(scene.conducts(), [Conduct::Waiting]);
+    // However restless.
+    who = walking(who, 90, 0);
+    assert_eq!(scene.sees(&mut who, 1_000), Some(Urgency::Medium));
+    let middle = scene.crossing.tracks().middle().unwrap();
+    assert!(middle.distance_cm(Point::new(180, -100)) < 20, "{middle:?}");
+}
+
+#[test]
+fn a_person_who_sways_waits_as_well() {
+    let mut scene = watch();
+    let mut urgency = None;
+    for step in 0..20 {
+        let sway = if step % 2 == 0 { 10 } else { -10 };
+        let mut who = walking(person(1, 100 + sway, -100), sway * 3, 0);
+        urgency = scene.sees(&mut who, 100);
+    }
+    assert_eq!(urgency, Some(Urgency::Medium));
+}
+
+#[test]
+fn a_person_who_walks_up_to_the_road_is_noticed_before_the_kerb() {
+    let mut scene = watch();
+    let mut who = walking(person(1, 100, -240), 0, 120);
+    assert_eq!(scene.sees(&mut who, 1_200), Some(Urgency::Medium));
+    assert!(who.at.north_cm() < 0, "not on the road yet");
+}
+
+#[test]
+fn a_passer_by_along_the_kerb_does_not_wait() {
+    for (speed, tells_velocity) in [(140, true), (80, true), (140, false), (80, false)] {
+        for interval in [100, 250, 500] {
+            let mut scene = watch();
+            let mut who = walking(person(1, -300, -60), speed, 0);
+            let ms = 790_000 / u32::try_from(speed).unwrap();
+            let told = scene.sees_at(&mut who, ms, interval, tells_velocity);
+            assert!(told.len() > 5);
+            let nobody = told.iter().all(Option::is_none);
+            assert!(
+                nobody,
+                "{speed} cm/s, {tells_velocity}, {interval} ms: {told:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_person_who_runs_across_without_waiting_is_no_call_and_does_not_wait_over_there() {
+    let mut scene = watch();
+    let mut who = walking(person(1, 100, -100), 0, 200);
+    assert_eq!(scene.sees(&mut who, 2_000), None);
+    assert_eq!(scene.conducts(), [Conduct::OnRoad]);
+    assert!(!scene.is_clear());
+    scene.sees(&mut who, 2_300);
+    who = walking(who, 0, 0);
+    assert_eq!(scene.sees(&mut who, 3_000), None);
+    assert_eq!(scene.conducts(), [Conduct::Across]);
+    assert!(scene.is_clear());
+    // A person who stays for long wants to go back.
+    assert_eq!(scene.sees(&mut who, ACROSS.0), Some(Urgency::Medium));
+}
+
+#[test]
+fn a_step_on_the_road_and_back_is_no_crossing() {
+    let mut scene = watch();
+    for north in [-20, 10, 20, -10] {
+        scene.sees(&mut person(1, 100, north), 300);
+    }
+    let urgency = scene.sees(&mut person(1, 100, -20), 1_500);
+    assert_eq!(urgency, Some(Urgency::Medium));
+}
+
+#[test]
+fn vehicles_animals_and_riders_do_not_wait_and_a_cyclist_who_stands_does() {
+    for what in [RoadUser::Vehicle, RoadUser::Animal] {
+        for north in [-100, 300] {
+            let mut scene = watch();
+            let mut standing = Sighting {
+                what,
+                ..person(1, 100, north)
+            };
+            assert_eq!(scene.sees(&mut standing, 5_000), None, "{what:?}");
+        }
+    }
+    let mut scene = watch();
+    let what = RoadUser::Bicyclist;
+    let mut cyclist = Sighting {
+        what,
+        ..walking(person(1, -300, -50), 300, 0)
+    };
+    assert_eq!(scene.sees(&mut cyclist, 2_500), None, "rides along");
+    cyclist = walking(cyclist, 0, 100);
+    cyclist.at = Point::new(100, -240);
+    assert_eq!(scene.sees(&mut cyclist, 2_000), None, "rides to the road");
+    cyclist = walking(cyclist, 0, 0);
+    assert_eq!(scene.sees(&mut cyclist, 1_500), Some(Urgency::Medium));
+}
+
+#[test]
+fn a_wheelchair_user_is_more_urgent_and_a_person_who_stands_on_the_road_most() {
+    let mut user = Sighting {
+        what: RoadUser::WheelchairUser,
+        ..person(1, 100, -100)
+    };
+    assert_eq!(watch().sees(&mut user, 1_500), Some(Urgency::High));
+    let mut stuck = person(1, 100, 300);
+    assert_eq!(watch().sees(&mut stuck, 1_500), Some(Urgency::Emergency));
+}
+
+#[test]
+fn stale_observations_are_nobody_who_waits() {
+    let mut scene = watch();
+    let mut who = person(1, 100, -100);
+    scene.look(0, &[who]);
+    scene.pass(5_000);
+    assert_eq!(scene.crossing.tracks().urgency(), None, "one frame");
+    let seldom = scene.sees_at(&mut who, 9_000, 1_500, true);
+    assert!(seldom.iter().all(Option::is_none), "a frame now and then");
+    scene.sees(&mut who, 1_500);
+    assert!(scene.crossing.tracks().urgency().is_some());
+    scene.pass(1_001);
+    assert_eq!(scene.crossing.tracks().urgency(), None, "silence");
+}
+
+#[test]
+fn uncertain_people_and_people_elsewhere_do_not_wait() {
+    let mut scene = watch();
+    let mut unsure = person(1, 100, -100);
+    for (confidence, ms, expected) in [
+        (40, 2_000, None),
+        (60, 1_500, Some(Urgency::Medium)),
+        (30, 500, Some(Urgency::Medium)),
+    ] {
+        unsure.confidence = confidence;
+        assert_eq!(scene.sees(&mut unsure, ms), expected, "{confidence} %");
+    }
+    let mut scene = watch();
+    assert_eq!(scene.sees(&mut person(2, 100, -260), 3_000), None);
+    assert_eq!(scene.conducts(), [Conduct::Elsewhere]);
+    let mut setup = street();
+    setup.ground.waiting = None;
+    let mut scene = Scene::new(setup);
+    assert_eq!(scene.sees(&mut person(1, 100, 100), 2_000), None);
+}
+
+#[test]
+fn a_zone_that_people_leave_is_deserted() {
+    let mut scene = watch();
+    let mut leaving = person(1, 400, -100);
+    scene.sees(&mut leaving, 1_500);
+    assert!(scene.crossing.tracks().is_waiting());
+    leaving = walking(leaving, 140, 0);
+    scene.sees(&mut leaving, 1_000);
+    assert_eq!(scene.conducts(), [Conduct::Elsewhere]);
+    assert!(!scene.crossing.tracks().is_waiting());
+}
+
+/// Hazard E: a person whose id changes every 0.8 s was never detected.
+#[test]
+fn a_person_waits_whatever_happens_to_their_id() {
+    type Id = fn(u32) -> Option<u32>;
+    let ids: [(&str, Id); 4] = [
+        ("changes every 0.8 s", |frame| Some(frame / 8)),
+        ("changes in each frame", Some),
+        ("is missing", |_| None),
+        ("comes and goes", |frame| (frame % 3 == 0).then_some(frame)),
+    ];
+    for (name, id) in ids {
+        let mut scene = watch();
+        let mut waits_from = None;
+        for frame in 0..30 {
+            let who = Sighting {
+                id: id(frame),
+                ..person(0, 100, -100)
+            };
+            scene.look(100, &[who]);
+            assert_eq!(scene.conducts().len(), 1, "{name}: one person");
+            if scene.crossing.tracks().is_waiting() {
+                waits_from = waits_from.or(Some(frame));
+            }
+        }
+        assert_eq!(waits_from, Some(10), "{name}");
+    }
+}
+
+/// Two people whose ids are swapped in each frame both wait.
+#[test]
+fn swapped_ids_of_people_out_of_reach_of_each_other_swap_nobody() {
+    let mut scene = watch();
+    for frame in 0..20 {
+        let (first, second) = (frame % 2, (frame + 1) % 2);
+        let people = [person(first, -200, -100), person(second, 300, -100)];
+        scene.look(100, &people);
+    }
+    assert_eq!(scene.conducts(), [Conduct::Waiting; 2]);
+}
+
+/// Hazard D: the tracker restarts and numbers from 1 again.
+#[test]
+fn an_id_that_jumps_is_somebody_else() {
+    let mut setup = street();
+    setup.sensors.speed_max_cmps = 2_000;
+    let mut scene = Scene::new(setup);
+    scene.sees(&mut person(1, 0, 300), 500);
+    // The person who was lost comes within reach of the other one with time.
+    scene.sees(&mut person(1, 400, -200), 500);
+    assert_eq!(scene.conducts(), [Conduct::OnRoad, Conduct::Passing]);
+}
+
+/// Hazard D: two cameras number from 1, each for itself.
+#[test]
+fn ids_belong_to_their_source() {
+    let mut scene = watch();
+    for _ in 0..15 {
+        scene.look(100, &[person(1, 0, 300)]);
+        scene.frame(1, 0, 0b11, &[person(1, 400, -200)]);
+    }
+    assert_eq!(scene.conducts(), [Conduct::OnRoad, Conduct::Waiting]);
+    assert!(!scene.is_clear());
+}
+
+#[test]
+fn two_sources_that_see_one_person_have_one_person() {
+    let mut scene = watch();
+    for _ in 0..15 {
+        scene.look(100, &[person(1, 100, -100)]);
+        scene.frame(1, 50, 0b11, &[person(7, 110, -95)]);
+    }
+    assert_eq!(scene.conducts(), [Conduct::Waiting]);
+}
+
+/// There are too many people to keep track of: somebody waits.
+#[test]
+fn more_people_than_can_be_kept_track_of_are_a_crowd_that_waits() {
+    let setup = street();
+    let mut crossing = Crossing::<2>::default();
+    let people: Vec<Sighting> = (0..4)
+        .map(|id| person(id, 100 * i32::try_from(id).unwrap(), -100))
+        .collect();
+    let frame = |crossing: &mut Crossing<2>, people: &[Sighting]| {
+        crossing.step(&setup, Input::Elapsed(Millis(100)));
+        crossing.step(
+            &setup,
+            Input::Frame(Frame {
+                source: 0,
+                age: Millis(0),
+                covers: Coverage::ALL,
+                sightings: people,
+            }),
+        );
+    };
+    frame(&mut crossing, &people);
+    assert_eq!(crossing.tracks().urgency(), Some(Urgency::Medium));
+    assert!(crossing.tracks().is_waiting());
+    (0..11).for_each(|_| frame(&mut crossing, &[]));
+    assert!(!crossing.tracks().is_waiting());
+}
+
+/// Another station can add people, and take none away.
+#[test]
+fn nobody_ceases_to_wait_because_of_what_others_report() {
+    let mut scene = watch();
+    let mut who = person(1, 100, -20);
+    scene.sees(&mut who, 1_500);
+    for reported in [
+        person(9, 100, 40),
+        person(9, 100, -30),
+        Sighting {
+            confidence: 0,
+            ..person(1, 100, -20)
+        },
+        walking(person(1, 100, -20), 300, 0),
+    ] {
+        scene.tell(Input::Heard(reported, Millis(0)));
+        let own = scene.crossing.tracks().iter().next().unwrap();
+        assert_eq!(own.conduct(&scene.setup), Conduct::Waiting, "{reported:?}");
+    }
+    // It calls for people whom only others see.
+    let mut scene = watch();
+    for _ in 0..12 {
+        scene.pass(100);
+        scene.tell(Input::Heard(person(9, 100, -50), Millis(50)));
+    }
+    assert_eq!(scene.conducts(), [Conduct::Waiting]);
+}
+
+#[test]
+fn a_source_that_lags_takes_nobody_back_where_they_were() {
+    let mut scene = watch();
+    scene.look(100, &[person(1, 100, 20)]);
+    scene.frame(1, 90, 0b11, &[person(1, 100, -20)]);
+    assert_eq!(scene.conducts(), [Conduct::OnRoad]);
+}
+
+/// Hazard B: a person who waits under go is out of sight for a moment, and waits still when seen again.
+#[test]
+fn a_person_who_is_found_again_under_go_waits_still() {
+    let mut scene = watch();
+    scene.sees(&mut person(1, 100, -100), 1_500);
+    for _ in 0..15 {
+        scene.look(100, &[]);
+        scene.tell(Input::CorridorOpen(Millis(1_900)));
+        assert!(scene.crossing.tracks().is_waiting());
+    }
+    scene.look(100, &[person(2, 120, -100)]);
+    assert!(scene.crossing.tracks().is_waiting());
+    assert_eq!(scene.conducts(), [Conduct::Waiting]);
+    // Not without end.
+    for _ in 0..31 {
+        scene.look(100, &[]);
+        scene.tell(Input::CorridorOpen(Millis(1_900)));
+    }
+    assert!(!scene.crossing.tracks().is_waiting());
+}
+
+/// A person who was lost on the road is on it until frames say that nobody is, and not for ever.
+#[test]
+fn who_was_lost_on_the_road_is_resolved_by_empty_frames() {
+    let mut scene = watch();
+    scene.sees(&mut person(1, 100, 300), 1_500);
+    scene.pass(2_000);
+    assert_eq!(scene.conducts(), [Conduct::OnRoad]);
+    for frame in 1..=6 {
+        assert_eq!(scene.conducts(), [Conduct::OnRoad], "before frame {frame}");
+        scene.look(100, &[]);
+    }
+    assert_eq!(scene.conducts(), []);
+}
+
+#[test]
+fn no_number_of_people_who_were_lost_on_the_road_takes_the_place_of_those_who_are_there() {
+    let setup = street();
+    let mut crossing = Crossing::<2>::default();
+    for id in 0..5 {
+        crossing.step(&setup, Input::Elapsed(Millis(1_500)));
+        crossing.step(&setup, Input::Heard(person(id, 100, 300), Millis(0)));
+    }
+    crossing.step(&setup, Input::Elapsed(Millis(1_500)));
+    crossing.step(&setup, Input::Heard(person(9, 100, -200), Millis(0)));
+    assert!(!crossing.tracks().is_waiting(), "nobody is a crowd");
+}

@@ -1,0 +1,144 @@
+//! Which vehicles hinder (hazard I).
+
+use crossguard_crossing::*;
+use crossguard_protocol::Millis;
+
+use crate::scene::*;
+
+fn vehicle(east: i32, north: i32, east_cms: i32, north_cms: i32) -> Vehicle {
+    let velocity = Way {
+        east_cm: east_cms,
+        north_cm: north_cms,
+    };
+    Vehicle {
+        key: 7,
+        at: Point::new(east, north),
+        error_cm: 0,
+        velocity,
+    }
+}
+
+/// Whether a vehicle hinders that was reported so long ago, and after so much silence.
+fn hinders(vehicle: Vehicle, age: u32, silence: u32) -> bool {
+    let mut setup = street();
+    setup.watches = false;
+    let mut scene = Scene::new(setup);
+    scene.tell(Input::Vehicle(vehicle, Millis(age)));
+    scene.pass(silence);
+    scene.crossing.hindered(&scene.setup) == Some(Hindrance::Vehicle(7))
+}
+
+#[test]
+fn a_vehicle_hinders_that_can_no_longer_stop_comfortably() {
+    // At 50 km/h: 2 s to react are 27.8 m, and 32.2 m to stop. The crossing ends at 3 m west.
+    let fast = 1_389;
+    for (name, vehicle, expected) in [
+        ("50 km/h at 16 m", vehicle(-1_900, 200, fast, 0), true),
+        ("50 km/h at 59 m", vehicle(-6_200, 200, fast, 0), true),
+        ("50 km/h at 62 m", vehicle(-6_500, 200, fast, 0), false),
+        ("from the east", vehicle(2_100, 500, -fast, 0), true),
+        ("it stands", vehicle(-400, 200, 40, 0), false),
+        ("it has passed", vehicle(600, 200, fast, 0), false),
+        ("it is on the crossing", vehicle(450, 200, fast, 0), true),
+        ("it passes aside", vehicle(-1_900, 4_000, fast, 0), false),
+        (
+            "it comes from the north",
+            vehicle(100, 4_000, 0, -fast),
+            true,
+        ),
+    ] {
+        assert_eq!(hinders(vehicle, 0, 0), expected, "{name}");
+    }
+}
+
+#[test]
+fn an_older_report_counts_as_if_the_vehicle_had_gone_on() {
+    let far = vehicle(-6_500, 200, 1_389, 0);
+    for (age, silence, expected) in [
+        (0, 0, false),
+        (300, 0, true),
+        (0, 300, true),
+        (0, 5_000, true),
+        (0, 5_001, false),
+        (5_001, 0, false),
+    ] {
+        assert_eq!(
+            hinders(far, age, silence),
+            expected,
+            "{age} ms, {silence} ms"
+        );
+    }
+}
+
+#[test]
+fn the_error_of_its_place_counts_against_it() {
+    let unsure = Vehicle {
+        error_cm: 300,
+        ..vehicle(-6_500, 200, 1_389, 0)
+    };
+    assert!(hinders(unsure, 0, 0));
+}
+
+#[test]
+fn a_late_report_says_nothing_new() {
+    let mut setup = street();
+    setup.watches = false;
+    let mut scene = Scene::new(setup);
+    scene.tell(Input::Vehicle(vehicle(-1_900, 200, 1_389, 0), Millis(100)));
+    scene.tell(Input::Vehicle(vehicle(-9_900, 200, 0, 0), Millis(900)));
+    assert!(scene.crossing.hindered(&scene.setup).is_some());
+    scene.tell(Input::Vehicle(vehicle(-1_900, 200, 0, 0), Millis(0)));
+    assert_eq!(scene.crossing.hindered(&scene.setup), None);
+}
+
+#[test]
+fn too_many_vehicles_hinder() {
+    let mut setup = street();
+    setup.watches = false;
+    let mut scene = Scene::new(setup);
+    let numbered = |key: u32, vehicle| Vehicle { key, ..vehicle };
+    let far = vehicle(-60_000, 200, 1_389, 0);
+    let count = u32::try_from(traffic::VEHICLES).unwrap();
+    // Vehicles that stand take nobody's place.
+    (0..count).for_each(|key| {
+        scene.tell(Input::Vehicle(
+            numbered(key, vehicle(-900, 200, 0, 0)),
+            Millis(0),
+        ));
+    });
+    for key in 0..=count {
+        assert_eq!(
+            scene.crossing.hindered(&scene.setup),
+            None,
+            "{key} vehicles"
+        );
+        scene.tell(Input::Vehicle(numbered(100 + key, far), Millis(0)));
+    }
+    let further = Some(Hindrance::Vehicle(100 + count));
+    assert_eq!(scene.crossing.hindered(&scene.setup), further);
+    scene.pass(5_001);
+    assert_eq!(scene.crossing.hindered(&scene.setup), None);
+}
+
+/// Two cameras number from 1: the one that stands does not take the place of the one that comes.
+#[test]
+fn vehicles_of_two_sources_are_two() {
+    let mut scene = Scene::new(street());
+    let car = |at| Sighting {
+        what: RoadUser::Vehicle,
+        at,
+        ..person(1, 0, 0)
+    };
+    scene.look(100, &[walking(car(Point::new(-1_900, 200)), 1_389, 0)]);
+    scene.frame(
+        1,
+        0,
+        0b11,
+        &[walking(car(Point::new(2_900, 200)), 1_389, 0)],
+    );
+    let hindered = scene.crossing.hindered(&scene.setup);
+    assert!(
+        matches!(hindered, Some(Hindrance::Vehicle(_))),
+        "{hindered:?}"
+    );
+}

@@ -1,0 +1,486 @@
+//! Whole crossings: from the person who waits to the robots that are idle again.
+
+use crossguard_crossing::*;
+use crossguard_protocol::{Event, HelpRequest, List, Millis, Phase, TaskSet, TaskType};
+
+use crate::scene::*;
+use crate::team::*;
+
+/// Where the blocker stands.
+const POST: Point = Point::new(-200, 200);
+
+fn leg(task: TaskType, to: Point) -> Leg {
+    Leg {
+        task,
+        to,
+        speed_mmps: 1_000,
+        heading_ddeg: None,
+    }
+}
+
+fn plan(stages: &[Leg]) -> Plan {
+    Plan {
+        followers: 1,
+        stages: stages.iter().copied().map(Stage::everybody).collect(),
+        roles: List::EMPTY,
+        own_place: None,
+        patience: Millis(60_000),
+        kerbs: None,
+    }
+}
+
+/// A leader with this plan, and a follower with sensors or without.
+fn team(plan: Plan, follower_sees: bool) -> Team {
+    let setup = street();
+    let request = HelpRequest {
+        tasks: TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE, TaskType::BLOCK]),
+        ..setup.request
+    };
+    let leader = Setup {
+        plan: Some(plan),
+        request,
+        ..setup.clone()
+    };
+    let follower = Setup {
+        watches: follower_sees,
+        ground: Ground {
+            waiting: None,
+            ..setup.ground
+        },
+        ..setup
+    };
+    Team::new(vec![leader, follower])
+}
+
+fn blocking() -> Team {
+    let mut team = team(plan(&[leg(TaskType::BLOCK, POST)]), true);
+    team.people = vec![person(1, 100, -100)];
+    team
+}
+
+/// The person walks across.
+fn walk_across(team: &mut Team) {
+    team.people[0] = walking(team.people[0], 0, 140);
+    team.pass(6_500);
+    assert!(team.people[0].at.north_cm() > 720);
+    team.people[0] = walking(team.people[0], 0, 0);
+}
+
+fn is_told(event: Event) -> impl Fn(&Output) -> bool {
+    move |output| *output == Output::Tell(event)
+}
+
+#[test]
+fn a_person_is_helped_across_and_everybody_is_idle_again() {
+    let mut team = blocking();
+    team.pass_until("go", Team::shows_go);
+    assert!(team.robots[1].body.at.distance_cm(POST) < 200);
+    walk_across(&mut team);
+    assert_eq!(
+        team.told(0, |it| *it == Event::TaskCompleted),
+        0,
+        "seen not enough"
+    );
+    team.pass_until("idle", Team::is_idle);
+    let steps = [
+        team.first(0, |it| {
+            matches!(it, Output::Tell(Event::PedestrianDetected(_)))
+        }),
+        team.first(0, |it| matches!(it, Output::Order(..))),
+        team.first(0, is_told(Event::OpenCorridor)),
+        team.first(0, |it| matches!(it, Output::Go(_))),
+        team.first(0, |it| matches!(it, Output::Stop)),
+        team.first(0, is_told(Event::RoadClear)),
+        team.first(0, is_told(Event::TaskCompleted)),
+    ];
+    assert!(
+        steps.iter().all(Option::is_some) && steps.is_sorted(),
+        "{steps:?}"
+    );
+    assert_eq!(team.alone, 0);
+    let calls = team.told(0, |it| matches!(it, Event::PedestrianDetected(_)));
+    assert_eq!(calls, 1, "a person over there is no call");
+}
+
+/// Hazard A: the leader hangs just after go, and its piped frames of before are stale when it reads them.
+#[test]
+fn a_leader_that_hangs_under_go_frees_nobody() {
+    for ms in [600, 1_200, 3_000, 9_000] {
+        let mut team = blocking();
+        team.pass_until("go", Team::shows_go);
+        team.people[0] = walking(team.people[0], 0, 70);
+        team.pass(300);
+        team.robots[0].hangs_until = team.now + ms;
+        team.pass_until("idle", Team::is_idle);
+        assert_eq!(team.alone, 0, "hung for {ms} ms");
+        assert!(team.people[0].at.north_cm() > 700, "hung for {ms} ms");
+    }
+}
+
+/// Hazard B: a person is out of sight for a second, under go and on the road.
+#[test]
+fn a_person_who_is_out_of_sight_for_a_moment_is_not_across() {
+    for hidden_from in [0, 500, 1_000, 3_000] {
+        let mut team = blocking();
+        team.pass_until("go", Team::shows_go);
+        team.pass(500);
+        team.people[0] = walking(team.people[0], 0, 70);
+        team.pass(hidden_from);
+        // All but every fifth frame miss somebody.
+        team.sensor = |now, people| {
+            Some(if now % 500 == 0 {
+                people.to_vec()
+            } else {
+                vec![]
+            })
+        };
+        team.pass(4_000);
+        team.sensor = |_, people| Some(people.to_vec());
+        team.pass_until("idle", Team::is_idle);
+        assert_eq!(team.alone, 0, "hidden from {hidden_from} ms on");
+    }
+}
+
+/// Hazard C: a person leaves the crossing sideways, still on the carriageway.
+#[test]
+fn a_person_who_walks_off_along_the_road_is_on_it() {
+    let mut team = blocking();
+    team.pass_until("go", Team::shows_go);
+    team.people[0] = walking(team.people[0], 0, 140);
+    team.pass(2_500);
+    team.people[0] = walking(team.people[0], 140, 0);
+    team.pass(10_000);
+    assert!(!team.is_idle());
+    team.people[0] = walking(team.people[0], 0, 140);
+    team.pass_until("idle", Team::is_idle);
+    assert_eq!(team.alone, 0);
+}
+
+/// Hazards D and E, on the road.
+#[test]
+fn nobody_is_freed_by_what_becomes_of_ids() {
+    type Sensor = fn(u32, &[Sighting]) -> Option<Vec<Sighting>>;
+    let sensors: [Sensor; 3] = [
+        |now, people| {
+            let id = Some(now / 800);
+            Some(people.iter().map(|it| Sighting { id, ..*it }).collect())
+        },
+        // Two people whose ids are swapped all the time.
+        |now, people| {
+            let mut seen = people.to_vec();
+            let passer_by = person(1, 400, -200);
+            seen.push(passer_by);
+            let swapped = now / 100 % 2 == 0;
+            for (number, who) in seen.iter_mut().enumerate() {
+                who.id = Some(u32::from((number == 0) == swapped));
+            }
+            Some(seen)
+        },
+        |_, people| {
+            let id = None;
+            Some(people.iter().map(|it| Sighting { id, ..*it }).collect())
+        },
+    ];
+    for sensor in sensors {
+        let mut team = blocking();
+        team.sensor = sensor;
+        team.pass_until("go", Team::shows_go);
+        walk_across(&mut team);
+        team.sensor = |_, people| Some(people.to_vec());
+        team.pass_until("idle", Team::is_idle);
+        assert_eq!(team.alone, 0);
+    }
+}
+
+/// Hazard G: a guard drifts, jumps, or does not know any more where it is.
+#[test]
+fn go_ends_when_a_guard_is_not_at_its_place_any_more() {
+    type Case = (&'static str, fn(&mut Body));
+    let cases: [Case; 3] = [
+        ("drifts", |body| {
+            body.at = body.at.plus(Way {
+                east_cm: 300,
+                north_cm: 0,
+            });
+        }),
+        ("jumps", |body| {
+            body.at = body.at.plus(Way {
+                east_cm: 3_000,
+                north_cm: 0,
+            });
+        }),
+        ("is lost", |body| body.is_lost = true),
+    ];
+    for (name, disturb) in cases {
+        let mut team = blocking();
+        team.pass_until("go", Team::shows_go);
+        team.pass(1_000);
+        assert!(team.shows_go());
+        team.robots[1].body.to = None;
+        disturb(&mut team.robots[1].body);
+        team.pass(100);
+        assert!(!team.shows_go(), "it {name}");
+        team.pass(1_000);
+        assert!(!team.shows_go());
+        assert_eq!(
+            team.told(1, |it| matches!(it, Event::OutOfPosition(_))),
+            1,
+            "it {name}"
+        );
+        team.robots[1].body.is_lost = false;
+        team.pass_until("go again", Team::shows_go);
+        assert!(team.robots[1].body.at.distance_cm(POST) <= 200);
+    }
+}
+
+/// Hazard I: a car at 50 km/h, 16 m away.
+#[test]
+fn go_does_not_begin_in_front_of_a_car_and_ends_before_one() {
+    let car = |east| Vehicle {
+        key: 7,
+        at: Point::new(east, 200),
+        error_cm: 0,
+        velocity: Way {
+            east_cm: 1_389,
+            north_cm: 0,
+        },
+    };
+    let mut team = blocking();
+    for _ in 0..200 {
+        team.hear(0, Input::Vehicle(car(-1_900), Millis(0)));
+        team.pass(50);
+        assert!(!team.shows_go());
+    }
+    team.pass_until("go", Team::shows_go);
+    team.hear(0, Input::Vehicle(car(-1_900), Millis(0)));
+    assert!(!team.shows_go());
+    team.pass(50);
+    assert_eq!(team.told(0, |it| *it == Event::CloseCorridor), 1, "once");
+}
+
+/// Hazard J: the follower falls back for lack of contact, and is commanded again.
+#[test]
+fn a_guard_that_fell_back_is_resumed() {
+    let mut team = blocking();
+    team.pass_until("go", Team::shows_go);
+    team.robots[0].hangs_until = team.now + 2_500;
+    team.pass(2_400);
+    assert!(team.robots[1].body.holds);
+    team.pass_until("go again", Team::shows_go);
+    let Phase::Following(following) = team.robots[1].robot.phase() else {
+        panic!("no follower");
+    };
+    assert!(following.executing().is_some());
+    assert_eq!(team.robots[1].robot.duty(), None);
+    assert_eq!(
+        team.first(1, |it| *it == Output::Release),
+        None,
+        "it holds on"
+    );
+    walk_across(&mut team);
+    team.pass_until("idle", Team::is_idle);
+    assert_eq!(team.alone, 0);
+}
+
+/// A guard with sensors stays, though the leader has lost sight of everybody and says that the task is done.
+#[test]
+fn a_guard_that_sees_somebody_holds_whatever_its_leader_says() {
+    let mut team = blocking();
+    team.pass_until("go", Team::shows_go);
+    team.people[0] = walking(team.people[0], 0, 140);
+    team.pass(2_000);
+    team.people[0] = walking(team.people[0], 0, 0);
+    team.event(0, Event::TaskCompleted);
+    team.pass(20_000);
+    assert!(team.robots[1].body.holds);
+    team.people[0] = walking(team.people[0], 0, 140);
+    team.pass_until("idle", Team::is_idle);
+    assert!(team.people[0].at.north_cm() > 700);
+    assert_eq!(team.alone, 0);
+}
+
+/// A sensor that fails: no go, and the guards stay.
+#[test]
+fn a_blind_leader_closes_the_sign_and_keeps_its_guards() {
+    let mut team = blocking();
+    team.pass_until("go", Team::shows_go);
+    team.people[0] = walking(team.people[0], 0, 70);
+    team.pass(500);
+    team.sensor = |_, _| None;
+    team.pass(600);
+    assert!(!team.shows_go());
+    team.pass(20_000);
+    assert!(!team.is_idle());
+    team.sensor = |_, people| Some(people.to_vec());
+    team.pass_until("idle", Team::is_idle);
+    assert_eq!(team.alone, 0);
+}
+
+/// Hazard H: an escort waits for its person, and is not done before the person is off the road.
+#[test]
+fn an_escort_stays_with_its_person() {
+    let mut team = team(plan(&[leg(TaskType::MOVE, Point::new(100, 800))]), true);
+    team.people = vec![person(1, 100, -100)];
+    team.robots[1].body.at = Point::new(0, -100);
+    team.pass_until("go", Team::shows_go);
+    team.people[0] = walking(team.people[0], 0, 40);
+    team.pass(5_000);
+    team.people[0] = walking(team.people[0], 0, 0);
+    team.pass(10_000);
+    let ahead = team.robots[1].body.at.north_cm() - team.people[0].at.north_cm();
+    assert!((0..=250).contains(&ahead), "{ahead} cm");
+    assert_eq!(
+        team.told(1, |it| matches!(it, Event::ManeuverCompleted(_))),
+        0
+    );
+    team.people[0] = walking(team.people[0], 0, 60);
+    team.pass_until("idle", Team::is_idle);
+    assert!(team.people[0].at.north_cm() > 700);
+    assert_eq!(team.alone, 0);
+}
+
+/// An escort that waits for everybody who guards, the leader too.
+#[test]
+fn a_stage_that_takes_people_on_the_road_waits_for_the_leader() {
+    let mut plan = plan(&[leg(TaskType::MOVE, Point::new(100, 800))]);
+    plan.own_place = Some(Point::new(0, -1_500));
+    let mut team = team(plan, true);
+    team.people = vec![person(1, 100, -100)];
+    team.pass_until("a session", |it| it.told(0, |_| true) > 0 && !it.is_idle());
+    team.pass(5_000);
+    assert_eq!(team.first(0, |it| matches!(it, Output::Order(..))), None);
+    team.pass_until("an order", |it| {
+        it.first(0, |it| matches!(it, Output::Order(..))).is_some()
+    });
+    assert!(team.robots[0].body.at.distance_cm(Point::new(0, -1_500)) <= 200);
+}
+
+/// The protocol is told once.
+#[test]
+fn a_follower_says_once_that_it_has_completed() {
+    let mut team = team(plan(&[leg(TaskType::MOVE, Point::new(100, 800))]), false);
+    team.people = vec![person(1, 100, -100)];
+    team.pass_until("done", |it| {
+        it.told(1, |event| matches!(event, Event::ManeuverCompleted(_))) > 0
+    });
+    team.pass(400);
+    let told = team.told(1, |event| matches!(event, Event::ManeuverCompleted(_)));
+    let reported = team.told(1, |event| matches!(event, Event::InPosition(_)));
+    assert_eq!((told, reported), (1, 1));
+}
+
+/// A leader that waits for a person, and no helper, or one.
+fn alone(helpers: usize) -> Team {
+    let mut it = team(plan(&[leg(TaskType::BLOCK, POST)]), true);
+    it.robots.truncate(1 + helpers);
+    it
+}
+
+fn calls(team: &Team) -> usize {
+    team.told(0, |it| matches!(it, Event::PedestrianDetected(_)))
+}
+
+#[test]
+fn a_call_ends_when_the_person_leaves() {
+    for helpers in [0, 1] {
+        let mut team = alone(helpers);
+        team.people = vec![person(1, 460, -100)];
+        team.pass(1_300);
+        assert_eq!(calls(&team), 1);
+        team.people[0] = walking(team.people[0], 140, 0);
+        team.pass_until("idle", Team::is_idle);
+        assert!(!team.shows_go());
+        assert_eq!(team.first(0, |it| matches!(it, Output::Go(_))), None);
+        team.pass(5_000);
+        assert_eq!(calls(&team), 1);
+    }
+}
+
+#[test]
+fn a_call_is_repeated_while_the_person_waits_and_nobody_helps() {
+    let mut team = alone(0);
+    team.people = vec![person(1, 100, -100)];
+    team.pass(30_000);
+    assert!((2..=4).contains(&calls(&team)), "{} calls", calls(&team));
+}
+
+#[test]
+fn nobody_is_called_for_people_who_pass_vehicles_and_stale_sensors() {
+    let passer_by = walking(person(1, -800, -80), 140, 0);
+    let car = Sighting {
+        what: RoadUser::Vehicle,
+        ..person(1, 100, -80)
+    };
+    let rider = Sighting {
+        what: RoadUser::Bicyclist,
+        ..walking(person(1, -2_000, -80), 400, 0)
+    };
+    for who in [passer_by, car, rider] {
+        let mut team = alone(1);
+        team.people = vec![who];
+        team.pass(10_000);
+        assert_eq!(calls(&team), 0, "{who:?}");
+    }
+    let mut team = alone(1);
+    team.people = vec![person(1, 100, -100)];
+    team.sensor = |now, people| (now < 200).then(|| people.to_vec());
+    team.pass(10_000);
+    assert_eq!(calls(&team), 0, "a frame, and silence");
+}
+
+/// A follower whose leader fell silent while it did this: its session is over.
+fn left_alone(task: TaskType, sees: bool) -> Team {
+    let mut team = team(plan(&[leg(task, Point::new(100, 800))]), sees);
+    team.people = vec![person(1, 100, -100)];
+    team.pass_until("a maneuver", |it| it.robots[1].body.to.is_some());
+    team.people.clear();
+    team.robots[0].hangs_until = u32::MAX;
+    if !sees {
+        team.sensor = |_, _| None;
+    }
+    team
+}
+
+#[test]
+fn a_guard_that_knows_nothing_of_the_road_waits_for_a_person() {
+    for task in [TaskType::BLOCK, TaskType::MOVE] {
+        let mut team = left_alone(task, false);
+        team.pass(60_000);
+        assert!(team.robots[1].robot.duty().is_some());
+        // The word waits for the body.
+        team.hear(1, Input::BodyIsFree(false));
+        team.hear(1, Input::SaidClear);
+        team.pass(1_000);
+        assert!(team.robots[1].robot.duty().is_some());
+        team.hear(1, Input::BodyIsFree(true));
+        team.pass(100);
+        assert_eq!(team.robots[1].robot.duty(), None);
+        assert!(!team.robots[1].crossing.waits_for_clear());
+    }
+}
+
+#[test]
+fn a_robot_that_guarded_nobody_is_free_when_its_body_is() {
+    let mut team = left_alone(TaskType::INITIAL_POS, false);
+    team.pass(12_000);
+    assert_eq!(team.robots[1].robot.duty(), None);
+}
+
+/// The sign of its leader may show go for `t_safety` yet: what it sees before counts for nothing.
+#[test]
+fn a_guard_with_sensors_is_free_once_they_have_had_nobody_on_the_road() {
+    let mut team = left_alone(TaskType::BLOCK, true);
+    team.pass_until("a duty", |it| it.robots[1].robot.duty().is_some());
+    let t_safety = team.robots[1].setup.t_safety.0;
+    team.pass(t_safety + 300);
+    assert!(team.robots[1].robot.duty().is_some());
+    team.pass(600);
+    assert_eq!(team.robots[1].robot.duty(), None);
+    let mut team = left_alone(TaskType::BLOCK, true);
+    team.people = vec![person(1, 100, 300)];
+    team.pass(30_000);
+    assert!(team.robots[1].robot.duty().is_some());
+    team.people[0] = walking(team.people[0], 0, 200);
+    team.pass(4_000);
+    assert_eq!(team.robots[1].robot.duty(), None);
+}
