@@ -330,14 +330,17 @@ fn hazard_h_an_escort_goes_on_without_its_person() {
 #[test]
 fn hazard_h_an_escort_completes_while_its_person_is_on_the_road() {
     let mut log = Crossing::new();
-    let completes =
-        |input: &Input, _: &[Output]| matches!(input, Input::Local(Event::ManeuverCompleted(_)));
     let escort = log.who(TaskType::MOVE);
-    let completed = log.0.iter().rev().find(|record| {
-        matches!(&record.entry, Entry::Step { input, outputs, .. } if completes(input, &outputs.iter().copied().collect::<Vec<_>>()))
-            && record.robot == escort
-    });
-    let at_us = completed.unwrap().at_us;
+    let is_completion = |record: &&Record| {
+        matches!(
+            &record.entry,
+            Entry::Step {
+                input: Input::Local(Event::ManeuverCompleted(_)),
+                ..
+            }
+        ) && record.robot == escort
+    };
+    let at_us = log.0.iter().rfind(is_completion).unwrap().at_us;
     log.sees(&[(at_us - S / 10, &[[1.0, 6.5]])]);
     log.is_refused("P1");
 }

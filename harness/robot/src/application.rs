@@ -172,9 +172,9 @@ impl Application {
 
     /// The time since the last call, in whole milliseconds.
     fn pass_time(&mut self, now_s: f64) -> Millis {
-        let now_ms = micros(now_s) / 1_000;
-        let passed = now_ms.saturating_sub(self.at_ms);
-        self.at_ms = now_ms;
+        let before_ms = self.at_ms;
+        self.at_ms = micros(now_s) / 1_000;
+        let passed = self.at_ms.saturating_sub(before_ms);
         Millis(u32::try_from(passed).unwrap_or(u32::MAX))
     }
 

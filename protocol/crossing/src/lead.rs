@@ -76,6 +76,7 @@ pub(crate) struct Lead {
 
 /// What the leader believes besides its plan.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a belief of its own")]
 pub(crate) struct View {
     pub corridor: Corridor,
     /// Whether the robot's own body is where the plan wants it.

@@ -12,7 +12,7 @@ use crossguard_protocol::{Millis, Phase, Robot, StationId};
 
 use super::{Application, Conduct};
 use crate::body::Report;
-use crate::perception::SensorFrame;
+use crate::perception::{Perceived, SensorFrame};
 use crate::sight::{Seen, Sight};
 use crate::site::Place;
 use crate::street::Road;
@@ -49,7 +49,7 @@ impl Application {
             return;
         };
         let covers = zone.covered(frame.covers.as_ref());
-        let seen: Vec<_> = frame.people.iter().map(|it| it.sighting()).collect();
+        let seen: Vec<_> = frame.people.iter().map(Perceived::sighting).collect();
         self.step(Input::Frame(Frame {
             source: frame.source,
             age,

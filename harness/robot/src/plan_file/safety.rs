@@ -44,12 +44,14 @@ pub(super) fn guards_first(
     let mut sent = vec![false; followers.len()];
     for (number, stage) in stages.iter().enumerate() {
         for (who, leg) in &stage.parts {
-            let Who::Role(seat) = who else { continue };
+            let Who::Role(follower) = who else {
+                continue;
+            };
             if !settings.holding.contains(leg.task) {
                 continue;
             }
-            if number >= first && !sent[*seat] {
-                let name = &followers[*seat].name;
+            if number >= first && !sent[*follower] {
+                let name = &followers[*follower].name;
                 let what = format!(
                     "role '{name}' is sent to guard in stage {}, and a person is escorted from stage {} on: \
                      guards are wanted in a stage before",
@@ -58,7 +60,7 @@ pub(super) fn guards_first(
                 );
                 return Err(at(tables, number, name, what));
             }
-            sent[*seat] = true;
+            sent[*follower] = true;
         }
     }
     if first + 1 < stages.len() {

@@ -392,9 +392,10 @@ impl Scene {
     }
 
     fn wake(&mut self, to: usize) {
-        while let Some((taken_ms, frame)) = self.robots[to]
-            .frames
-            .pop_front_if(|(taken_ms, _)| *taken_ms + LATENCY_MS <= self.now_ms)
+        let now_ms = self.now_ms;
+        let is_due = |(taken_ms, _): &(u32, _)| *taken_ms + LATENCY_MS <= now_ms;
+        while self.robots[to].frames.front().is_some_and(is_due)
+            && let Some((taken_ms, frame)) = self.robots[to].frames.pop_front()
         {
             // As in the runtime: the endpoint's RAM tell of the people, too.
             let place = self.robots[to].place();
