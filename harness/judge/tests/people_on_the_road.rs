@@ -22,15 +22,25 @@ struct Crossing(Vec<Record>);
 
 impl Crossing {
     fn new() -> Self {
+        let escort = Leg {
+            speed_mps: 0.8,
+            ..Leg::new(TaskType::MOVE, Place::new(1.0, 8.0))
+        };
+        Self::beside_a_guard(escort, 19.0)
+    }
+
+    /// Both robots hold their places, and people run across.
+    fn of_guards() -> Self {
+        Self::beside_a_guard(Leg::new(TaskType::BLOCK, Place::new(-2.0, 2.0)), 1.5)
+    }
+
+    fn beside_a_guard(leg: Leg, crossing_s: f64) -> Self {
         let mut swarm = Swarm::quiet(3);
         for robot in &mut swarm.robots {
             let kerb = Stage::everybody(Leg::new(TaskType::INITIAL_POS, Place::new(1.0, -1.0)));
-            let escort = Leg {
-                speed_mps: 0.8,
-                ..Leg::new(TaskType::MOVE, Place::new(1.0, 8.0))
-            };
             let guard = Leg::new(TaskType::BLOCK, Place::new(4.0, 2.0));
-            let parts = vec![(Who::Role(0), escort), (Who::Role(1), guard)];
+            let parts = vec![(Who::Role(0), leg), (Who::Role(1), guard)];
+            robot.plan.crossing_s = crossing_s;
             robot.plan.site = Site::default();
             robot.plan.followers = 2;
             robot.plan.roles = vec![None, None];
@@ -252,10 +262,10 @@ fn hazard_a_a_person_on_the_road_is_forgotten_when_the_leader_completes_the_task
 
 #[test]
 fn hazard_b_a_person_who_saw_go_and_was_out_of_sight_is_on_the_road_without_guards() {
-    let done_us = Crossing::new().done();
+    let done_us = Crossing::of_guards().done();
     let steps_after = |after_us: u64| {
-        let mut log = Crossing::new();
-        let (waits, steps): (&[_], &[_]) = (&[[1.0, -1.0]], &[[1.0, 0.5]]);
+        let mut log = Crossing::of_guards();
+        let (waits, steps): (&[_], &[_]) = (&[[1.0, -1.0]], &[[1.0, 3.5]]);
         log.sees(&[
             (done_us - 3 * S, waits),
             (done_us - 2 * S, &[]),

@@ -121,20 +121,21 @@ fn the_longest_times_of_drawn_streets_are_a_real_try() {
     let output = command::run(&command);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let worst = &json(&output)["worst"];
-    for measure in [
-        "roles",
-        "stopped",
-        "left",
-        "corridorClosed",
-        "signAfterGuard",
-        "signAfterLeader",
-        "untold",
+    // Where a guard is not heard at its place any more, the application closes the corridor before its lease runs out.
+    for (measure, part) in [
+        ("roles", 2),
+        ("stopped", 2),
+        ("left", 2),
+        ("corridorClosed", 5),
+        ("signAfterGuard", 2),
+        ("signAfterLeader", 2),
+        ("untold", 2),
     ] {
         let time = |name: &str| worst[measure][name].as_u64().unwrap();
         let (observed, held_against) = (time("ms"), time("boundMs"));
         assert!(observed <= held_against, "{measure}: {worst}");
-        // At least half of what is possible was seen.
-        assert!(observed * 2 > held_against, "{measure}: {worst}");
+        // At least this part of what is possible was seen.
+        assert!(observed * part > held_against, "{measure}: {worst}");
     }
 }
 

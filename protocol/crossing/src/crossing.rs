@@ -103,6 +103,8 @@ pub struct Crossing<const N: usize = 64> {
     is_called: bool,
     /// Whether somebody was let across in the session.
     has_opened: bool,
+    /// Whether somebody was on the road since.
+    has_crossed: bool,
     /// Until then it does not call again.
     call_pause: Millis,
     /// Time until the zone counts as deserted.
@@ -137,6 +139,7 @@ impl<const N: usize> Default for Crossing<N> {
             corridor: Corridor::Clear,
             is_called: false,
             has_opened: false,
+            has_crossed: false,
             call_pause: Millis::ZERO,
             wanted: Millis::ZERO,
             sign: Millis::ZERO,
@@ -189,7 +192,9 @@ impl<const N: usize> Crossing<N> {
             Input::Notice(notice) => self.notice(setup, notice, &mut out),
             Input::CorridorOpen(left) => self.show_go(setup, left, &mut out),
             Input::CorridorClosed => self.show_stop(&mut out),
-            Input::CallIgnored => self.end_call(),
+            // In a session of its own somebody else called a second time.
+            Input::CallIgnored if !self.is_own() => self.end_call(),
+            Input::CallIgnored => {}
             Input::SaidClear => {
                 if let Some(obligation) = &mut self.obligation {
                     obligation.is_said_clear = true;
@@ -203,7 +208,7 @@ impl<const N: usize> Crossing<N> {
     pub fn learn(&mut self, setup: &Setup, robot: &Robot) -> Outputs {
         let mut out = Outputs::EMPTY;
         let is_available = robot.availability() == Availability::Available;
-        let before = self.standing;
+        let was_own = self.is_own();
         self.standing = match robot.phase() {
             Phase::Idle if is_available && robot.duty().is_none() => Standing::Free,
             Phase::Requesting(_) => Standing::Requesting,
@@ -211,9 +216,7 @@ impl<const N: usize> Crossing<N> {
             Phase::Following(_) => Standing::Following,
             Phase::Idle | Phase::Offering(_) => Standing::Bound,
         };
-        let was_own = matches!(before, Standing::Requesting | Standing::Leading);
-        let is_own = matches!(self.standing, Standing::Requesting | Standing::Leading);
-        if was_own && !is_own {
+        if was_own && !self.is_own() {
             self.end_call();
             self.lead = None;
         }
@@ -299,6 +302,7 @@ impl<const N: usize> Crossing<N> {
         if self.is_wanted() {
             self.wanted = setup.waiting.clear;
         }
+        self.has_crossed |= self.has_opened && self.occupancy.was_seen();
         self.guard_corridor(setup, out);
         self.watch_task(setup, out);
         self.watch_road(setup, out);
@@ -550,10 +554,12 @@ impl<const N: usize> Crossing<N> {
             hindrance: self.hindrance(setup),
             is_wanted: !knows || self.is_wanted(),
             has_opened: self.has_opened,
+            has_crossed: self.has_crossed,
             everybody_is_across: self.occupancy.is_clear(setup) && !self.is_wanted(),
             nobody_is_lost: self.occupancy.is_clear(setup)
                 && !self.occupancy.was_seen()
                 && !self.tracks.is_somebody_lost(),
+            was_seen: self.occupancy.was_seen(),
         }
     }
 
@@ -625,6 +631,11 @@ impl<const N: usize> Crossing<N> {
         }
     }
 
+    /// Whether the session is one that it called for.
+    const fn is_own(&self) -> bool {
+        matches!(self.standing, Standing::Requesting | Standing::Leading)
+    }
+
     /// Whether somebody wants to cross, or is on the road.
     fn is_wanted(&self) -> bool {
         self.occupancy.was_seen() || self.tracks.is_waiting()
@@ -673,7 +684,7 @@ impl<const N: usize> Crossing<N> {
 
     /// The call is over, or had no effect.
     fn end_call(&mut self) {
-        (self.is_called, self.has_opened) = (false, false);
+        (self.is_called, self.has_opened, self.has_crossed) = (false, false, false);
         self.call_pause = CALL_PERIOD;
     }
 

@@ -23,6 +23,9 @@ const OPENING_PERIOD: Millis = Millis(500);
 /// way: a stream of people would keep it on the road.
 const STEP_ON: Millis = Millis(10_000);
 
+/// For how long an escort goes on to its kerb after everybody is across.
+const ESCORT_ENDS: Millis = Millis(5_000);
+
 /// How far a follower is with its part of the stage.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 enum Part {
@@ -72,6 +75,8 @@ pub(crate) struct Lead {
     patience: Millis,
     /// Until then people step on the road beside an escort.
     opened: Millis,
+    /// Until then it waits for its escort to come to the kerb, after everybody is across.
+    ending: Millis,
 }
 
 /// What the leader believes besides its plan.
@@ -87,10 +92,14 @@ pub(crate) struct View {
     pub is_wanted: bool,
     /// Whether somebody was let across in the session.
     pub has_opened: bool,
+    /// Whether somebody was on the road since.
+    pub has_crossed: bool,
     /// Whether everybody who wanted to cross is known to be across.
     pub everybody_is_across: bool,
     /// Whether the road is clear, and everybody who waited is still seen.
     pub nobody_is_lost: bool,
+    /// Whether somebody was on the road a moment ago.
+    pub was_seen: bool,
 }
 
 impl Lead {
@@ -103,6 +112,7 @@ impl Lead {
             tried: Millis::ZERO,
             patience: plan.patience,
             opened: STEP_ON,
+            ending: ESCORT_ENDS,
         }
     }
 
@@ -115,6 +125,7 @@ impl Lead {
         self.tried = self.tried.saturating_sub(time);
         self.patience = self.patience.saturating_sub(time);
         self.opened = self.opened.saturating_sub(time);
+        self.ending = self.ending.saturating_sub(time);
         for seat in self.seats.iter_mut() {
             seat.pause = seat.pause.saturating_sub(time);
             seat.presence.elapse(setup.position, time);
@@ -514,6 +525,9 @@ impl Lead {
         if view.corridor != Corridor::Open {
             self.opened = STEP_ON;
         }
+        if !view.everybody_is_across && !view.nobody_is_lost {
+            self.ending = ESCORT_ENDS;
+        }
         match view.corridor {
             Corridor::Open => {
                 // Who comes when the escort is over there waits for its next way; a team that holds lets everybody across.
@@ -531,13 +545,12 @@ impl Lead {
                 let is_escorted = plan.is_last(self.stage)
                     && plan.is_escort(self.stage, setup.escorts())
                     && self.are_heard(setup, plan);
-                let is_over = is_over_there || is_escorted && view.has_opened;
+                let is_ended = self.ending == Millis::ZERO;
+                let may_end =
+                    is_done || is_ended && (is_over_there || is_escorted && view.has_opened);
                 // Who waits by then is called for anew.
-                let is_through = is_escorted && view.has_opened && view.nobody_is_lost;
-                if is_done && !lets_cross
-                    || is_over && view.everybody_is_across
-                    || is_over_there && is_through
-                {
+                let is_through = is_escorted && view.has_crossed && view.nobody_is_lost;
+                if is_done && !lets_cross || may_end && (view.everybody_is_across || is_through) {
                     out.tell(Event::TaskCompleted);
                 } else if self.patience == Millis::ZERO {
                     out.tell(Event::LeaveRequested);
@@ -546,7 +559,7 @@ impl Lead {
                     // The escort is over there, and nobody came along.
                     self.tried = OPENING_PERIOD;
                     self.begin_stage(setup, plan, view, 0, out);
-                } else if may_try {
+                } else if may_try && !is_through && !(is_escorted && view.was_seen) {
                     self.open(setup, plan, view, out);
                 }
             }

@@ -196,7 +196,7 @@ fn a_helper() {
         it is reserved without end: reservation = null
         it can do nothing: capabilities = 0
         it offers while it has a duty: /duty = duty
-        it has given out another number since: /next_count = 2
+        it has given out another number since: /nextCount = 2
         it says that it has left: /farewell = left
     "#;
     assert_each(&street[GO2], false, &names, breaks);
@@ -228,21 +228,21 @@ fn a_leader() {
         one follows twice: members = twice
         it follows itself: members/0/station = 1
         the corridor is open over robots that do nothing: corridor = "open"
-        it yields with a clear road: yields_to = 3
-        it yields, and people may cross: yields_to = 3; corridor = "open"
+        it yields with a clear road: yieldsTo = 3
+        it yields, and people may cross: yieldsTo = 3; corridor = "open"
         it leads while it has a duty: /duty = duty
         it keeps a follower without end: members/0/lease = {"stands": null}
         so it does one without a lease: members/0/lease = {"expired": null}
         a lease on one that has not joined: members/0/echoed = null
-        it commanded one that has not joined: members/0/echoed = null; members/0/lease = {"expired": 1}; members/0/next_request = 1; members/0/outstanding = command
+        it commanded one that has not joined: members/0/echoed = null; members/0/lease = {"expired": 1}; members/0/nextRequest = 1; members/0/outstanding = command
         it echoed what was not sent yet: members/0/echoed = next
-        more commands than a session may have: members/0/next_request = more
+        more commands than a session may have: members/0/nextRequest = more
     "#;
     assert_each(&street[ARI], false, &names, breaks);
     let keeps = r#"
-        it yields while the road clears: yields_to = 3; corridor = "clearing"
+        it yields while the road clears: yieldsTo = 3; corridor = "clearing"
         one has not joined: members/0/echoed = null; members/0/lease = {"expired": 1}
-        as many commands as a session may have: members/0/next_request = most
+        as many commands as a session may have: members/0/nextRequest = most
     "#;
     assert_each(&street[ARI], true, &names, keeps);
 }
@@ -271,7 +271,7 @@ fn a_leader_with_commands() {
         it waits for an answer without end: members/0/outstanding/acknowledgement = null
         an older command is outstanding: members/0/outstanding/request = 0
         a command that was not given is outstanding: members/0/outstanding/request = 2
-        there was a command since: members/0/next_request = 3
+        there was a command since: members/0/nextRequest = 3
         what is outstanding is acknowledged: members/0/order/request = 1
         what was not given is acknowledged: members/0/outstanding = null; members/0/order/request = 2
         it waits for the end without limit: members/0/order/execution = null

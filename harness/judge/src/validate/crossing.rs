@@ -11,7 +11,8 @@
 //! they state is added. Clocks of several machines are taken as they are.
 //!
 //! A person who stepped on the road under go may be seen there a moment after the team was freed: that breaks P1 as
-//! well, until a second of the robots' own time after go.
+//! well. Go is taken to last a second of the robots' own time longer, and people are taken to have come from the nearest
+//! edge of the road as fast as anybody walks.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -24,7 +25,7 @@ use crossguard_protocol::{
 use crossguard_robot::trace::Entry;
 
 use super::fault::Fault;
-use super::ground::{Ground, Metres, distance, seconds};
+use super::ground::{Ground, Metres, OnRoad, distance, seconds};
 use super::targets;
 
 /// How far a guard may be from its place, and an escort ahead of its person, besides the stated error of its
@@ -51,14 +52,33 @@ pub(super) struct Crossing {
     /// Until when the sign of each leader shows go.
     go: BTreeMap<String, Go>,
     targets: HashMap<(ManeuverId, StationId), Metres>,
-    /// The guard that left last by its leader's word, and until when a person who saw go may be seen to step on the
+    /// The guard that left last by an application's word, and until when a person who saw go may be seen to step on the
     /// road.
-    freed: Option<(String, u64)>,
+    freed: Option<(Left, u64)>,
     left: usize,
     held: usize,
     escorted: usize,
     has_guards: bool,
     may_be_away_ms: u64,
+}
+
+/// A guard that left by an application's word.
+#[derive(Clone, Debug)]
+struct Left {
+    robot: String,
+    word: String,
+}
+
+impl Left {
+    fn while_on_road(&self, person: &OnRoad<'_>) -> Fault {
+        Fault::GuardLeft {
+            robot: self.robot.clone(),
+            word: self.word.clone(),
+            by: person.by.to_owned(),
+            east: person.at[0],
+            north: person.at[1],
+        }
+    }
 }
 
 /// A body that guards.
@@ -215,10 +235,6 @@ impl Crossing {
                     if before.is_some() && why == StopReason::Released(ReleaseReason::TaskCompleted)
                     {
                         word = Some("task completed".to_owned());
-                        let go_us = self.go.values().map(|go| go.until_us.min(at_us)).max();
-                        let freed =
-                            go_us.map(|go_us| (robot.to_owned(), go_us + self.ground.stays_us()));
-                        self.freed = freed.or(self.freed.take());
                     }
                 }
                 Output::FallBack(_, policy) => {
@@ -239,34 +255,28 @@ impl Crossing {
             return Ok(());
         };
         self.left += usize::from(self.ground.has_sights());
-        match self.ground.on_road(at_us).next() {
-            Some(person) => Err(Fault::GuardLeft {
-                robot: robot.to_owned(),
-                word,
-                by: person.by.to_owned(),
-                east: person.at[0],
-                north: person.at[1],
-            }),
-            None => Ok(()),
+        let left = Left {
+            robot: robot.to_owned(),
+            word,
+        };
+        if let Some(person) = self.ground.on_road(at_us).next() {
+            return Err(left.while_on_road(&person));
         }
+        let go_us = self.go.values().map(|go| go.until_us.min(at_us)).max();
+        if let Some(go_us) = go_us {
+            self.freed = Some((left, go_us + self.ground.stays_us()));
+        }
+        Ok(())
     }
 
     /// Somebody is seen on the road who saw go, and whose guards have left since (P1).
     fn freed_too_early(&self, at_us: u64) -> Result<(), Fault> {
-        let freed = self
-            .freed
-            .as_ref()
-            .filter(|(_, until_us)| at_us <= *until_us);
-        match (freed, self.ground.on_road(at_us).next()) {
-            (Some((robot, _)), Some(person)) => Err(Fault::GuardLeft {
-                robot: robot.clone(),
-                word: "task completed".to_owned(),
-                by: person.by.to_owned(),
-                east: person.at[0],
-                north: person.at[1],
-            }),
-            _ => Ok(()),
-        }
+        let Some((left, until_us)) = &self.freed else {
+            return Ok(());
+        };
+        let mut on_road = self.ground.on_road(at_us);
+        let person = on_road.find(|person| person.since_us <= *until_us);
+        person.map_or(Ok(()), |person| Err(left.while_on_road(&person)))
     }
 
     /// Guards that hold a place are there while go is shown (P2).

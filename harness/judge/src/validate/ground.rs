@@ -63,6 +63,8 @@ struct Person {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OnRoad<'a> {
     pub(super) at: Metres,
+    /// They stepped on the road then, or before: so far they have come from its nearest edge.
+    pub(super) since_us: u64,
     /// The robot that saw them.
     pub(super) by: &'a str,
 }
@@ -177,6 +179,25 @@ impl Ground {
         })
     }
 
+    /// When a person on the carriageway has stepped on it, at the latest.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "some seconds"
+    )]
+    fn stepped_on_us(&self, person: &Person) -> u64 {
+        let inside = self.roads.values().filter(|road| road.contains(person.at));
+        let depths = inside.map(|road| road.depth(person.at));
+        let depth = depths.fold(f64::INFINITY, f64::min) - PLACE_ERROR_M;
+        let walked_s = depth.max(0.0) / ON_FOOT_MAX_MPS / self.pace();
+        let walked_us = if walked_s.is_finite() {
+            walked_s * 1e6
+        } else {
+            0.0
+        };
+        person.sighted_us.saturating_sub(walked_us as u64)
+    }
+
     /// Who is on the carriageway.
     pub(super) fn on_road(&self, at_us: u64) -> impl Iterator<Item = OnRoad<'_>> {
         self.watchers.iter().flat_map(move |(by, watcher)| {
@@ -187,7 +208,11 @@ impl Ground {
                     && !self.is_seen_off_road(person, by)
             };
             let people = watcher.people.iter().filter(is_there);
-            people.map(|person| OnRoad { at: person.at, by })
+            people.map(|person| OnRoad {
+                at: person.at,
+                since_us: self.stepped_on_us(person),
+                by,
+            })
         })
     }
 }
@@ -242,6 +267,20 @@ impl Carriageway {
 
     fn contains(&self, at: Metres) -> bool {
         contains(&self.road, at)
+    }
+
+    /// How far a place is from the nearest edge.
+    fn depth(&self, at: Metres) -> f64 {
+        let ends = self.road.iter().cycle().skip(1);
+        let from_edge = |(from, to): (&Metres, &Metres)| {
+            let way = [to[0] - from[0], to[1] - from[1]];
+            let length = way[0].hypot(way[1]).max(f64::MIN_POSITIVE);
+            let along = ((at[0] - from[0]) * way[0] + (at[1] - from[1]) * way[1]) / length;
+            let along = along.clamp(0.0, length) / length;
+            distance(at, [from[0] + along * way[0], from[1] + along * way[1]])
+        };
+        let edges = self.road.iter().zip(ends).map(from_edge);
+        edges.fold(f64::INFINITY, f64::min)
     }
 
     /// Whether a place is between the lines of the kerbs, however far along the road.

@@ -14,7 +14,6 @@ use super::{Application, Conduct};
 use crate::body::Report;
 use crate::perception::{Perceived, SensorFrame};
 use crate::sight::{Seen, Sight};
-use crate::site::Place;
 use crate::street::Road;
 use crate::zone::{class, place, point, sighting, velocity};
 
@@ -24,9 +23,26 @@ const SIGHT_PERIOD_S: f64 = 0.2;
 /// Error of a position of which nobody says how right it is, in centimetres.
 const UNKNOWN_ERROR_CM: u16 = 100;
 
+/// The source of people who come one by one.
+const ONE_BY_ONE: u8 = u8::MAX;
+
+/// For how long somebody who came in no newer frame is taken to be there still, in seconds.
+const SEEN_S: f64 = 1.0;
+
+/// Somebody as a sensor source had them in its newest frame.
+#[derive(Clone, Copy, Debug)]
+struct Observed {
+    source: u8,
+    /// When the frame was taken in, in seconds.
+    at_s: f64,
+    sighting: Sighting,
+}
+
 /// What was said of the people last.
 #[derive(Debug, Default)]
 pub(super) struct Said {
+    /// The people whom the sensors have. What the robot makes of them plays no part: a log is judged by this.
+    observed: Vec<Observed>,
     /// When, in seconds.
     last: Option<(f64, Sight)>,
     /// When each follower's position was heard last, on the robot's clock in ms.
@@ -40,7 +56,29 @@ impl Application {
         if matches!(self.road, Road::Known(_)) {
             return;
         }
-        self.step(Input::Heard(sighting(vru, 0.0), Millis::ZERO));
+        let seen = sighting(vru, 0.0);
+        self.said
+            .observed
+            .retain(|it| it.source != ONE_BY_ONE || it.sighting.id != seen.id);
+        self.observe(ONE_BY_ONE, &[seen]);
+        self.step(Input::Heard(seen, Millis::ZERO));
+    }
+
+    fn observe(&mut self, source: u8, sightings: &[Sighting]) {
+        let at_s = self.at_s;
+        self.said.observed.retain(|it| at_s - it.at_s <= SEEN_S);
+        let people = sightings.iter().filter(|it| it.what != RoadUser::Vehicle);
+        let observed = people.map(|sighting| Observed {
+            source,
+            at_s,
+            sighting: *sighting,
+        });
+        self.said.observed.extend(observed);
+    }
+
+    fn observe_frame(&mut self, source: u8, sightings: &[Sighting]) {
+        self.said.observed.retain(|it| it.source != source);
+        self.observe(source, sightings);
     }
 
     /// A sensor source delivered a frame that it made `age` ago.
@@ -50,6 +88,7 @@ impl Application {
         };
         let covers = zone.covered(frame.covers.as_ref());
         let seen: Vec<_> = frame.people.iter().map(Perceived::sighting).collect();
+        self.observe_frame(frame.source, &seen);
         self.step(Input::Frame(Frame {
             source: frame.source,
             age,
@@ -78,6 +117,7 @@ impl Application {
             Road::Unknown | Road::Watched(_) => return,
         };
         let seen = street.sightings();
+        self.observe_frame(0, &seen);
         self.step(Input::Frame(Frame {
             source: 0,
             age: Millis::ZERO,
@@ -212,15 +252,10 @@ impl Application {
         if self.said.last.as_ref().is_some_and(is_early) {
             return None;
         }
-        let tracks = self.crossing.tracks().iter();
-        let seen = tracks.filter(|track| track.is_fresh() || track.is_on_road());
-        let people = seen.map(|track| {
-            let at: Place = place(track.at());
-            Seen {
-                place: self.site.coordinates(at),
-                class: class(track.what()),
-                conduct: track.conduct(&self.setup),
-            }
+        let people = self.observed().map(|(sighting, conduct)| Seen {
+            place: self.site.coordinates(place(sighting.at)),
+            class: class(sighting.what),
+            conduct,
         });
         let sight = Sight {
             people: people.collect(),
@@ -233,11 +268,23 @@ impl Application {
         })
     }
 
+    /// The people whom the sensors have now, and what the robot makes of each.
+    fn observed(&self) -> impl Iterator<Item = (&Sighting, Conduct)> {
+        let is_there = |it: &&Observed| self.at_s - it.at_s <= SEEN_S;
+        let observed = self.said.observed.iter().filter(is_there);
+        observed.map(|it| {
+            let mut tracks = self.crossing.tracks().iter();
+            let track = tracks.find(|track| track.at() == it.sighting.at && track.is_fresh());
+            let conduct = track.map_or(Conduct::Elsewhere, |track| track.conduct(&self.setup));
+            (&it.sighting, conduct)
+        })
+    }
+
     /// How many people the sensors have on the road now.
     fn on_road(&self) -> usize {
-        let tracks = self.crossing.tracks().iter();
-        tracks
-            .filter(|track| track.conduct(&self.setup) == Conduct::OnRoad)
+        let observed = self.observed();
+        observed
+            .filter(|(_, conduct)| *conduct == Conduct::OnRoad)
             .count()
     }
 }

@@ -57,8 +57,10 @@ impl Leader {
             hindrance: None,
             is_wanted: true,
             has_opened: false,
+            has_crossed: false,
             everybody_is_across: false,
             nobody_is_lost: false,
+            was_seen: false,
         };
         Self {
             setup: Setup::default(),
