@@ -187,15 +187,11 @@ impl Ground {
     )]
     fn stepped_on_us(&self, person: &Person) -> u64 {
         let inside = self.roads.values().filter(|road| road.contains(person.at));
-        let depths = inside.map(|road| road.depth(person.at));
-        let depth = depths.fold(f64::INFINITY, f64::min) - PLACE_ERROR_M;
-        let walked_s = depth.max(0.0) / ON_FOOT_MAX_MPS / self.pace();
-        let walked_us = if walked_s.is_finite() {
-            walked_s * 1e6
-        } else {
-            0.0
-        };
-        person.sighted_us.saturating_sub(walked_us as u64)
+        let depths = inside.map(|road| road.depth(person.at) - PLACE_ERROR_M);
+        // Beside the outline of a road nothing is known.
+        let depth = depths.reduce(f64::min).unwrap_or_default().max(0.0);
+        let way_us = depth / ON_FOOT_MAX_MPS / self.pace() * 1e6;
+        person.sighted_us.saturating_sub(way_us as u64)
     }
 
     /// Who is on the carriageway.
