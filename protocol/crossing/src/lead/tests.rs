@@ -3,7 +3,7 @@
 use std::vec::Vec;
 
 use crossguard_protocol::{
-    EndReason, GoneReason, ManeuverId, RequestId, SessionId, SessionNumber, TaskType,
+    EndReason, GoneReason, ManeuverId, RequestId, SessionId, SessionNumber, TaskSet, TaskType,
     Unavailability, UniqueNumber,
 };
 
@@ -158,6 +158,31 @@ fn a_follower_whose_position_nobody_knows_opens_nothing() {
     assert_eq!(words(&leader.pass(400)), [""; 0]);
     leader.is_at(FIRST, PLACE);
     assert_eq!(words(&leader.pass(100)), ["open"]);
+}
+
+/// An escort on its way to the kerb when everybody is across; and then somebody else comes to the kerb behind it.
+#[test]
+fn a_leader_waits_for_its_escort_and_opens_for_nobody_else_meanwhile() {
+    for is_wanted in [false, true] {
+        let mut leader = Leader::of(plan([Stage::everybody(leg(TaskType::MOVE, PLACE))]));
+        leader.setup.guarding = TaskSet::of(&[TaskType::MOVE]);
+        leader.joins(FIRST);
+        leader.is_at(FIRST, Point::new(600, 0));
+        leader.view.is_wanted = is_wanted;
+        leader.view.has_opened = true;
+        leader.view.has_crossed = true;
+        leader.view.was_seen = true;
+        assert_eq!(words(&leader.pass(500)), [""; 0], "the road is not clear");
+        leader.view.was_seen = false;
+        leader.view.nobody_is_lost = true;
+        leader.view.everybody_is_across = !is_wanted;
+        for _ in 0..9 {
+            leader.is_at(FIRST, Point::new(600, 100));
+            assert_eq!(words(&leader.pass(500)), [""; 0], "the escort walks");
+        }
+        leader.is_at(FIRST, Point::new(600, 100));
+        assert_eq!(words(&leader.pass(500)), ["completed"], "it stands");
+    }
 }
 
 #[test]
