@@ -5,7 +5,7 @@
 //!  "class": "pedestrian", "confidence": 0.9, "error_m": 0.2}]}
 //! ```
 //!
-//! A frame has everybody whom the source saw, and says when it looked: `at_s` in seconds from the beginning, or `unix_s`
+//! A frame has everybody in sight of its source, and says when the source looked: `at_s` in seconds from the beginning, or `unix_s`
 //! in seconds since 1970. Its age counts from then, however long it waited in a pipe. `covers_m` is the polygon that the source
 //! could see at that time; without it, the whole crossing. Sources are numbered from 0 to 3; without a number it is source 0.
 //! Vehicles are among the people, with `"class": "vehicle"`. `velocity_mps` is unknown, `class` a pedestrian,

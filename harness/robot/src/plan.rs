@@ -98,7 +98,7 @@ impl Leg {
     clippy::cast_sign_loss,
     reason = "casts of numbers saturate"
 )]
-fn millis(seconds: f64) -> Millis {
+pub(crate) fn millis(seconds: f64) -> Millis {
     Millis((seconds * 1e3).round() as u32)
 }
 

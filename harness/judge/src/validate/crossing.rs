@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | P1 | While somebody is on the carriageway, no guard leaves because of an application's word. | a guard ends its maneuver or duty by a word of its own application (`ManeuverCompleted`, `RoadClear`) or by its leader's `TaskCompleted` |
 //! | P2 | While go is shown, each guard that holds a place is within [`TOLERANCE_M`] of it, or left it a short time ago. | a guard sends a RAM, or go begins or goes on |
-//! | P4 | An escort that moves is no further than [`AHEAD_M`] ahead of somebody whom it sees on the carriageway. | an escort sends a RAM while it sees somebody on the carriageway |
+//! | P4 | An escort that moves is no further than [`AHEAD_M`] ahead of a person in its sight on the carriageway. | an escort sends a RAM while it sees somebody on the carriageway |
 //!
 //! What people do is worked out of their [places](super::ground) alone, never of what a robot made of them. Guards are
 //! judged by what bodies are told (start, stop, fall back), positions by the robots' own RAM, to which the error that

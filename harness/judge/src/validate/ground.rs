@@ -6,8 +6,8 @@
 //! ```
 //!
 //! Somebody is on the carriageway who is inside the outline of a road of any robot. A person who leaves it sideways,
-//! between the lines of its kerbs, is still on it. Kerbs are the edges of the road at which people wait. A person
-//! whom a robot does not see any more stays where it saw them for [`STAYS_US`].
+//! between the lines of its kerbs, is still on it. Kerbs are the edges of the road at which people wait. A robot
+//! may lose a person from sight: that person stays in the last place for [`STAYS_US`].
 
 use std::collections::BTreeMap;
 

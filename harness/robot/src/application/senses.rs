@@ -41,7 +41,7 @@ struct Observed {
 /// What was said of the people last.
 #[derive(Debug, Default)]
 pub(super) struct Said {
-    /// The people whom the sensors have. What the robot makes of them plays no part: a log is judged by this.
+    /// The people in the newest frames. A log is judged by them, so the robot's own conclusions play no part.
     observed: Vec<Observed>,
     /// When, in seconds.
     last: Option<(f64, Sight)>,
@@ -268,7 +268,7 @@ impl Application {
         })
     }
 
-    /// The people whom the sensors have now, and what the robot makes of each.
+    /// The people in the newest frames, each with the conduct that the robot takes it for.
     fn observed(&self) -> impl Iterator<Item = (&Sighting, Conduct)> {
         let is_there = |it: &&Observed| self.at_s - it.at_s <= SEEN_S;
         let observed = self.said.observed.iter().filter(is_there);

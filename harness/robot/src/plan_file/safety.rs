@@ -6,7 +6,7 @@ use toml::Spanned;
 use super::Role;
 use super::tables::PlanTables;
 use crate::located::Misfit;
-use crate::plan::{Stage, Who};
+use crate::plan::{Leg, Stage, Who};
 use crate::site_file::SiteFile;
 
 /// The maneuvers that take a person on the road: they guard, and hold no place.
@@ -27,6 +27,16 @@ fn at(tables: &PlanTables, stage: usize, role: &str, what: String) -> Misfit {
     }
 }
 
+/// The legs of followers that have roles, in order: the number of the stage, that of the follower, and its leg.
+fn legs(stages: &[Stage]) -> impl Iterator<Item = (usize, usize, &Leg)> {
+    stages.iter().enumerate().flat_map(|(number, stage)| {
+        stage.parts.iter().filter_map(move |(who, leg)| match who {
+            Who::Role(follower) => Some((number, *follower, leg)),
+            Who::Everybody => None,
+        })
+    })
+}
+
 /// Looks that people are escorted in the last stage alone, in which the corridor is open, and that a robot that guards from a
 /// place is sent there in a stage before.
 pub(super) fn guards_first(
@@ -42,26 +52,19 @@ pub(super) fn guards_first(
         return Ok(());
     };
     let mut sent = vec![false; followers.len()];
-    for (number, stage) in stages.iter().enumerate() {
-        for (who, leg) in &stage.parts {
-            let Who::Role(follower) = who else {
-                continue;
-            };
-            if !settings.holding.contains(leg.task) {
-                continue;
-            }
-            if number >= first && !sent[*follower] {
-                let name = &followers[*follower].name;
-                let what = format!(
-                    "role '{name}' is sent to guard in stage {}, and a person is escorted from stage {} on: \
-                     guards are wanted in a stage before",
-                    number + 1,
-                    first + 1
-                );
-                return Err(at(tables, number, name, what));
-            }
-            sent[*follower] = true;
+    let guards = legs(stages).filter(|(_, _, leg)| settings.holding.contains(leg.task));
+    for (number, follower, _) in guards {
+        if number >= first && !sent[follower] {
+            let name = &followers[follower].name;
+            let what = format!(
+                "role '{name}' is sent to guard in stage {}, and a person is escorted from stage {} on: \
+                 guards are wanted in a stage before",
+                number + 1,
+                first + 1
+            );
+            return Err(at(tables, number, name, what));
         }
+        sent[follower] = true;
     }
     if first + 1 < stages.len() {
         let what = format!(
@@ -83,29 +86,26 @@ pub(super) fn ways_in_time(
 ) -> Result<(), Misfit> {
     let escorts = escorts(settings);
     let mut places: Vec<_> = followers.iter().map(|role| role.waits).collect();
-    for (number, stage) in stages.iter().enumerate() {
-        for (who, leg) in &stage.parts {
-            let Who::Role(seat) = who else { continue };
-            let Some(from) = places[*seat].replace(leg.to) else {
-                continue;
-            };
-            let way_m = from.distance(leg.to);
-            let way_s = way_m / leg.speed_mps;
-            let of_task = settings.t_exec[usize::from(leg.task.value())];
-            let of_crossing = escorts.contains(leg.task).then_some(settings.t_cross);
-            let limits = [("t_exec", Some(of_task)), ("t_cross", of_crossing)];
-            for (limit, time) in limits {
-                if let Some(time) = time
-                    && way_s > seconds(time)
-                {
-                    let (name, most_s) = (&followers[*seat].name, seconds(time));
-                    let what = format!(
-                        "role '{name}' goes {way_m:.1} m at {} m/s, which takes {way_s:.1} s: \
-                         {limit} is {most_s} s",
-                        leg.speed_mps
-                    );
-                    return Err(at(tables, number, name, what));
-                }
+    for (number, follower, leg) in legs(stages) {
+        let Some(from) = places[follower].replace(leg.to) else {
+            continue;
+        };
+        let way_m = from.distance(leg.to);
+        let way_s = way_m / leg.speed_mps;
+        let of_task = settings.t_exec[usize::from(leg.task.value())];
+        let of_crossing = escorts.contains(leg.task).then_some(settings.t_cross);
+        let limits = [("t_exec", Some(of_task)), ("t_cross", of_crossing)];
+        for (limit, time) in limits {
+            if let Some(time) = time
+                && way_s > seconds(time)
+            {
+                let (name, most_s) = (&followers[follower].name, seconds(time));
+                let what = format!(
+                    "role '{name}' goes {way_m:.1} m at {} m/s, which takes {way_s:.1} s: \
+                     {limit} is {most_s} s",
+                    leg.speed_mps
+                );
+                return Err(at(tables, number, name, what));
             }
         }
     }

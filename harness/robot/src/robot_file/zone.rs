@@ -19,6 +19,7 @@ use crossguard_endpoint::ras::area::Area;
 use crossguard_protocol::Millis;
 use serde::Deserialize;
 
+use crate::plan::millis;
 use crate::site::Place;
 use crate::site_file::{Purpose, SiteFile, Spot, between};
 use crate::zone::Zone;
@@ -210,16 +211,6 @@ impl ZoneTable {
         };
         Ok((zone, kerbs.transpose()?))
     }
-}
-
-/// Milliseconds.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "checked to be small and not negative"
-)]
-fn millis(seconds: f64) -> Millis {
-    Millis((seconds * 1e3).round() as u32)
 }
 
 /// Hundredths.
