@@ -60,6 +60,11 @@ impl Seat {
         pause: Millis::ZERO,
         presence: Presence::NOWHERE,
     };
+
+    /// Whether it has done its part, or holds it.
+    const fn is_ready(&self) -> bool {
+        !matches!(self.part, Part::Commanded(_))
+    }
 }
 
 /// How a plan goes.
@@ -412,25 +417,26 @@ impl Lead {
 
     /// Whether every follower has done its part or holds it.
     fn is_ready(&self, plan: &Plan) -> bool {
-        let seats = self.seats.iter().enumerate();
-        let has_role = |seat: usize| plan.roles.is_empty() || seat < plan.roles.len();
-        let seated = seats.filter(|(seat, it)| has_role(*seat) && it.station.is_some());
-        let is_ready = |seat: &Seat| !matches!(seat.part, Part::Commanded(_));
-        seated.count() >= usize::from(plan.followers) && self.seats.iter().all(is_ready)
+        self.are_all(plan, |_, it| it.is_ready())
     }
 
     /// Whether every follower has done its part, holds it, or is an escort at the end of its way. That one goes on
     /// as long as it only hears of its person: what it hears is less exact than what its leader sees.
     fn is_over_there(&self, setup: &Setup, plan: &Plan) -> bool {
-        let mut at_end = self.clone();
-        for (seat, it) in at_end.seats.iter_mut().enumerate() {
+        self.are_all(plan, |seat, it| {
             let leg = self.leg(plan, seat);
             let is_escort = leg.is_some_and(|leg| setup.escorts().contains(leg.task));
-            if is_escort && it.presence.is_there() && it.pause == Millis::ZERO && !it.again {
-                it.part = Part::Done;
-            }
-        }
-        at_end.is_ready(plan)
+            let is_at_end = it.presence.is_there() && it.pause == Millis::ZERO && !it.again;
+            it.is_ready() || is_escort && is_at_end
+        })
+    }
+
+    /// Whether every role has its follower, and this holds for every seat.
+    fn are_all(&self, plan: &Plan, holds: impl Fn(usize, &Seat) -> bool) -> bool {
+        let has_role = |seat: usize| plan.roles.is_empty() || seat < plan.roles.len();
+        let seats = || self.seats.iter().enumerate();
+        let seated = seats().filter(|(seat, it)| has_role(*seat) && it.station.is_some());
+        seated.count() >= usize::from(plan.followers) && seats().all(|(seat, it)| holds(seat, it))
     }
 
     /// Whether the newest position of every follower is fresh.
