@@ -46,6 +46,7 @@ fn log_of(seed: u64, path: &Path) {
         robots: 6,
         faults: None,
         plan: None,
+        sensors: 0.0,
         liars: 0.0,
         threads: 1,
         failures_max: 1,

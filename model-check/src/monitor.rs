@@ -25,6 +25,8 @@ pub struct Monitor {
     /// Whether steps come in the order of true time.
     is_timed: bool,
     has_strangers: bool,
+    /// Whether to have heard a leader twice says nothing.
+    hears_late: bool,
     premises: u32,
     /// The sessions at whose signs those on the road have stepped on it, one entry for each person.
     on_road: Vec<SessionId>,
@@ -97,6 +99,7 @@ impl Monitor {
             history: History::default(),
             is_timed: timed,
             has_strangers: false,
+            hears_late: false,
             premises: 0,
             on_road: Vec::new(),
         }
@@ -141,6 +144,13 @@ impl Monitor {
     /// judged any more.
     pub const fn has_strangers(&mut self) {
         self.has_strangers = true;
+    }
+
+    /// Messages may be so late that two of them come of a session that is over, or RAM periods differ, so that two leaders take turns
+    /// at a third one, which notes the newer of them. Then a leader may have heard another one twice and not know that it is there,
+    /// and W3 is not judged here.
+    pub const fn hears_late(&mut self) {
+        self.hears_late = true;
     }
 
     /// The station of this id is an insider, which may say anything in its own name. Rules that compare two robots are
@@ -266,7 +276,9 @@ impl Monitor {
             world: &self.seats,
         };
         let (mut premises, unrecorded) = (self.premises, self.unrecorded());
-        let broken = PropertyId::ALL.into_iter().find(|id| {
+        let is_late = |id: &PropertyId| self.hears_late && *id == PropertyId::W3;
+        let judged = PropertyId::ALL.into_iter().filter(|id| !is_late(id));
+        let broken = { judged }.find(|id| {
             let is_judged = |rule: &StateRule| !unrecorded.leaves_open(*id, rule.of_two);
             let rule = id.state_rule().filter(is_judged);
             rule.is_some_and(|rule| {

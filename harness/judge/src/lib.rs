@@ -4,7 +4,7 @@
 //! use crossguard_judge::sim::Fuzz;
 //!
 //! // Three streets of up to four robots, with whatever goes wrong on them.
-//! let streets = Fuzz { first: 1, seeds: 3, robots: 4, faults: None, plan: None, liars: 0.25, threads: 1, failures_max: 1 };
+//! let streets = Fuzz { first: 1, seeds: 3, robots: 4, faults: None, plan: None, sensors: 0.5, liars: 0.25, threads: 1, failures_max: 1 };
 //! let totals = streets.run(&|_| true);
 //! assert_eq!((totals.seeds, totals.violations), (3, 0));
 //! ```

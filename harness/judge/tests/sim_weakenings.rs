@@ -1,8 +1,9 @@
 //! Each rule of the protocol that the simulator can do without is missed by it within a bounded number of seeds.
 
-use crossguard_judge::sim::{Fuzz, Totals};
+use crossguard_judge::sim::{Fuzz, Swarm, Totals, run};
 use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_protocol::*;
+use crossguard_robot::zone::Zone;
 use crossguard_testkit::rules::*;
 
 /// How many seeds a weakening may take.
@@ -12,6 +13,7 @@ const PER_TRY: u64 = 20;
 
 fn fuzz(
     rules: &'static dyn Rules,
+    sensors: f64,
     faults: &str,
     first: u64,
     seeds: u64,
@@ -24,6 +26,7 @@ fn fuzz(
         robots: 6,
         faults: faults.as_ref(),
         plan: None,
+        sensors,
         liars: 0.25,
         threads: 2,
         failures_max: failures,
@@ -34,7 +37,7 @@ fn fuzz(
 #[test]
 fn the_protocol_itself_breaks_nothing() {
     // Ten thousand seeds are a command of the README.
-    let totals = fuzz(&Protocol, "", 1, 100, 1);
+    let totals = fuzz(&Protocol, 0.5, "", 1, 100, 1);
     assert_eq!((totals.failures, totals.seeds), (Vec::new(), 100));
 }
 
@@ -87,12 +90,12 @@ const FOUND_FIRST: &[(&dyn Rules, &[&str])] = &[
 #[test]
 fn each_weakening_is_found_by_a_property_that_it_breaks() {
     for &(rules, properties) in FOUND_FIRST {
-        assert_found(&fuzz(rules, "", 1, SEEDS, 1), properties);
+        assert_found(&fuzz(rules, 0.0, "", 1, SEEDS, 1), properties);
     }
     // It takes a command that outlives its session.
     let late = "delay=0..4000,loss=0.1,duplication=0.3";
     assert_found(
-        &fuzz(&ObeysCommandsOfAnySession, late, 1, SEEDS, 1),
+        &fuzz(&ObeysCommandsOfAnySession, 0.0, late, 1, SEEDS, 1),
         &["I3"],
     );
 }
@@ -124,10 +127,33 @@ fn each_hazard_to_people_is_found_where_its_rule_is_gone() {
         let step = usize::try_from(PER_TRY).unwrap();
         let mut firsts = (1..=SEEDS).step_by(step);
         let found = firsts.any(|first| {
-            let totals = fuzz(rules, "", first, PER_TRY, usize::MAX);
+            let totals = fuzz(rules, 0.0, "", first, PER_TRY, usize::MAX);
             let mut failures = totals.failures.iter();
             failures.any(|failure| failure.finding.property == property)
         });
         assert!(found, "{property}");
+    }
+}
+
+/// What robots assume amiss of sensors, bodies and vehicles, and the property that this breaks.
+const AMISS: &[(fn(&mut Zone), &str)] = &[
+    (|zone| zone.sensors.miss_max = 0, "P1"),
+    (|zone| zone.position.tolerance_cm = 10_000, "P2"),
+    (|zone| zone.traffic.keep = Millis::ZERO, "P3"),
+    (|zone| zone.position.ahead_cm = 10_000, "P4"),
+];
+
+#[test]
+fn each_property_of_the_crossing_is_broken_by_an_assumption_that_is_amiss() {
+    for &(weakening, property) in AMISS {
+        let broken = |seed: &u64| {
+            let mut swarm = Swarm::draw(*seed, 4, None).with_sensors(1.0);
+            swarm.sensing.as_mut().unwrap().weakening = weakening;
+            let finding = run(&swarm, None).finding;
+            finding.is_some_and(|it| it.property == property)
+        };
+        let found = (1..=SEEDS).find(broken);
+        assert!(found.is_some(), "{property}");
+        println!("{property} {found:?}");
     }
 }

@@ -291,6 +291,11 @@ impl Application {
         self.body.carry_to_safe_place();
     }
 
+    /// Something pushes the body off its place: see [`Body::push`].
+    pub fn push(&mut self, by_m: [f64; 2]) {
+        self.body.push(by_m);
+    }
+
     /// Does what the endpoint says.
     pub fn act(&mut self, act: &Act) {
         match act {

@@ -160,6 +160,9 @@ pub trait Body: fmt::Debug + Send {
         false
     }
 
+    /// Something pushes it so far to the east and to the north, in metres. Only a simulated body can be.
+    fn push(&mut self, _by_m: [f64; 2]) {}
+
     /// Carries the body back to where it is safe, as a person would between two trials.
     fn carry_to_safe_place(&mut self) {}
 

@@ -194,8 +194,6 @@ impl Street {
         };
         Zone {
             waiting: Some(strip(PAVEMENT_M, HALF_ROAD_M)),
-            road: Some(strip(-PAVEMENT_M, HALF_ROAD_M)),
-            crossing: None,
             rules: WaitingRules {
                 dwell: Millis(0),
                 ..WaitingRules::default()
@@ -209,6 +207,7 @@ impl Street {
                 linger: Millis(10),
                 ..Sensors::default()
             },
+            ..Zone::of_road(strip(-PAVEMENT_M, HALF_ROAD_M))
         }
     }
 }

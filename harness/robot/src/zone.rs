@@ -2,7 +2,8 @@
 //! machine has it.
 
 use crossguard_crossing::{
-    Coverage, Ground, Point, RoadUser, Sensors, Setup, Shape, Sighting, WaitingRules, Way,
+    Coverage, Ground, Point, PositionRules, RoadUser, Sensors, Setup, Shape, Sighting,
+    TrafficRules, WaitingRules, Way,
 };
 use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
@@ -28,6 +29,10 @@ pub struct Zone {
     pub rules: WaitingRules,
     /// What is assumed of the sensors.
     pub sensors: Sensors,
+    /// When a robot is in position there.
+    pub position: PositionRules,
+    /// When it is safe to cross in front of vehicles.
+    pub traffic: TrafficRules,
 }
 
 impl Zone {
@@ -40,6 +45,8 @@ impl Zone {
             crossing: None,
             rules: WaitingRules::default(),
             sensors: Sensors::default(),
+            position: PositionRules::default(),
+            traffic: TrafficRules::default(),
         }
     }
 
@@ -64,6 +71,8 @@ impl Zone {
             calls: true,
             sensors: self.sensors,
             waiting: self.rules,
+            position: self.position,
+            traffic: self.traffic,
             ground: self.ground(),
             ..setup
         }

@@ -41,6 +41,10 @@ pub(super) struct Arguments {
     /// The site that the plan is on; by default the street of the demonstrations.
     #[arg(long, value_name = "FILE", requires = "plan")]
     site: Option<PathBuf>,
+    /// In which share of the seeds robots see people by sensors that miss some, mix them up, fall silent and come late.
+    /// In the others they know everybody on the road.
+    #[arg(long, value_name = "SHARE", default_value_t = 0.5, value_parser = number(0.0..=1.0))]
+    sensors: f64,
     /// In which share of the seeds an insider lies: a station with a certificate that says anything in its own name.
     #[arg(long, value_name = "SHARE", default_value_t = 0.25, value_parser = number(0.0..=1.0))]
     liars: f64,
@@ -91,6 +95,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         robots: usize::from(arguments.robots),
         faults: arguments.faults.as_ref(),
         plan: plan.as_ref(),
+        sensors: arguments.sensors,
         liars: arguments.liars,
         threads: arguments.threads.map_or(cores, usize::from),
         failures_max: usize::from(arguments.failures),
@@ -271,6 +276,20 @@ fn tell(totals: &Totals, seconds: Duration) -> Result<(), Failure> {
                     "  {id:>3} {name}: {ms} ms (at most {bound_ms})"
                 ))?;
             }
+        }
+    }
+    for (when, people) in ["while there were faults", "after that"]
+        .iter()
+        .zip(&totals.people)
+    {
+        let seconds = |share| people.quantile_ms(share).map(|ms| f64::from(ms) / 1_000.0);
+        if let (Some(median), Some(longest)) = (seconds(0.5), seconds(1.0)) {
+            print(format_args!(
+                "People seen by sensors who came {when}: {} crossed, after {median:.1} s at the kerb in the median and {longest:.1} s \
+                 at most; {} did not.",
+                people.waited_ms.len(),
+                people.left
+            ))?;
         }
     }
     print(format_args!("Violations: {}.", totals.violations))

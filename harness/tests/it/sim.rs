@@ -185,6 +185,7 @@ fn of_a_failure_the_log_the_chart_and_the_line_that_runs_it_again_are_written() 
         robots: 4,
         faults: None,
         plan: None,
+        sensors: 0.0,
         liars: 0.0,
         threads: 1,
         failures_max: 1,

@@ -368,17 +368,24 @@ impl<const N: usize> Crossing<N> {
         }
     }
 
-    /// Another station reports somebody. It adds people, and takes none away.
+    /// Another station reports somebody. It adds people, and takes none away. Where the robot has sensors of its own, somebody
+    /// whom others report beside the road does not count as on it because their place is inexact: people who wait at the kerb
+    /// would keep the road occupied for as long as they wait.
     fn heard(&mut self, setup: &Setup, sighting: Sighting, age: Millis) {
         if age > setup.sensors.age_max.max(crate::tracks::FRESH)
             || sighting.what == RoadUser::Vehicle
         {
             return;
         }
+        let has_sources = self.occupancy.has_sources();
         let mut is_occupied = false;
         self.tracks
             .observe(setup, OTHERS, age, &[sighting], |person| {
-                is_occupied |= may_be_on_road(setup, person);
+                is_occupied |= if has_sources {
+                    setup.ground.is_road(person.at)
+                } else {
+                    may_be_on_road(setup, person)
+                };
             });
         if is_occupied {
             self.occupancy.occupy(setup);

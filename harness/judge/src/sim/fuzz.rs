@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use super::swarm::{Hazard, Swarm};
 use super::times::Worst;
-use super::world::{Finding, Outcome, run_with};
+use super::world::{Finding, Outcome, Waits, run_with};
 
 /// What is to be run.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +27,8 @@ pub struct Fuzz<'a> {
     pub faults: Option<&'a Faults>,
     /// What every leader does, in place of a drawn plan.
     pub plan: Option<&'a Planned>,
+    /// In which share of the seeds, from 0 to 1, robots see people by sensors of their own.
+    pub sensors: f64,
     /// In which share of the seeds, from 0 to 1, an insider lies.
     pub liars: f64,
     /// How many threads work.
@@ -80,6 +82,8 @@ pub struct Totals {
     pub left_out: BTreeMap<&'static str, u64>,
     /// The longest times in any run.
     pub worst: Worst,
+    /// How people fared where robots see them by sensors: those who came while there were faults, and those after that.
+    pub people: [Waits; 2],
 }
 
 /// A property's id as a key.
@@ -93,6 +97,9 @@ impl Totals {
         self.packets += outcome.packets;
         self.virtual_s += outcome.virtual_ms / 1_000;
         self.worst.add(outcome.worst);
+        for (all, waits) in self.people.iter_mut().zip(&outcome.waits) {
+            all.add(waits);
+        }
         for id in &outcome.premises {
             *self.premises.entry(id.clone()).or_default() += 1;
         }
@@ -115,7 +122,7 @@ impl Fuzz<'_> {
     /// The swarm of a seed.
     #[must_use]
     pub fn swarm(&self, seed: u64) -> Swarm {
-        let mut swarm = Swarm::draw(seed, self.robots, self.faults);
+        let mut swarm = Swarm::draw(seed, self.robots, self.faults).with_sensors(self.sensors);
         if let Some(planned) = self.plan {
             swarm = swarm.with_plan(&planned.plan);
         }
@@ -130,9 +137,11 @@ impl Fuzz<'_> {
         let faults = faults.unwrap_or_default();
         let plan = self.plan.map(|it| format!(" {}", it.arguments));
         let plan = plan.unwrap_or_default();
-        let liars = u8::from(self.swarm(seed).insider.is_some());
+        let swarm = self.swarm(seed);
+        let liars = u8::from(swarm.insider.is_some());
+        let sensors = u8::from(swarm.sensing.is_some());
         format!(
-            "crossguard fuzz --seeds 1 --robots {robots} --seed {seed} --liars {liars}{faults}{plan}"
+            "crossguard fuzz --seeds 1 --robots {robots} --seed {seed} --sensors {sensors} --liars {liars}{faults}{plan}"
         )
     }
 
@@ -197,6 +206,7 @@ impl Fuzz<'_> {
             hazards: swarm.hazards().collect(),
             left_out: Vec::new(),
             worst: Worst::default(),
+            waits: Default::default(),
         })
     }
 }

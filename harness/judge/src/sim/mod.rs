@@ -32,6 +32,6 @@ mod world;
 pub use fuzz::{Failure, Fuzz, Planned, Totals};
 pub use report::{Files, write_failure};
 pub use script::{Deed, Happening};
-pub use swarm::{Hazard, InsiderDraw, Replay, RobotDraw, Swarm};
+pub use swarm::{CarDraw, Hazard, Ids, InsiderDraw, Replay, RobotDraw, Sensing, SourceDraw, Swarm};
 pub use times::{Longest, Measure, Worst};
-pub use world::{Finding, Outcome, Watch, run, run_with};
+pub use world::{Finding, Outcome, Waits, Watch, run, run_with};

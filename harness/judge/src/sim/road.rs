@@ -15,6 +15,9 @@ use crossguard_protocol::{Millis, SessionId, Settings};
 
 use super::times::{Longest, Measure, Worst};
 
+/// For how long a position counts.
+const FRESH: Millis = Millis(1_000);
+
 /// What is seen of a robot after something happened to it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sight {
@@ -403,6 +406,21 @@ impl Road {
         let seats = self.seats.iter().enumerate();
         let guards = seats.filter(|(_, seat)| seat.guards.is_some() && seat.guards == session);
         guards.map(|(place, _)| place).collect()
+    }
+
+    /// The leaders whose signs show *go* in a session.
+    pub(super) fn signs_of(&self, session: SessionId) -> Vec<usize> {
+        let seats = self.seats.iter().enumerate();
+        let shows = seats.filter(|(_, seat)| seat.go.is_some_and(|go| go.session == session));
+        shows.map(|(place, _)| place).collect()
+    }
+
+    /// For how long the sign of a leader shows *go* after a guard was pushed off its place: until its position is no longer
+    /// fresh, and then as after any failure (P2).
+    pub(super) fn leaves_within_us(&self, leader: usize) -> u64 {
+        let post = &self.seats[leader].post;
+        let bound = FRESH.saturating_add(post.lease).saturating_add(post.period);
+        u64::from(bound.0) * 1_000
     }
 
     /// The leaders at a corner whose signs show *go*.

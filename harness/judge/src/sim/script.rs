@@ -40,4 +40,6 @@ pub enum Deed {
     ChangeIdentity,
     /// Its process hangs for this many milliseconds. What arrives waits for it.
     Hang(u32),
+    /// Its body is pushed so far to the east and to the north, in metres.
+    Push([f64; 2]),
 }

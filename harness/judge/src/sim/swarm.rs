@@ -7,6 +7,7 @@
 mod draws;
 mod hazards;
 mod insiders;
+mod sensing;
 
 use crossguard_model_check::timed::longest;
 use crossguard_protocol::{Config, Millis, Settings, StationId};
@@ -18,6 +19,8 @@ use crossguard_robot::transport::Faults;
 use self::draws::Draws;
 pub use self::hazards::Hazard;
 pub use self::insiders::InsiderDraw;
+pub(super) use self::sensing::longest_us;
+pub use self::sensing::{CarDraw, Ids, Sensing, SourceDraw};
 use super::script::{Deed, Happening};
 
 /// By how much a station id grows when the robot changes its pseudonym.
@@ -49,6 +52,8 @@ pub struct Swarm {
     pub replays: Vec<Replay>,
     /// Whether robots sign what they send, and take in nothing without a signature.
     pub is_secured: bool,
+    /// What robots sense by themselves; without it, they know everybody on the road.
+    pub sensing: Option<Sensing>,
     /// The insider that lies, if there is one.
     pub insider: Option<InsiderDraw>,
     /// The corner at which somebody waits once the network is healed, where a team can exist.
@@ -162,10 +167,21 @@ impl Swarm {
                 ..plan.clone()
             };
         }
-        let corners = self.robots.iter().map(|robot| robot.corner + 1).max();
-        let mut corners = 0..corners.unwrap_or(0);
-        self.waits_at = corners.find(|corner| !self.who_can_lead(*corner).is_empty());
+        self.waits_at = self.waits_at();
         self
+    }
+
+    /// The first corner at which a team can exist. Where robots see people by sensors, each of them calls, so it has to be able to
+    /// lead.
+    fn waits_at(&self) -> Option<usize> {
+        let corners = self.robots.iter().map(|robot| robot.corner + 1).max();
+        let enough = if self.sensing.is_some() {
+            self.robots.len()
+        } else {
+            1
+        };
+        let mut corners = 0..corners.unwrap_or(0);
+        corners.find(|corner| self.who_can_lead(*corner).len() >= enough)
     }
 
     /// The longest time that a message is under way, in milliseconds.

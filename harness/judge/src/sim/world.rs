@@ -4,6 +4,9 @@ mod deeds;
 mod lies;
 mod people;
 mod radio;
+mod sensors;
+mod truth;
+mod walkers;
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -11,15 +14,16 @@ use std::fmt;
 use std::rc::Rc;
 use std::time::Duration;
 
-use crossguard_codec::Service;
 use crossguard_codec::si::timestamp_its;
+use crossguard_codec::{Service, Target};
 use crossguard_endpoint::{Act, Effect, Moment, Stimulus};
 use crossguard_model_check::monitor::Monitor;
 use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::timed::Limits;
-use crossguard_protocol::{Event, Phase, Robot, StationId};
+use crossguard_protocol::{Event, Millis, Phase, Robot, StationId};
 use crossguard_robot::machine::Machine;
+use crossguard_robot::perception::Newest;
 use crossguard_robot::sign::Sign;
 use crossguard_robot::trace::{Entry, Reception, Record, recorded};
 use crossguard_robot::transport::Channel;
@@ -29,6 +33,10 @@ use serde::Serialize;
 
 use self::people::{Corner, OnRoad, Progress};
 use self::radio::Arrival;
+use self::sensors::{Eye, Framed};
+use self::truth::Conduct;
+pub use self::walkers::Waits;
+use self::walkers::Walker;
 use super::clock::Drifting;
 use super::insider::Insider;
 use super::road::{Overdue, Post, Road, Sight};
@@ -90,6 +98,8 @@ pub struct Outcome {
     pub left_out: Vec<&'static str>,
     /// The longest times.
     pub worst: Worst,
+    /// How people fared who came before the network was healed, and after that, where robots see them by sensors.
+    pub waits: [Waits; 2],
 }
 
 /// Who sees what happens in a run.
@@ -128,6 +138,7 @@ pub fn run_with<'a>(
     let measured = measured.filter(|measure| worst.of(*measure).is_some());
     let mut premises: BTreeSet<_> = met.collect();
     premises.extend(measured.map(|measure| measure.property().to_owned()));
+    premises.extend(world.met.iter().map(|id| (*id).to_owned()));
     Outcome {
         finding,
         virtual_ms: world.now_us / 1_000,
@@ -138,6 +149,7 @@ pub fn run_with<'a>(
         hazards: swarm.hazards().collect(),
         left_out: left_out(swarm),
         worst,
+        waits: world.waits(),
     }
 }
 
@@ -156,10 +168,24 @@ fn left_out(swarm: &Swarm) -> Vec<&'static str> {
             left_out.push("W3 in ms");
         }
     }
+    if hears_late(swarm) {
+        left_out.push("W3 untimed");
+    }
     if swarm.waits_at.is_none() {
         left_out.push("W7");
     }
     left_out
+}
+
+/// Whether a leader that has heard another one twice may have to hear more of it before it yields: several messages of a session
+/// may arrive after it is over, or two others take turns at a longer period than its own.
+fn hears_late(swarm: &Swarm) -> bool {
+    let mut periods = swarm
+        .robots
+        .iter()
+        .map(|robot| robot.config.settings().ram_period);
+    let first = periods.next();
+    swarm.delay_max() > Millis(1_000) || periods.any(|period| Some(period) != first)
 }
 
 /// What happens next somewhere.
@@ -187,6 +213,12 @@ enum Next {
     GoesOn(usize),
     /// The insider says something.
     Lies,
+    /// A sensor looks.
+    Senses(usize),
+    /// A frame arrives at a robot, by its place in the list of frames.
+    Sees(usize, usize),
+    /// A vehicle says where it is.
+    Drives(usize),
 }
 
 struct Seat<'a> {
@@ -208,7 +240,12 @@ struct Seat<'a> {
     /// Until when it hangs.
     hangs_until_us: Option<u64>,
     /// What has arrived meanwhile.
-    inbox: Vec<Arrival>,
+    inbox: Vec<Next>,
+    /// The people in the newest frames of its sensors.
+    newest: Newest,
+    /// When it heard each vehicle last.
+    heard_us: BTreeMap<usize, u64>,
+    conduct: Conduct,
 }
 
 struct World<'a> {
@@ -219,6 +256,13 @@ struct World<'a> {
     seats: Vec<Seat<'a>>,
     corners: Vec<Corner>,
     people: Vec<OnRoad>,
+    walkers: Vec<Walker>,
+    walkers_came: u32,
+    waits: [Waits; 2],
+    eyes: Vec<Eye<'a>>,
+    frames: Vec<Framed>,
+    /// The properties of the truth that had something to say.
+    met: BTreeSet<&'static str>,
     progress: Option<Progress>,
     road: Road,
     /// The robots by the station ids that they have had.
@@ -244,6 +288,9 @@ impl<'a> World<'a> {
     fn new(swarm: &'a Swarm, rules: &'static dyn Rules, watch: Option<&'a mut dyn Watch>) -> Self {
         let mut draws = ChaCha8Rng::seed_from_u64(swarm.seed ^ 0x5741_4553);
         let mut monitor = Monitor::new(swarm.is_in_time());
+        if hears_late(swarm) {
+            monitor.hears_late();
+        }
         let seats = swarm.robots.iter().map(|draw| {
             monitor.add(draw.station);
             Seat {
@@ -258,6 +305,9 @@ impl<'a> World<'a> {
                 wakes_us: None,
                 hangs_until_us: None,
                 inbox: Vec::new(),
+                newest: Newest::default(),
+                heard_us: BTreeMap::new(),
+                conduct: Conduct::default(),
             }
         });
         let seats: Vec<_> = seats.collect();
@@ -271,6 +321,12 @@ impl<'a> World<'a> {
             times: Times::new(limits, judged(swarm)),
             corners: people::corners(swarm),
             people: Vec::new(),
+            walkers: Vec::new(),
+            walkers_came: 0,
+            waits: Default::default(),
+            eyes: sensors::eyes(swarm),
+            frames: Vec::new(),
+            met: BTreeSet::new(),
             progress: None,
             names: BTreeMap::new(),
             has_heard_ram: false,
@@ -295,6 +351,14 @@ impl<'a> World<'a> {
         }
         for (i, replay) in swarm.replays.iter().enumerate() {
             world.at(replay.at_us, Next::Replays(i));
+        }
+        for eye in 0..world.eyes.len() {
+            let at_us = world.draws.random_range(0..200_000);
+            world.at(at_us, Next::Senses(eye));
+        }
+        let cars = swarm.sensing.iter().flat_map(|it| it.cars.iter());
+        for (number, car) in cars.enumerate() {
+            world.at(car.at_us, Next::Drives(number));
         }
         if let Some(insider) = &world.insider {
             world.monitor.lies(insider.station());
@@ -321,6 +385,7 @@ impl<'a> World<'a> {
                 return Err(self.not_at_rest());
             }
             self.take(next)?;
+            self.judge_bodies()?;
             if self.is_over() {
                 break;
             }
@@ -344,7 +409,14 @@ impl<'a> World<'a> {
                 self.lie();
                 Ok(())
             }
+            Next::Looks(_) if self.swarm.sensing.is_some() => self.walkers_look(),
             Next::Looks(corner) => self.look(corner),
+            Next::Senses(eye) => {
+                self.sense(eye);
+                Ok(())
+            }
+            Next::Sees(place, frame) => self.see_frame(place, frame),
+            Next::Drives(car) => self.drive(car),
             Next::Strikes(place) => self.strike(place),
             Next::Boots(place) => self.boot(place),
             Next::Notices => self.notice_again(),
@@ -460,6 +532,7 @@ impl<'a> World<'a> {
         let seen = self.road.see(self.now_us, place, sight);
         seen.map_err(|late| self.too_late(late))?;
         if !showed_go && self.road.shows_go(place) {
+            self.judge_go(place)?;
             self.plan_strike(place);
         }
         Ok(())
@@ -492,6 +565,9 @@ impl<'a> World<'a> {
             } => {
                 self.steps += 1;
                 self.names.insert(state.station(), place);
+                if self.swarm.sensing.is_some() {
+                    self.judge_word(place, *input, outputs)?;
+                }
                 if let Some(broken) = self.monitor.step(place, *input, outputs, state) {
                     let finding = self.finding(broken, place);
                     self.log(place, effect);
@@ -505,6 +581,17 @@ impl<'a> World<'a> {
                 self.transmit(place, &packet, *kind == Service::Ram);
             }
             Effect::Heard { kind, .. } => self.has_heard_ram |= *kind == Service::Ram,
+            Effect::Act(Act::Start(_, parameters)) => {
+                let seat = &mut self.seats[place];
+                seat.conduct.target = match parameters.target {
+                    Some(Target::Position {
+                        latitude,
+                        longitude,
+                        ..
+                    }) => Some(seat.draw.plan.site.place(latitude, longitude)),
+                    _ => None,
+                };
+            }
             Effect::Act(Act::RenewEpoch) => self.seats[place].is_to_renew = true,
             _ => {}
         }

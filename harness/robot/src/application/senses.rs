@@ -33,7 +33,7 @@ const SEEN_S: f64 = 1.0;
 #[derive(Clone, Copy, Debug)]
 struct Observed {
     source: u8,
-    /// When the frame was taken in, in seconds.
+    /// When they were seen there, in seconds.
     at_s: f64,
     sighting: Sighting,
 }
@@ -43,6 +43,8 @@ struct Observed {
 pub(super) struct Said {
     /// The people in the newest frames. A log is judged by them, so the robot's own conclusions play no part.
     observed: Vec<Observed>,
+    /// When each source made its newest frame, in seconds.
+    newest_s: BTreeMap<u8, f64>,
     /// When, in seconds.
     last: Option<(f64, Sight)>,
     /// When each follower's position was heard last, on the robot's clock in ms.
@@ -60,13 +62,13 @@ impl Application {
         self.said
             .observed
             .retain(|it| it.source != ONE_BY_ONE || it.sighting.id != seen.id);
-        self.observe(ONE_BY_ONE, &[seen]);
+        self.observe(ONE_BY_ONE, self.at_s, &[seen]);
         self.step(Input::Heard(seen, Millis::ZERO));
     }
 
-    fn observe(&mut self, source: u8, sightings: &[Sighting]) {
-        let at_s = self.at_s;
-        self.said.observed.retain(|it| at_s - it.at_s <= SEEN_S);
+    fn observe(&mut self, source: u8, at_s: f64, sightings: &[Sighting]) {
+        let now_s = self.at_s;
+        self.said.observed.retain(|it| now_s - it.at_s <= SEEN_S);
         let people = sightings.iter().filter(|it| it.what != RoadUser::Vehicle);
         let observed = people.map(|sighting| Observed {
             source,
@@ -76,9 +78,16 @@ impl Application {
         self.said.observed.extend(observed);
     }
 
-    fn observe_frame(&mut self, source: u8, sightings: &[Sighting]) {
+    /// Takes in the people of a frame that was made `age` ago, unless a newer one of its source came before.
+    fn observe_frame(&mut self, source: u8, age: Millis, sightings: &[Sighting]) {
+        let at_s = self.at_s - f64::from(age.0) / 1e3;
+        let newest_s = self.said.newest_s.entry(source).or_insert(at_s);
+        if at_s < *newest_s {
+            return;
+        }
+        *newest_s = at_s;
         self.said.observed.retain(|it| it.source != source);
-        self.observe(source, sightings);
+        self.observe(source, at_s, sightings);
     }
 
     /// A sensor source delivered a frame that it made `age` ago.
@@ -88,7 +97,7 @@ impl Application {
         };
         let covers = zone.covered(frame.covers.as_ref());
         let seen: Vec<_> = frame.people.iter().map(Perceived::sighting).collect();
-        self.observe_frame(frame.source, &seen);
+        self.observe_frame(frame.source, age, &seen);
         self.step(Input::Frame(Frame {
             source: frame.source,
             age,
@@ -117,7 +126,7 @@ impl Application {
             Road::Unknown | Road::Watched(_) => return,
         };
         let seen = street.sightings();
-        self.observe_frame(0, &seen);
+        self.observe_frame(0, Millis::ZERO, &seen);
         self.step(Input::Frame(Frame {
             source: 0,
             age: Millis::ZERO,

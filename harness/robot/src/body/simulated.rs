@@ -265,6 +265,10 @@ impl Body for Simulated {
         self.fallback.is_some() && self.motion.is_some()
     }
 
+    fn push(&mut self, [east, north]: [f64; 2]) {
+        self.place = Place::new(self.place.east + east, self.place.north + north);
+    }
+
     fn carry_to_safe_place(&mut self) {
         self.stop();
         self.place = self.safe_place;

@@ -14,7 +14,7 @@
 //! Where the site has its kerbs, `pavement_m = 2.5` is enough instead of the shapes: people cross between the kerbs, and
 //! wait up to that far behind them. The carriageway goes on beside the crossing then, as far as the site says.
 
-use crossguard_crossing::{Sensors, WaitingRules};
+use crossguard_crossing::{PositionRules, Sensors, TrafficRules, WaitingRules};
 use crossguard_endpoint::ras::area::Area;
 use crossguard_protocol::Millis;
 use serde::Deserialize;
@@ -208,6 +208,8 @@ impl ZoneTable {
             crossing: self.crossing_m.map(Area::Polygon),
             rules,
             sensors: Sensors::default(),
+            position: PositionRules::default(),
+            traffic: TrafficRules::default(),
         };
         Ok((zone, kerbs.transpose()?))
     }

@@ -89,11 +89,11 @@ impl Draws {
             strikes: self.perhaps(0.8),
             replays: self.replays(heals_us),
             is_secured,
+            sensing: None,
             insider: None,
             waits_at: None,
         };
-        let mut corners = 0..common.corners;
-        swarm.waits_at = corners.find(|corner| !swarm.who_can_lead(*corner).is_empty());
+        swarm.waits_at = swarm.waits_at();
         swarm
     }
 

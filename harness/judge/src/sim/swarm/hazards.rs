@@ -6,7 +6,7 @@ use crossguard_protocol::{Config, Settings};
 use crossguard_robot::transport::Faults;
 use serde::Serialize;
 
-use super::{RobotDraw, Swarm};
+use super::{RobotDraw, SourceDraw, Swarm};
 use crate::sim::script::Deed;
 
 /// A table of hazards: their names, and what they are.
@@ -52,6 +52,10 @@ hazards! {
     Security "security enforced": "Packets are signed, and nothing else is taken in.";
     Strike "failures while the sign shows go": "Something happens to a team that lets people cross.";
     SlowPeople "slow people": "Somebody takes more than half of `t_cross`.";
+    Sensors "people seen by sensors": "Robots see people by sensors of their own, which miss some.";
+    BadSensors "sensors that fail": "A sensor is silent, garbled, or late.";
+    Push "bodies that are pushed": "A body is pushed off its place.";
+    Cars "vehicles that do not stop": "Vehicles drive over the crossing.";
     Insider "an insider that lies": "A station with a certificate says anything in its own name.";
 }
 
@@ -93,6 +97,22 @@ impl Hazard {
             Self::Replay => !swarm.replays.is_empty(),
             Self::Security => swarm.is_secured,
             Self::Strike => swarm.strikes > 0.0,
+            Self::Sensors => swarm.sensing.is_some(),
+            Self::BadSensors => {
+                let sources = swarm
+                    .sensing
+                    .iter()
+                    .flat_map(|it| it.sources.iter().flatten());
+                let fails = |it: &SourceDraw| {
+                    it.silent.is_some() || it.garbled > 0.0 || it.latency_ms > 100
+                };
+                { sources }.any(fails)
+            }
+            Self::Push => {
+                let strikes = swarm.sensing.is_some() && swarm.strikes > 0.0;
+                strikes || some_deed(|deed| matches!(deed, Deed::Push(_)))
+            }
+            Self::Cars => swarm.sensing.as_ref().is_some_and(|it| !it.cars.is_empty()),
             Self::Insider => swarm.insider.is_some(),
             Self::SlowPeople => swarm.robots.iter().any(lets_slow_people_cross),
         }

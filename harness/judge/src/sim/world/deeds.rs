@@ -8,6 +8,7 @@ use crossguard_endpoint::{Endpoint, Stimulus};
 use crossguard_robot::application::Application;
 use crossguard_robot::body::Simulated;
 use crossguard_robot::machine::Machine;
+use crossguard_robot::perception::Newest;
 use crossguard_robot::trace::Entry;
 use rand::Rng;
 use rand::seq::IndexedRandom;
@@ -30,6 +31,12 @@ impl World<'_> {
             Deed::Crash => return self.crash(place),
             Deed::Boot => return self.boot(place),
             Deed::Hang(ms) => return self.hang(place, ms),
+            Deed::Push(by) => {
+                if let Some(machine) = &mut self.seats[place].machine {
+                    machine.application_mut().push(by);
+                }
+                return Ok(());
+            }
             _ => {}
         }
         let Some(event) = self.event(place, deed) else {
@@ -61,7 +68,14 @@ impl World<'_> {
     /// What a robot that is up is told.
     fn event(&mut self, place: usize, deed: Deed) -> Option<Event> {
         let corner = self.seats[place].corner;
-        let is_clear = self.corners[corner].street.is_clear() && !self.shows_go(place);
+        let is_clear = self.corners[corner].street.is_clear()
+            && self.nobody_walks_on_road()
+            && !self.shows_go(place);
+        if deed == Deed::Detect && self.swarm.sensing.is_some() {
+            // Who sees them calls.
+            self.walkers_come();
+            return None;
+        }
         if deed == Deed::Detect {
             let draw = self.seats[place].draw;
             let crossing_us = draw.plan.crossing_us(draw.time_scale);
@@ -90,7 +104,7 @@ impl World<'_> {
                 let station = seat.draw.station.0 + seat.changes * PSEUDONYM_STEP;
                 Event::IdentityChanged(StationId(station), None)
             }
-            Deed::Crash | Deed::Boot | Deed::Hang(_) => return None,
+            Deed::Crash | Deed::Boot | Deed::Hang(_) | Deed::Push(_) => return None,
         })
     }
 
@@ -126,8 +140,8 @@ impl World<'_> {
         seat.hangs_until_us = None;
         self.monitor.hang(place, false);
         self.times.go_on(place);
-        for arrival in std::mem::take(&mut seat.inbox) {
-            self.receive(&arrival)?;
+        for next in std::mem::take(&mut seat.inbox) {
+            self.take(next)?;
         }
         self.handle(place, Stimulus::Time)
     }
@@ -165,6 +179,12 @@ impl World<'_> {
         );
         let body = body.holding(draw.config.settings().holding);
         let application = Application::new(Box::new(body), Some(draw.plan.clone()));
+        let application = match &self.swarm.sensing {
+            Some(sensing) => application.on(super::sensors::road(sensing)),
+            None => application,
+        };
+        seat.newest = Newest::default();
+        seat.heard_us.clear();
         seat.sign = application.sign().clone();
         seat.machine = Some(Machine::new(endpoint, application));
         self.come_to(place, draw.corner);
@@ -193,8 +213,13 @@ impl World<'_> {
         }
     }
 
-    /// A robot loses power and boots again, hangs for a while, or its body fails.
+    /// A robot loses power and boots again, hangs for a while, its body fails, or is pushed away.
     pub(super) fn strike(&mut self, place: usize) -> Result<(), Finding> {
+        if self.swarm.sensing.is_some() && self.draws.random_bool(0.4) {
+            let by = [0, 1].map(|_| self.draws.random_range(-6.0..6.0));
+            let (at_us, deed) = (self.now_us, Deed::Push(by));
+            return self.happen(Happening { at_us, place, deed });
+        }
         let deed = match self.draws.random_range(0..4) {
             0 => Deed::Crash,
             1 => Deed::Fail,

@@ -31,11 +31,11 @@ pub(super) struct Corner {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OnRoad {
     /// At whose sign.
-    session: SessionId,
-    corner: usize,
-    across_us: u64,
+    pub(super) session: SessionId,
+    pub(super) corner: usize,
+    pub(super) across_us: u64,
     /// Whether the network was healed when he or she stepped on it.
-    is_after_healing: bool,
+    pub(super) is_after_healing: bool,
 }
 
 /// The crossing that is demanded (W7).
@@ -65,7 +65,7 @@ impl World<'_> {
         }
     }
 
-    fn plan_look(&mut self, corner: usize) {
+    pub(super) fn plan_look(&mut self, corner: usize) {
         let most = if self.is_healed {
             LOOKS_EVERY_HEALED_US
         } else {
@@ -85,22 +85,9 @@ impl World<'_> {
             self.plan_look(corner);
             return Ok(());
         };
-        let stepped = self
-            .road
-            .step_on_road(self.now_us, leader, self.liars_among(leader));
-        let stepped = stepped.map_err(|late| self.too_late(late))?;
-        let Some((session, required, gone)) = stepped else {
+        let Some(session) = self.step_on(leader)? else {
             return Ok(());
         };
-        let broken = self.monitor.step_on_road(session, required);
-        // A guard that lost power and has a part in another session by now says nothing of this one.
-        let has_left = |place: &usize| {
-            let body = self.monitor.node(*place).actuation.body;
-            body.maneuver().is_none_or(|id| id.session != session)
-        };
-        if let Some(broken) = broken.filter(|_| !gone.iter().any(has_left)) {
-            return Err(self.finding(broken, leader));
-        }
         let it = &mut self.corners[corner];
         it.waiting_us = None;
         it.street.look(self.now_us, true);
@@ -111,6 +98,27 @@ impl World<'_> {
             is_after_healing: self.is_healed,
         });
         Ok(())
+    }
+
+    /// Somebody steps on the road at the sign of a leader: in which session, if it shows go.
+    pub(super) fn step_on(&mut self, leader: usize) -> Result<Option<SessionId>, Finding> {
+        let stepped = self
+            .road
+            .step_on_road(self.now_us, leader, self.liars_among(leader));
+        let stepped = stepped.map_err(|late| self.too_late(late))?;
+        let Some((session, required, gone)) = stepped else {
+            return Ok(None);
+        };
+        let broken = self.monitor.step_on_road(session, required);
+        // A guard that lost power and has a part in another session by now says nothing of this one.
+        let has_left = |place: &usize| {
+            let body = self.monitor.node(*place).actuation.body;
+            body.maneuver().is_none_or(|id| id.session != session)
+        };
+        if let Some(broken) = broken.filter(|_| !gone.iter().any(has_left)) {
+            return Err(self.finding(broken, leader));
+        }
+        Ok(Some(session))
     }
 
     /// Who has had the time is across.
@@ -161,6 +169,13 @@ impl World<'_> {
         let (corner, leaders) = (progress.corner, progress.leaders.clone());
         let draw = self.seats[leaders[0]].draw;
         let crossing_us = draw.plan.crossing_us(draw.time_scale);
+        if self.swarm.sensing.is_some() {
+            // Those who see them call.
+            self.walkers_come();
+            let next_us = self.now_us + self.draws.random_range(5 * SECOND_US..=30 * SECOND_US);
+            self.at(next_us, Next::Notices);
+            return Ok(());
+        }
         if self.people.iter().all(|it| it.corner != corner) {
             self.come_to_cross(corner, crossing_us);
         }
@@ -219,12 +234,14 @@ impl World<'_> {
                 Notice::FollowerGone(guard, _)
                 | Notice::LeaseExpired(guard)
                 | Notice::ManeuverFailed(guard, ..)
+                | Notice::ManeuverReported(guard, _)
                 | Notice::ManeuverCompleted(guard, _)
                 | Notice::FollowerSafeIdle(guard, _)
                     if self.is_insider(guard) => {}
                 Notice::FollowerGone(guard, _)
                 | Notice::LeaseExpired(guard)
                 | Notice::ManeuverFailed(guard, ..)
+                | Notice::ManeuverReported(guard, _)
                 | Notice::ManeuverCompleted(guard, _)
                 | Notice::FollowerSafeIdle(guard, _) => {
                     let guard = self.names.get(&guard).copied();
@@ -252,8 +269,11 @@ impl World<'_> {
 
     /// A robot is at this corner from now on, and knows of the people there.
     pub(super) fn come_to(&mut self, place: usize, corner: usize) {
-        let street = self.corners[corner].street.clone();
         self.seats[place].corner = corner;
+        if self.swarm.sensing.is_some() {
+            return;
+        }
+        let street = self.corners[corner].street.clone();
         if let Some(machine) = &mut self.seats[place].machine {
             let road = Road::Known(street);
             machine.application_mut().come_to(road);

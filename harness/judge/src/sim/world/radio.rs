@@ -29,7 +29,7 @@ impl World<'_> {
     pub(super) fn arrive(&mut self, arrival: Arrival) -> Result<(), Finding> {
         let seat = &mut self.seats[arrival.to];
         if seat.hangs_until_us.is_some() {
-            seat.inbox.push(arrival);
+            seat.inbox.push(Next::Arrives(arrival));
             return Ok(());
         }
         self.receive(&arrival)
