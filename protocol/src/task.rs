@@ -157,6 +157,12 @@ impl TaskSet {
         Self(self.0 & other.0)
     }
 
+    /// The task types of this set that are not in the other.
+    #[must_use]
+    pub const fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
     /// Whether the set is empty.
     #[must_use]
     pub const fn is_empty(self) -> bool {

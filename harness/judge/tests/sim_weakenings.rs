@@ -135,25 +135,37 @@ fn each_hazard_to_people_is_found_where_its_rule_is_gone() {
     }
 }
 
-/// What robots assume amiss of sensors, bodies and vehicles, and the property that this breaks.
-const AMISS: &[(fn(&mut Zone), &str)] = &[
-    (|zone| zone.sensors.miss_max = 0, "P1"),
-    (|zone| zone.position.tolerance_cm = 10_000, "P2"),
-    (|zone| zone.traffic.keep = Millis::ZERO, "P3"),
-    (|zone| zone.position.ahead_cm = 10_000, "P4"),
+/// What robots assume amiss of sensors, bodies and vehicles, what makes that show soon, and the property that it breaks.
+const AMISS: &[(fn(&mut Zone), fn(&mut Swarm), &str)] = &[
+    (|zone| zone.sensors.miss_max = 0, |_| (), "P1"),
+    (
+        |zone| zone.position.tolerance_cm = 10_000,
+        |swarm| swarm.strikes = 1.0,
+        "P2",
+    ),
+    (|zone| zone.traffic.keep = Millis::ZERO, |_| (), "P3"),
+    (|zone| zone.position.ahead_cm = 10_000, hurry, "P4"),
 ];
+
+/// Escorts are faster than people.
+fn hurry(swarm: &mut Swarm) {
+    for robot in &mut swarm.robots {
+        let stages = robot.plan.stages.iter_mut();
+        let legs = stages.flat_map(|stage| stage.parts.iter_mut());
+        legs.for_each(|(_, leg)| leg.speed_mps = 2.0);
+    }
+}
 
 #[test]
 fn each_property_of_the_crossing_is_broken_by_an_assumption_that_is_amiss() {
-    for &(weakening, property) in AMISS {
+    for &(weakening, prepare, property) in AMISS {
         let broken = |seed: &u64| {
             let mut swarm = Swarm::draw(*seed, 4, None).with_sensors(1.0);
+            prepare(&mut swarm);
             swarm.sensing.as_mut().unwrap().weakening = weakening;
             let finding = run(&swarm, None).finding;
             finding.is_some_and(|it| it.property == property)
         };
-        let found = (1..=SEEDS).find(broken);
-        assert!(found.is_some(), "{property}");
-        println!("{property} {found:?}");
+        assert!((1..=SEEDS).any(|seed| broken(&seed)), "{property}");
     }
 }

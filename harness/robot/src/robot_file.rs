@@ -8,6 +8,7 @@ use std::net::{SocketAddr, SocketAddrV4};
 use std::path::{Path, PathBuf};
 
 use crossguard_codec::{IdentifierClash, Identifiers, NoMapPlace, SignalMeans};
+use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
@@ -26,7 +27,7 @@ use crate::plan_file::PlanFile;
 use crate::port::{NoAddress, PortAddress};
 use crate::runtime::{Clock, Setup};
 use crate::site::{CrossingReference, NoCrossing, Place, Site};
-use crate::site_file::SiteFile;
+use crate::site_file::{SiteFile, outline};
 use crate::street::{Road, Street};
 use crate::transport::{Framing, Halves, Link};
 use crate::zone::Zone;
@@ -64,6 +65,8 @@ pub struct RobotFile {
     pub shows: Option<SignalMeans>,
     /// Where its sensors have everybody who waits to cross or crosses, if they do.
     pub zone: Option<Zone>,
+    /// The carriageway of its site, where that has two kerbs.
+    pub carriageway: Option<Area>,
     /// The kerbs between which it has people escorted, where they are not those of its plan.
     pub kerbs: Option<[Place; 2]>,
     /// What it does when it leads by itself, if a file says that; otherwise the paper's crossing.
@@ -356,14 +359,14 @@ impl RobotFile {
         Ok(Box::new(body))
     }
 
-    /// What it knows of the people on the road: nothing, unless its sensors have everybody there, or it
-    /// simulates a crossing.
+    /// What it knows of the people on the road: what its sensors have, what it simulates, or else what others tell of the
+    /// carriageway of its site.
     #[must_use]
     pub fn road(&self) -> Road {
         match &self.zone {
             Some(zone) => Road::Watched(zone.clone()),
             None if self.autopilot => Road::Own(self.street()),
-            None => Road::Unknown,
+            None => (self.carriageway.clone()).map_or(Road::Unknown, Road::Heard),
         }
     }
 
@@ -487,6 +490,8 @@ impl RobotTable {
         if let Some(walk_s) = layout.walk_s().filter(|walk_s| *walk_s > t_cross_s) {
             return Err(Impossibility::CrossingTime { t_cross_s, walk_s });
         }
+        let carriageway = layout.carriageway();
+        let carriageway = carriageway.map(|it| Area::Polygon(outline(it.whole)));
         // On a site of one's own the crossing is where its places are.
         let crossing = Path::new("crossing");
         let own = (self.autopilot && self.site_file.is_some()).then_some(crossing);
@@ -507,6 +512,7 @@ impl RobotTable {
             autopilot,
             shows: shows.into_iter().reduce(SignalMeans::union),
             zone,
+            carriageway,
             kerbs: kerbs.flatten(),
             plan_file: plan,
             body_port: self.body.map(|body| body.check(folder)).transpose()?,

@@ -33,7 +33,7 @@ use crate::site::{CrossingReference, Place, Site};
 mod carriageway;
 
 pub use carriageway::Carriageway;
-pub(crate) use carriageway::between;
+pub(crate) use carriageway::{between, outline};
 
 /// A site, checked: every guard stands on a lane, nobody waits or begins to cross on one.
 #[derive(Clone, PartialEq, Debug)]

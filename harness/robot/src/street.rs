@@ -218,6 +218,8 @@ pub enum Road {
     /// Nothing: a person says when it is clear.
     #[default]
     Unknown,
+    /// What others tell of people and vehicles on this road: it has no sensors for them. A person says when it is clear.
+    Heard(Area),
     /// What its sensors have in a zone.
     Watched(Zone),
     /// Everything, in a simulation.
@@ -231,7 +233,7 @@ impl Road {
     #[must_use]
     pub fn zone(&self) -> Option<Zone> {
         match self {
-            Self::Unknown => None,
+            Self::Unknown | Self::Heard(_) => None,
             Self::Watched(zone) => Some(zone.clone()),
             Self::Known(street) | Self::Own(street) => Some(street.zone()),
         }
@@ -240,14 +242,16 @@ impl Road {
     /// The setup of the crossing machine of a robot that knows this of the road.
     #[must_use]
     pub(crate) fn set_up(&self, setup: Setup) -> Setup {
-        match (self, self.zone()) {
-            (Self::Watched(_), Some(zone)) => zone.watched(setup),
-            (_, Some(zone)) => Setup {
-                watches: false,
-                calls: false,
-                ..zone.watched(setup)
-            },
-            (_, None) => Setup {
+        let told = |zone: Zone| Setup {
+            watches: false,
+            calls: false,
+            ..zone.watched(setup.clone())
+        };
+        match self {
+            Self::Watched(zone) => zone.watched(setup),
+            Self::Known(street) | Self::Own(street) => told(street.zone()),
+            Self::Heard(road) => told(Zone::of_road(road.clone())),
+            Self::Unknown => Setup {
                 watches: false,
                 calls: false,
                 ground: crossguard_crossing::Ground::default(),

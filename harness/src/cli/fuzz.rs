@@ -66,7 +66,8 @@ pub(super) struct Arguments {
 
 const AFTER_HELP: &str = "\
 Whole endpoints with real packets run in virtual time. From each seed is drawn who there is, which \
-faults the radio has, who detects, crashes, hangs and boots again, who crosses the road. At first there \
+faults the radio has, who detects, crashes, hangs and boots again, who crosses the road, and in half of the seeds what \
+sensors make of these people. At first there \
 are faults, then the network is healed: no property may break, where a team can exist a crossing must be \
 completed, and all robots must come to rest. In a quarter of the seeds an insider lies until then: no property may \
 break that assumes no truth of it. The same seed gives the same run.";

@@ -192,6 +192,6 @@ impl Setup {
     /// The maneuvers that guard people on their way: escorts.
     #[must_use]
     pub const fn escorts(&self) -> TaskSet {
-        TaskSet(self.guarding.0 & !self.holding.0)
+        self.guarding.without(self.holding)
     }
 }

@@ -123,7 +123,7 @@ impl Application {
                 }
                 street
             }
-            Road::Unknown | Road::Watched(_) => return,
+            Road::Unknown | Road::Heard(_) | Road::Watched(_) => return,
         };
         let seen = street.sightings();
         self.observe_frame(0, Millis::ZERO, &seen);

@@ -1,6 +1,7 @@
 //! What an application does with its body and its plan.
 
 use crossguard_codec::{PublicSignal, RobotState, SignalMeans, TaskParameters};
+use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_protocol::{
     EndReason, Maneuver, ManeuverId, Notice, RequestId, SessionId, SessionNumber, StationId,
     StopReason, TaskType, UniqueNumber,
@@ -8,7 +9,10 @@ use crossguard_protocol::{
 
 use super::*;
 use crate::body::{Build, NotTaken, Report, Simulated};
+use crate::perception::SensorFrame;
 use crate::site::{Place, Site};
+use crate::street::Street;
+use crate::zone::Zone;
 
 /// A body that starts, and takes nothing after that.
 #[derive(Debug)]
@@ -95,4 +99,32 @@ fn a_leader_shows_vehicles_what_its_plan_says_and_nothing_after_its_session() {
         let expected = expected.map(|signal| means.map(|_| signal));
         assert_eq!(seen, expected, "{means:?}");
     }
+}
+
+/// A log is judged by the sights in it.
+/// Hazard: a frame that was held up tells of somebody as if they were there now.
+#[test]
+fn a_late_frame_is_no_sight_of_now() {
+    let body = Simulated::new(Build::Humanoid, Site::default(), Place::default(), 1.0, 1);
+    let road = Street::default().zone().road.unwrap();
+    let application = Application::new(Box::new(body), None);
+    let mut application = application.on(Road::Watched(Zone::of_road(road)));
+    let person = SensorFrame::of(&[PerceivedVru {
+        id: 1,
+        position_m: [1.0, 3.0],
+        velocity_mps: [0.0; 2],
+        class: VruClass::Pedestrian,
+        confidence: 0.9,
+    }]);
+    let nobody = SensorFrame::default();
+    application.advance(10.0);
+    application.look(&person, Millis(1_500));
+    assert_eq!(application.next_sight(), None, "it is too old");
+    application.look(&nobody, Millis(40));
+    application.look(&person, Millis(100));
+    assert_eq!(application.next_sight(), None, "a newer one has nobody");
+    application.look(&person, Millis(40));
+    assert_eq!(application.next_sight().unwrap().people.len(), 1);
+    application.advance(11.5);
+    assert!(application.next_sight().unwrap().people.is_empty());
 }

@@ -11,7 +11,7 @@ use crate::site_file::SiteFile;
 
 /// The maneuvers that take a person on the road: they guard, and hold no place.
 const fn escorts(settings: &Settings) -> TaskSet {
-    TaskSet(settings.guarding.0 & !settings.holding.0)
+    settings.guarding.without(settings.holding)
 }
 
 fn seconds(time: Millis) -> f64 {

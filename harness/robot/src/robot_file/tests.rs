@@ -41,3 +41,19 @@ fn settings_that_switch_a_protection_off_are_refused() {
         assert!(error.contains(cause), "{protocol}: {error}");
     }
 }
+
+/// Hazard: an escort without sensors hears of its person in the middle of the road, and takes that for nothing because it
+/// knows no road.
+#[test]
+fn a_robot_without_a_zone_knows_the_carriageway_of_its_site() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("robot.toml");
+    let text = "name = \"Spot\"\nstation = 2\nbuild = \"quadruped\"\nboot_file = \"spot.boot\"\n\
+         [link]\naddress = \"127.0.0.1:1\"\npeers = [\"127.0.0.1:2\"]\n";
+    std::fs::write(&path, text).unwrap();
+    let file = RobotFile::read_with(&path, Besides::default()).unwrap();
+    let Road::Heard(road) = file.road() else {
+        panic!("{:?}", file.road());
+    };
+    assert!(road.contains([1.0, 3.5]) && !road.contains([1.0, -1.0]));
+}

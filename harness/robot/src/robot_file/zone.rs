@@ -21,7 +21,7 @@ use serde::Deserialize;
 
 use crate::plan::millis;
 use crate::site::Place;
-use crate::site_file::{Purpose, SiteFile, Spot, between};
+use crate::site_file::{Purpose, SiteFile, Spot, between, outline};
 use crate::zone::Zone;
 
 /// Most corners of a polygon.
@@ -135,11 +135,10 @@ impl ZoneTable {
                 count: layout.kerbs.len(),
             });
         };
-        self.polygon_m = Some(corners(near, far, pavement_m));
+        self.polygon_m = Some(outline(between(near, far, pavement_m)));
         if let (None, Some(carriageway)) = (&self.road_m, layout.carriageway()) {
-            let corners = |corners: [Place; 4]| corners.map(|at| [at.east, at.north]).to_vec();
-            self.crossing_m = Some(corners(carriageway.crossing));
-            self.road_m = Some(corners(carriageway.whole));
+            self.crossing_m = Some(outline(carriageway.crossing));
+            self.road_m = Some(outline(carriageway.whole));
         }
         let crossed = layout.places.values();
         let crossed = crossed.filter(|spot| spot.purpose == Purpose::Cross);
@@ -233,11 +232,6 @@ fn centi(value: f64) -> u16 {
 )]
 fn percent(share: f64) -> u8 {
     (share * 100.0).round() as u8
-}
-
-fn corners(near: [Place; 2], far: [Place; 2], behind_m: f64) -> Vec<[f64; 2]> {
-    let corners = between(near, far, behind_m);
-    corners.map(|Place { east, north }| [east, north]).to_vec()
 }
 
 fn within(

@@ -184,6 +184,23 @@ fn what_others_report_counts_against_a_clear_road_and_never_for_it() {
     assert!(!scene.is_clear());
 }
 
+/// Somebody waits at the kerb until the road is clear, and says so by a device that knows its place to a metre.
+#[test]
+fn who_waits_at_the_kerb_by_an_inexact_report_does_not_keep_the_road_of_who_sees_occupied() {
+    let at_kerb = Sighting {
+        error_cm: 100,
+        ..person(5, 0, -50)
+    };
+    let mut scene = watch();
+    for _ in 0..NEEDED {
+        scene.look(100, &[]);
+        scene.tell(Input::Heard(at_kerb, crossguard_protocol::Millis(0)));
+    }
+    assert!(scene.is_clear());
+    scene.look(100, &[at_kerb]);
+    assert!(!scene.is_clear(), "its own sensor has somebody there");
+}
+
 /// A frame that comes after newer ones still shows who was there, and at once again as a repetition changes nothing.
 #[test]
 fn a_person_in_a_frame_that_was_overtaken_is_on_the_road() {
