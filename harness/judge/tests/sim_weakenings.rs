@@ -135,8 +135,10 @@ fn each_hazard_to_people_is_found_where_its_rule_is_gone() {
     }
 }
 
-/// What robots assume amiss of sensors, bodies and vehicles, what makes that show soon, and the property that it breaks.
-const AMISS: &[(fn(&mut Zone), fn(&mut Swarm), &str)] = &[
+/// An assumption of robots that is amiss, a change of the run that makes it show soon, and the property that it breaks.
+type Amiss = (fn(&mut Zone), fn(&mut Swarm), &'static str);
+
+const AMISS: &[Amiss] = &[
     (|zone| zone.sensors.miss_max = 0, |_| (), "P1"),
     (
         |zone| zone.position.tolerance_cm = 10_000,

@@ -43,7 +43,7 @@ pub(super) struct Arguments {
     site: Option<PathBuf>,
     /// In which share of the seeds robots see people by sensors that miss some, mix them up, fall silent and come late.
     /// In the others they know everybody on the road.
-    #[arg(long, value_name = "SHARE", default_value_t = 0.5, value_parser = number(0.0..=1.0))]
+    #[arg(long, value_name = "SHARE", default_value_t = 0.5, value_parser = number(0.0..=1.0), conflicts_with = "site")]
     sensors: f64,
     /// In which share of the seeds an insider lies: a station with a certificate that says anything in its own name.
     #[arg(long, value_name = "SHARE", default_value_t = 0.25, value_parser = number(0.0..=1.0))]
@@ -90,13 +90,19 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     arguments.junit.check()?;
     let plan = planned(arguments)?;
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    // People walk on the street of the demonstrations.
+    let sensors = if arguments.site.is_some() {
+        0.0
+    } else {
+        arguments.sensors
+    };
     let fuzz = Fuzz {
         first: arguments.seed,
         seeds: arguments.seeds,
         robots: usize::from(arguments.robots),
         faults: arguments.faults.as_ref(),
         plan: plan.as_ref(),
-        sensors: arguments.sensors,
+        sensors,
         liars: arguments.liars,
         threads: arguments.threads.map_or(cores, usize::from),
         failures_max: usize::from(arguments.failures),

@@ -1,5 +1,5 @@
-//! People who walk as they like: they wait at the kerb, and go, stand still, turn back and walk along the road when a sign has
-//! let them on it.
+//! People who walk as they like: they wait at the kerb, and go, stand still, turn back and walk along the road once a sign has let them on
+//! it.
 
 use crossguard_protocol::SessionId;
 use crossguard_robot::site::Place;
@@ -98,7 +98,7 @@ impl Waits {
         self.left += other.left;
     }
 
-    /// How long somebody waited than whom this share waited less, from 0 to 1, in milliseconds.
+    /// The time that this share of the people, from 0 to 1, waited at most, in milliseconds.
     #[must_use]
     #[expect(
         clippy::cast_possible_truncation,
@@ -175,7 +175,7 @@ impl World<'_> {
         self.plan_look(0);
     }
 
-    /// Who waits looks at the signs.
+    /// Everybody who waits looks at the signs.
     pub(super) fn walkers_look(&mut self) -> Result<(), Finding> {
         let now_us = self.now_us;
         self.walkers.retain(|it| !it.is_gone(now_us));
@@ -223,10 +223,9 @@ impl World<'_> {
         let from = walker.place(now_us);
         walker.way = cross(&mut self.draws, from, now_us, draw.time_scale, most_us);
         (walker.waits, walker.session) = (false, Some(session));
-        let waited_us = now_us - walker.since_us;
-        let waited_ms = u32::try_from(waited_us / 1_000).unwrap_or(u32::MAX);
+        let waited_ms = (now_us - walker.since_us) / 1_000;
         let waits = &mut self.waits[usize::from(walker.is_after_healing)];
-        waits.waited_ms.push(waited_ms);
+        (waits.waited_ms).push(u32::try_from(waited_ms).unwrap_or(u32::MAX));
         // The last leg leads from a kerb on.
         let across_us = walker.way[walker.way.len() - 2].0;
         self.people.push(OnRoad {
@@ -237,7 +236,7 @@ impl World<'_> {
         });
     }
 
-    /// Where those are who are on the road and stepped on it at the sign of a session.
+    /// The places of the people on the road who stepped on it at the sign of a session.
     pub(super) fn on_road(&self, session: SessionId) -> impl Iterator<Item = Place> {
         let now_us = self.now_us;
         let of = self.walkers.iter();
