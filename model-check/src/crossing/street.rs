@@ -74,6 +74,8 @@ pub(super) struct Person {
     id: u8,
     /// Whether they have been on the road.
     has_walked: bool,
+    /// Whether a frame that the leader took in at once had them there.
+    was_seen_there: bool,
     /// For how many ticks they have been on the road, at most 2.
     on_road: u8,
 }
@@ -289,6 +291,8 @@ impl State {
             }
             if !is_missed && person.at != Cell::Away {
                 seen[number] = Some((person.at, person.id));
+                let is_taken_in = !matches!(tick.fault, Fault::Blind | Fault::Hangs);
+                person.was_seen_there |= is_taken_in && person.at.is_road();
             }
         }
         for (age, _) in &mut self.piled {
@@ -334,7 +338,9 @@ impl State {
         } else {
             0
         };
-        let is_off_road = |it: &Person| matches!(it.at, Cell::Far | Cell::Away);
+        // Somebody at the other kerb whom no frame had on the road waits there, as far as anybody can know.
+        let is_off_road =
+            |it: &Person| it.at == Cell::Away || it.at == Cell::Far && it.was_seen_there;
         let is_calm = self.people.iter().all(is_off_road) && !is_disturbed && self.car.is_none();
         self.off_road = if is_calm && !self.is_free {
             (self.off_road + 1).min(END_MAX + 1)
@@ -379,6 +385,7 @@ impl stateright::Model for World {
             missed: 0,
             id: number,
             has_walked: false,
+            was_seen_there: false,
             on_road: 0,
         };
         vec![State {

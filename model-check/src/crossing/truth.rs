@@ -4,8 +4,9 @@ use serde::Deserialize;
 
 use super::street::{Cell, State};
 
-/// The team is free at most so many ticks after everybody was off the road for good.
-pub(super) const END_MAX: u8 = 20;
+/// The team is free at most so many ticks after everybody was off the road for good: the leader's patience, which ends a session
+/// whose guard does not come back, or go that nobody uses, and some seconds.
+pub(super) const END_MAX: u8 = 34;
 
 /// A person who waits is detected within so many frames.
 pub(super) const DETECT_MAX: u8 = 6;
@@ -79,7 +80,7 @@ impl Rule {
             Self::P6 => RuleClaim {
                 id: "P6",
                 premise_id: "P6-premise",
-                statement: "the team is free within 10 s after everybody was off the road for good",
+                statement: "the team is free within 17 s after everybody was off the road for good, seen on it before or out of sight",
                 premise: "somebody has crossed, and the team is free again",
             },
         }
