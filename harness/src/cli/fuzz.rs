@@ -42,9 +42,9 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FILE", requires = "plan")]
     site: Option<PathBuf>,
     /// In which share of the seeds robots see people by sensors that miss some, mix them up, fall silent and come late.
-    /// In the others they know everybody on the road.
-    #[arg(long, value_name = "SHARE", default_value_t = 0.5, value_parser = number(0.0..=1.0), conflicts_with = "site")]
-    sensors: f64,
+    /// In the others they know everybody on the road. 0.5 by default, and 0 with --site.
+    #[arg(long, value_name = "SHARE", value_parser = number(0.0..=1.0))]
+    sensors: Option<f64>,
     /// In which share of the seeds an insider lies: a station with a certificate that says anything in its own name.
     #[arg(long, value_name = "SHARE", default_value_t = 0.25, value_parser = number(0.0..=1.0))]
     liars: f64,
@@ -88,14 +88,9 @@ struct FuzzReport<'a> {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     destinations::folder(&arguments.out)?;
     arguments.junit.check()?;
+    let sensors = sensors(arguments)?;
     let plan = planned(arguments)?;
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    // People walk on the street of the demonstrations.
-    let sensors = if arguments.site.is_some() {
-        0.0
-    } else {
-        arguments.sensors
-    };
     let fuzz = Fuzz {
         first: arguments.seed,
         seeds: arguments.seeds,
@@ -157,6 +152,17 @@ fn write(
     let page = files.log.with_extension("html");
     report::write(&page, &studied)?;
     Ok((page, files))
+}
+
+/// In which share of the seeds sensors see people. These walk on the street of the demonstrations alone.
+fn sensors(arguments: &Arguments) -> Result<f64, Failure> {
+    match (&arguments.site, arguments.sensors) {
+        (Some(_), Some(share)) if share > 0.0 => Err(Failure::Input(format!(
+            "--sensors {share}: people in front of sensors walk on the street of the demonstrations: leave --site or --sensors out"
+        ))),
+        (Some(_), _) => Ok(0.0),
+        (None, share) => Ok(share.unwrap_or(0.5)),
+    }
 }
 
 /// The plan that is asked for, if one is.

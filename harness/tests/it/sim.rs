@@ -220,6 +220,15 @@ fn of_a_failure_the_log_the_chart_and_the_line_that_runs_it_again_are_written() 
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }
 
+/// The line that runs a failed seed again says all of it.
+#[test]
+fn a_site_goes_with_sensors_that_see_nobody() {
+    let site = concat!(env!("CARGO_MANIFEST_DIR"), "/robot/plans/street.toml");
+    let plan = ["--plan", "trio", "--site", site, "--sensors", "0"];
+    let output = command::run(&[&["fuzz", "--seeds", "1", "--robots", "4"], &plan[..]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
 #[test]
 fn a_person_reads_what_was_measured_and_mistakes_are_named() {
     let text = stdout(&command::run(&[
