@@ -38,18 +38,22 @@ struct Seats {
     liars: Vec<StationId>,
 }
 
-/// Whose steps are not recorded.
+/// Whose steps are not recorded, and whether messages are late.
 #[derive(Clone, Copy)]
 struct Unrecorded {
     strangers: bool,
     liars: bool,
+    /// Whether to have heard a leader twice says nothing, so that W3 is open.
+    late: bool,
 }
 
 impl Unrecorded {
     /// Whether that leaves a property open; whether a rule of it compares two robots.
     fn leaves_open(self, id: PropertyId, is_of_two: bool) -> bool {
         let can_be_broken = !id.authentication().liars().is_empty();
-        (is_of_two && (self.strangers || self.liars)) || (self.liars && can_be_broken)
+        (is_of_two && (self.strangers || self.liars))
+            || (self.liars && can_be_broken)
+            || (self.late && id == PropertyId::W3)
     }
 }
 
@@ -163,6 +167,7 @@ impl Monitor {
         Unrecorded {
             strangers: self.has_strangers,
             liars: !self.seats.liars.is_empty(),
+            late: self.hears_late,
         }
     }
 
@@ -276,9 +281,7 @@ impl Monitor {
             world: &self.seats,
         };
         let (mut premises, unrecorded) = (self.premises, self.unrecorded());
-        let is_late = |id: &PropertyId| self.hears_late && *id == PropertyId::W3;
-        let judged = PropertyId::ALL.into_iter().filter(|id| !is_late(id));
-        let broken = { judged }.find(|id| {
+        let broken = PropertyId::ALL.into_iter().find(|id| {
             let is_judged = |rule: &StateRule| !unrecorded.leaves_open(*id, rule.of_two);
             let rule = id.state_rule().filter(is_judged);
             rule.is_some_and(|rule| {

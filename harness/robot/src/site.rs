@@ -157,6 +157,19 @@ impl Site {
         }
     }
 
+    /// Where the target of a command is, if it names a place.
+    #[must_use]
+    pub fn place_of(&self, target: Option<Target>) -> Option<Place> {
+        match target {
+            Some(Target::Position {
+                latitude,
+                longitude,
+                ..
+            }) => Some(self.place(latitude, longitude)),
+            _ => None,
+        }
+    }
+
     /// A place as the target of a command.
     #[must_use]
     pub fn target(&self, place: Place) -> Target {

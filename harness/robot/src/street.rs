@@ -242,16 +242,18 @@ impl Road {
     /// The setup of the crossing machine of a robot that knows this of the road.
     #[must_use]
     pub(crate) fn set_up(&self, setup: Setup) -> Setup {
-        let told = |zone: Zone| Setup {
-            watches: false,
-            calls: false,
-            ..zone.watched(setup.clone())
+        let zone = match self {
+            Self::Heard(road) => Some(Zone::of_road(road.clone())),
+            _ => self.zone(),
         };
-        match self {
-            Self::Watched(zone) => zone.watched(setup),
-            Self::Known(street) | Self::Own(street) => told(street.zone()),
-            Self::Heard(road) => told(Zone::of_road(road.clone())),
-            Self::Unknown => Setup {
+        match (self, zone) {
+            (Self::Watched(_), Some(zone)) => zone.watched(setup),
+            (_, Some(zone)) => Setup {
+                watches: false,
+                calls: false,
+                ..zone.watched(setup)
+            },
+            (_, None) => Setup {
                 watches: false,
                 calls: false,
                 ground: crossguard_crossing::Ground::default(),

@@ -82,7 +82,7 @@ pub struct Totals {
     pub left_out: BTreeMap<&'static str, u64>,
     /// The longest times in any run.
     pub worst: Worst,
-    /// How people fared where robots see them by sensors: those who came while there were faults, and those after that.
+    /// Crossings and waiting times of the people in front of sensors: of arrivals while there were faults, and after.
     pub people: [Waits; 2],
 }
 

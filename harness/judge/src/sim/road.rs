@@ -410,9 +410,7 @@ impl Road {
 
     /// The leaders whose signs show *go* in a session.
     pub(super) fn signs_of(&self, session: SessionId) -> Vec<usize> {
-        let seats = self.seats.iter().enumerate();
-        let shows = seats.filter(|(_, seat)| seat.go.is_some_and(|go| go.session == session));
-        shows.map(|(place, _)| place).collect()
+        self.signs(|_, go| go.session == session)
     }
 
     /// For how long the sign of a leader shows *go* after a guard was pushed off its place: until its position is no longer
@@ -425,8 +423,12 @@ impl Road {
 
     /// The leaders at a corner whose signs show *go*.
     pub(super) fn signs_at(&self, corner: usize) -> Vec<usize> {
+        self.signs(|seat, _| seat.post.corner == corner)
+    }
+
+    fn signs(&self, is: impl Fn(&RoadUser, Go) -> bool) -> Vec<usize> {
         let seats = self.seats.iter().enumerate();
-        let shows = seats.filter(|(_, seat)| seat.go.is_some() && seat.post.corner == corner);
+        let shows = seats.filter(|(_, seat)| seat.go.is_some_and(|go| is(seat, go)));
         shows.map(|(place, _)| place).collect()
     }
 

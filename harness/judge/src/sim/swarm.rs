@@ -15,6 +15,8 @@ use crossguard_robot::body::Build;
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::Place;
 use crossguard_robot::transport::Faults;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 use self::draws::Draws;
 pub use self::hazards::Hazard;
@@ -182,6 +184,12 @@ impl Swarm {
         };
         let mut corners = 0..corners.unwrap_or(0);
         corners.find(|corner| self.who_can_lead(*corner).len() >= enough)
+    }
+
+    /// Draws apart from all others, in this share of the seeds.
+    fn draws_of(&self, salt: u64, share: f64) -> Option<ChaCha8Rng> {
+        let mut draws = ChaCha8Rng::seed_from_u64(self.seed ^ salt);
+        draws.random_bool(share).then_some(draws)
     }
 
     /// The longest time that a message is under way, in milliseconds.

@@ -14,8 +14,8 @@ use std::fmt;
 use std::rc::Rc;
 use std::time::Duration;
 
+use crossguard_codec::Service;
 use crossguard_codec::si::timestamp_its;
-use crossguard_codec::{Service, Target};
 use crossguard_endpoint::{Act, Effect, Moment, Stimulus};
 use crossguard_model_check::monitor::Monitor;
 use crossguard_model_check::node::{Protocol, Rules};
@@ -33,8 +33,8 @@ use serde::Serialize;
 
 use self::people::{Corner, OnRoad, Progress};
 use self::radio::Arrival;
-use self::sensors::{Eye, Framed};
-use self::truth::Conduct;
+use self::sensors::{FrameInFlight, SimulatedSensor};
+use self::truth::ObservedBody;
 pub use self::walkers::Waits;
 use self::walkers::Walker;
 use super::clock::Drifting;
@@ -98,7 +98,7 @@ pub struct Outcome {
     pub left_out: Vec<&'static str>,
     /// The longest times.
     pub worst: Worst,
-    /// How people fared who came before the network was healed, and after that, where robots see them by sensors.
+    /// Crossings and waiting times of the people in front of sensors: of arrivals before the network was healed, and after.
     pub waits: [Waits; 2],
 }
 
@@ -245,7 +245,7 @@ struct Seat<'a> {
     newest: Newest,
     /// When it heard each vehicle last.
     heard_us: BTreeMap<usize, u64>,
-    conduct: Conduct,
+    observed: ObservedBody,
 }
 
 struct World<'a> {
@@ -259,8 +259,8 @@ struct World<'a> {
     walkers: Vec<Walker>,
     walkers_came: u32,
     waits: [Waits; 2],
-    eyes: Vec<Eye<'a>>,
-    frames: Vec<Framed>,
+    sensors: Vec<SimulatedSensor<'a>>,
+    frames: Vec<FrameInFlight>,
     /// The properties of the truth that had something to say.
     met: BTreeSet<&'static str>,
     progress: Option<Progress>,
@@ -307,7 +307,7 @@ impl<'a> World<'a> {
                 inbox: Vec::new(),
                 newest: Newest::default(),
                 heard_us: BTreeMap::new(),
-                conduct: Conduct::default(),
+                observed: ObservedBody::default(),
             }
         });
         let seats: Vec<_> = seats.collect();
@@ -324,7 +324,7 @@ impl<'a> World<'a> {
             walkers: Vec::new(),
             walkers_came: 0,
             waits: Default::default(),
-            eyes: sensors::eyes(swarm),
+            sensors: sensors::of(swarm),
             frames: Vec::new(),
             met: BTreeSet::new(),
             progress: None,
@@ -352,9 +352,9 @@ impl<'a> World<'a> {
         for (i, replay) in swarm.replays.iter().enumerate() {
             world.at(replay.at_us, Next::Replays(i));
         }
-        for eye in 0..world.eyes.len() {
+        for sensor in 0..world.sensors.len() {
             let at_us = world.draws.random_range(0..200_000);
-            world.at(at_us, Next::Senses(eye));
+            world.at(at_us, Next::Senses(sensor));
         }
         let cars = swarm.sensing.iter().flat_map(|it| it.cars.iter());
         for (number, car) in cars.enumerate() {
@@ -411,8 +411,8 @@ impl<'a> World<'a> {
             }
             Next::Looks(_) if self.swarm.sensing.is_some() => self.walkers_look(),
             Next::Looks(corner) => self.look(corner),
-            Next::Senses(eye) => {
-                self.sense(eye);
+            Next::Senses(sensor) => {
+                self.sense(sensor);
                 Ok(())
             }
             Next::Sees(place, frame) => self.see_frame(place, frame),
@@ -539,18 +539,18 @@ impl<'a> World<'a> {
     }
 
     fn too_late(&self, (measure, place): Overdue) -> Finding {
-        Finding {
-            property: measure.property().to_owned(),
-            statement: measure.statement().to_owned(),
-            at_ms: self.now_us / 1_000,
-            robot: self.seats[place].draw.name.clone(),
-        }
+        self.broken(measure.property(), measure.statement(), place)
     }
 
     fn finding(&self, broken: PropertyId, place: usize) -> Finding {
+        self.broken(broken.name(), broken.statement(), place)
+    }
+
+    /// A robot breaks a property now.
+    fn broken(&self, property: &str, statement: &str, place: usize) -> Finding {
         Finding {
-            property: broken.name().to_owned(),
-            statement: broken.statement().to_owned(),
+            property: property.to_owned(),
+            statement: statement.to_owned(),
             at_ms: self.now_us / 1_000,
             robot: self.seats[place].draw.name.clone(),
         }
@@ -583,14 +583,8 @@ impl<'a> World<'a> {
             Effect::Heard { kind, .. } => self.has_heard_ram |= *kind == Service::Ram,
             Effect::Act(Act::Start(_, parameters)) => {
                 let seat = &mut self.seats[place];
-                seat.conduct.target = match parameters.target {
-                    Some(Target::Position {
-                        latitude,
-                        longitude,
-                        ..
-                    }) => Some(seat.draw.plan.site.place(latitude, longitude)),
-                    _ => None,
-                };
+                let site = &seat.draw.plan.site;
+                seat.observed.target = site.place_of(parameters.target);
             }
             Effect::Act(Act::RenewEpoch) => self.seats[place].is_to_renew = true,
             _ => {}

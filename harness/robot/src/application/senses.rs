@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crossguard_codec::{Identity, Kind, Position, Target, TaskParameters};
+use crossguard_codec::{Identity, Kind, Position, TaskParameters};
 use crossguard_crossing::{
     BodyReport, Coverage, Frame, Input, Point, Pose, RoadUser, Sighting, Vehicle,
 };
@@ -167,14 +167,7 @@ impl Application {
 
     /// Where a command leads, if it says that.
     pub(super) fn target(&self, parameters: &TaskParameters) -> Option<Point> {
-        match parameters.target {
-            Some(Target::Position {
-                latitude,
-                longitude,
-                ..
-            }) => Some(point(self.site.place(latitude, longitude))),
-            _ => None,
-        }
+        self.site.place_of(parameters.target).map(point)
     }
 
     /// Takes in what was heard of others at `now_ms`, on the robot's clock: its followers, vehicles, and people.

@@ -3,7 +3,7 @@
 //! Its time may run faster than the protocol's, so that a demonstration need not take as long as a
 //! real crossing. How far a step really carries varies a little from maneuver to maneuver.
 
-use crossguard_codec::{Battery, RobotState, Target, TaskParameters};
+use crossguard_codec::{Battery, RobotState, TaskParameters};
 use crossguard_protocol::{FallbackPolicy, Maneuver, TaskSet, TaskType};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -85,14 +85,7 @@ impl Simulated {
     }
 
     fn start(&mut self, maneuver: Maneuver, parameters: TaskParameters) {
-        let to = match parameters.target {
-            Some(Target::Position {
-                latitude,
-                longitude,
-                ..
-            }) => self.site.place(latitude, longitude),
-            _ => self.place,
-        };
+        let to = self.site.place_of(parameters.target).unwrap_or(self.place);
         let limit = parameters
             .maximum_speed
             .unwrap_or(f64::INFINITY)

@@ -21,7 +21,7 @@ pub(super) struct Draws(ChaCha8Rng);
 pub(super) const PATIENCE_MS: u32 = 40_000;
 
 /// The references of two crossings, by their corners.
-const CROSSINGS: [protocol::Place; 2] = [protocol::Place(7), protocol::Place(8)];
+pub(super) const CROSSINGS: [protocol::Place; 2] = [protocol::Place(7), protocol::Place(8)];
 
 /// What all robots of a run have in common.
 struct CommonDraw {

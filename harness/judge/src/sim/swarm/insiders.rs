@@ -3,9 +3,8 @@
 use crossguard_model_check::confinement::LyingPart;
 use crossguard_protocol::StationId;
 use crossguard_robot::site::Place;
+use rand::Rng;
 use rand::seq::IndexedRandom;
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 
 use super::Swarm;
 
@@ -26,10 +25,9 @@ impl Swarm {
     /// The same run, with an insider that lies until the network is healed in this share of the seeds.
     #[must_use]
     pub fn with_insider(mut self, share: f64) -> Self {
-        let mut draws = ChaCha8Rng::seed_from_u64(self.seed ^ 0x4c49_4152);
-        if !draws.random_bool(share) {
+        let Some(mut draws) = self.draws_of(0x4c49_4152, share) else {
             return self;
-        }
+        };
         let parts = [
             LyingPart::Follower,
             LyingPart::Helper,

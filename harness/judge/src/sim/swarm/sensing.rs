@@ -4,11 +4,11 @@ use crossguard_protocol::{self as protocol, Config, Millis, Settings, TaskSet, T
 use crossguard_robot::plan::{Leg, Plan, Stage, Who};
 use crossguard_robot::site::Place;
 use crossguard_robot::zone::Zone;
+use rand::Rng;
 use rand::seq::IndexedRandom;
-use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::draws::PATIENCE_MS;
+use super::draws::{CROSSINGS, PATIENCE_MS};
 use super::{SECOND_US, Swarm};
 use crate::sim::script::{Deed, Happening};
 
@@ -68,18 +68,13 @@ pub struct CarDraw {
     pub speed_mps: f64,
 }
 
-/// The kerbs of the street between which an escort goes.
-const KERB: Place = Place::new(1.0, -1.0);
-const OTHER_SIDE: Place = Place::new(1.0, 8.0);
-
 impl Swarm {
     /// The same run, in which robots see people by sensors of their own, in this share of the seeds.
     #[must_use]
     pub fn with_sensors(mut self, share: f64) -> Self {
-        let mut draws = ChaCha8Rng::seed_from_u64(self.seed ^ 0x5345_4e53);
-        if !draws.random_bool(share) {
+        let Some(mut draws) = self.draws_of(0x5345_4e53, share) else {
             return self;
-        }
+        };
         let time_scale = draws.random_range(1.0..3.0);
         let plan = plan(&mut draws, self.robots.len());
         let all = TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE, TaskType::BLOCK]);
@@ -95,7 +90,7 @@ impl Swarm {
             .unwrap_or_default();
             let mut site = robot.plan.site;
             if site.crossing != protocol::Place::UNKNOWN {
-                site.crossing = protocol::Place(7);
+                site.crossing = CROSSINGS[0];
             }
             robot.plan = Plan {
                 site,
@@ -160,26 +155,11 @@ fn plan(draws: &mut ChaCha8Rng, robots: usize) -> Plan {
             ..escorted
         },
         1 if most > 1 => {
-            let escort = |task, to| {
-                (
-                    Who::Role(1),
-                    Leg {
-                        speed_mps: 0.424,
-                        ..Leg::new(task, to)
-                    },
-                )
-            };
-            let stages = vec![
-                Stage {
-                    parts: vec![
-                        (Who::Role(0), block),
-                        (Who::Role(1), Leg::new(TaskType::INITIAL_POS, KERB)),
-                    ],
-                },
-                Stage {
-                    parts: vec![escort(TaskType::MOVE, OTHER_SIDE)],
-                },
-            ];
+            // The escort has a role of its own, and the guard takes its place in the first stage.
+            let mut stages = escorted.stages.clone();
+            let parts = stages.iter_mut().flat_map(|stage| stage.parts.iter_mut());
+            parts.for_each(|(who, _)| *who = Who::Role(1));
+            stages[0].parts.insert(0, (Who::Role(0), block));
             Plan {
                 followers: 2,
                 roles: vec![None; 2],

@@ -170,7 +170,7 @@ impl World<'_> {
         let draw = self.seats[leaders[0]].draw;
         let crossing_us = draw.plan.crossing_us(draw.time_scale);
         if self.swarm.sensing.is_some() {
-            // Those who see them call.
+            // Robots call by themselves when they see somebody wait.
             self.walkers_come();
             let next_us = self.now_us + self.draws.random_range(5 * SECOND_US..=30 * SECOND_US);
             self.at(next_us, Next::Notices);

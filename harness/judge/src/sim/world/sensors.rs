@@ -29,7 +29,7 @@ const CARS: u32 = 9_000;
 
 /// A sensor of a robot.
 #[derive(Debug)]
-pub(super) struct Eye<'a> {
+pub(super) struct SimulatedSensor<'a> {
     robot: usize,
     /// Its number at its robot.
     number: u8,
@@ -41,23 +41,26 @@ pub(super) struct Eye<'a> {
 
 /// A frame on its way to a robot; `None` for something that is none.
 #[derive(Debug)]
-pub(super) struct Framed {
+pub(super) struct FrameInFlight {
     taken_us: u64,
     frame: Option<SensorFrame>,
 }
 
-pub(super) fn eyes(swarm: &Swarm) -> Vec<Eye<'_>> {
+/// The sensors of all robots.
+pub(super) fn of(swarm: &Swarm) -> Vec<SimulatedSensor<'_>> {
     let robots = swarm.sensing.iter().flat_map(|it| it.sources.iter());
-    let eyes = robots.enumerate().flat_map(|(robot, sources)| {
-        (0..).zip(sources).map(move |(number, draw)| Eye {
-            robot,
-            number,
-            draw,
-            missed: BTreeMap::new(),
-            frames: 0,
-        })
+    let sensors = robots.enumerate().flat_map(|(robot, sources)| {
+        (0..)
+            .zip(sources)
+            .map(move |(number, draw)| SimulatedSensor {
+                robot,
+                number,
+                draw,
+                missed: BTreeMap::new(),
+                frames: 0,
+            })
     });
-    eyes.collect()
+    sensors.collect()
 }
 
 /// The road that robots watch.
@@ -74,14 +77,14 @@ pub(super) fn road(sensing: &Sensing) -> Road {
 
 impl World<'_> {
     /// A sensor looks.
-    pub(super) fn sense(&mut self, eye: usize) {
+    pub(super) fn sense(&mut self, sensor: usize) {
         let now_us = self.now_us;
-        let (robot, draw) = (self.eyes[eye].robot, self.eyes[eye].draw);
+        let (robot, draw) = (self.sensors[sensor].robot, self.sensors[sensor].draw);
         let repaired = self.is_healed.then(|| draw.repaired());
         let draw = repaired.as_ref().unwrap_or(draw);
         self.at(
             now_us + u64::from(draw.period_ms) * 1_000,
-            Next::Senses(eye),
+            Next::Senses(sensor),
         );
         let is_silent = draw
             .silent
@@ -90,11 +93,11 @@ impl World<'_> {
             return;
         }
         let is_garbled = self.draws.random_bool(draw.garbled);
-        let frame = (!is_garbled).then(|| self.frame(eye, draw));
+        let frame = (!is_garbled).then(|| self.frame(sensor, draw));
         let latency_us = self
             .draws
             .random_range(0..=u64::from(draw.latency_ms) * 1_000);
-        self.frames.push(Framed {
+        self.frames.push(FrameInFlight {
             taken_us: now_us,
             frame,
         });
@@ -103,15 +106,15 @@ impl World<'_> {
     }
 
     /// What a sensor makes of the people now.
-    fn frame(&mut self, eye: usize, draw: &SourceDraw) -> SensorFrame {
+    fn frame(&mut self, sensor: usize, draw: &SourceDraw) -> SensorFrame {
         let now_us = self.now_us;
         let miss_max = self.swarm.sensing.as_ref().map_or(0, |it| it.miss_max);
-        let Eye {
+        let SimulatedSensor {
             number,
             missed,
             frames,
             ..
-        } = &mut self.eyes[eye];
+        } = &mut self.sensors[sensor];
         *frames += 1;
         let [west, east] = draw.covers.unwrap_or([-40.0, 40.0]);
         let mut people = Vec::new();
@@ -172,7 +175,7 @@ impl World<'_> {
         let Some(machine) = &mut seat.machine else {
             return Ok(());
         };
-        let Framed { taken_us, frame } = &self.frames[number];
+        let FrameInFlight { taken_us, frame } = &self.frames[number];
         let shown_ms = |at_us: u64| seat.clock.shows_us(at_us) / 1_000;
         let (taken_ms, now_ms) = (shown_ms(*taken_us), shown_ms(self.now_us));
         let own = machine.application().body().place();

@@ -17,45 +17,40 @@ const AHEAD_M: f64 = 2.5;
 /// Within which time a vehicle was heard, in microseconds.
 const HEARD_US: u64 = 600_000;
 
-/// A rule on the truth.
-pub(super) type Rule = (&'static str, &'static str);
+/// A property's id, and what it says.
+type Judged = (&'static str, &'static str);
 
-const P1: Rule = (
+const P1: Judged = (
     "P1",
-    "no guard leaves by its application's word while somebody whom it guards is on the road",
+    "no guard leaves by its application's word while a person of its session is on the road",
 );
-const P2: Rule = (
+const P2: Judged = (
     "P2",
     "go is shown only while every guard in position is within tolerance of its place, or left it less than the bound ago",
 );
-const P3: Rule = (
+const P3: Judged = (
     "P3",
     "go does not begin while a vehicle that is heard can no longer stop comfortably",
 );
-const P4: Rule = (
+const P4: Judged = (
     "P4",
-    "an escort on the road does not go on while somebody whom it escorts is far behind",
+    "an escort on the road does not go on while a person of its session is far behind",
 );
 
 /// What is seen of a body from one moment to the next.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Conduct {
+pub(super) struct ObservedBody {
     /// Where its maneuver leads.
     pub(super) target: Option<Place>,
     /// Since when it is off that place while it says that it is in position.
     off_since_us: Option<u64>,
-    /// Where it was when somebody whom it escorts was too far behind first.
+    /// Where it was when a person of its session was too far behind first.
     apart_at: Option<Place>,
 }
 
 impl World<'_> {
-    fn breaks(&self, (property, statement): Rule, place: usize) -> Finding {
-        Finding {
-            property: property.to_owned(),
-            statement: statement.to_owned(),
-            at_ms: self.now_us / 1_000,
-            robot: self.seats[place].draw.name.clone(),
-        }
+    fn breaks(&self, (property, statement): Judged, place: usize) -> Finding {
+        self.broken(property, statement, place)
     }
 
     /// P1, before a step of a robot is taken into account.
@@ -80,12 +75,11 @@ impl World<'_> {
         let Some(maneuver) = left else {
             return Ok(());
         };
-        let is_somebody_there = self.on_road(maneuver.id.session).next().is_some();
-        let walkers = &self.walkers;
-        if walkers.iter().any(|it| it.session_is(maneuver.id.session)) {
+        let session = maneuver.id.session;
+        if self.walkers.iter().any(|it| it.session_is(session)) {
             self.met.insert(P1.0);
         }
-        if is_somebody_there {
+        if self.on_road(session).next().is_some() {
             return Err(self.breaks(P1, place));
         }
         Ok(())
@@ -121,17 +115,17 @@ impl World<'_> {
         }
         for place in 0..self.seats.len() {
             let Some(machine) = &self.seats[place].machine else {
-                self.seats[place].conduct.off_since_us = None;
+                self.seats[place].observed.off_since_us = None;
                 continue;
             };
             let at = machine.application().body().place();
             let settings = self.seats[place].draw.config.settings();
             match self.monitor.node(place).actuation.body {
                 Body::InPosition(maneuver) if settings.holding.contains(maneuver.task) => {
-                    let target = self.seats[place].conduct.target;
+                    let target = self.seats[place].observed.target;
                     let is_off = target.is_some_and(|to| to.distance(at) > TOLERANCE_M);
                     let now_us = self.now_us;
-                    let since = &mut self.seats[place].conduct.off_since_us;
+                    let since = &mut self.seats[place].observed.off_since_us;
                     *since = is_off.then(|| since.unwrap_or(now_us));
                     let Some(since_us) = *since else { continue };
                     for leader in self.road.signs_of(maneuver.id.session) {
@@ -144,28 +138,28 @@ impl World<'_> {
                 Body::UnderWay(maneuver) if settings.guarding.contains(maneuver.task) => {
                     let people: Vec<_> = self.on_road(maneuver.id.session).collect();
                     let is_on_road = at.north > 0.3 && at.north < 6.7;
-                    let Some(target) = self.seats[place].conduct.target else {
+                    let Some(target) = self.seats[place].observed.target else {
                         continue;
                     };
                     let left_m = target.distance(at);
                     let is_apart = people
                         .iter()
                         .any(|it| it.distance(target) > left_m + AHEAD_M);
-                    let conduct = &mut self.seats[place].conduct;
+                    let observed = &mut self.seats[place].observed;
                     if people.is_empty() || !is_on_road || !is_apart {
-                        conduct.apart_at = None;
+                        observed.apart_at = None;
                         if !people.is_empty() && is_on_road {
                             self.met.insert(P4.0);
                         }
                         continue;
                     }
-                    let began_at = *conduct.apart_at.get_or_insert(at);
+                    let began_at = *observed.apart_at.get_or_insert(at);
                     let goes_m = 1.0 + 1.5 * self.seats[place].draw.time_scale;
                     if began_at.distance(at) > goes_m {
                         return Err(self.breaks(P4, place));
                     }
                 }
-                _ => self.seats[place].conduct.off_since_us = None,
+                _ => self.seats[place].observed.off_since_us = None,
             }
         }
         Ok(())

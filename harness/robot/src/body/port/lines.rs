@@ -1,6 +1,6 @@
 //! The lines of the body port, version 2: one JSON object each, with its kind under `type`.
 
-use crossguard_codec::{Target, TaskParameters};
+use crossguard_codec::TaskParameters;
 use crossguard_protocol::{FallbackPolicy, Maneuver};
 use serde::{Deserialize, Serialize};
 
@@ -105,19 +105,12 @@ impl Start {
         site: &Site,
         holds: bool,
     ) -> Self {
-        let to = match parameters.target {
-            Some(Target::Position {
-                latitude,
-                longitude,
-                ..
-            }) => Some(At::of(site, site.place(latitude, longitude))),
-            _ => None,
-        };
+        let to = site.place_of(parameters.target);
         Self {
             id: maneuver.id.to_string(),
             task: maneuver.task.to_string(),
             report: if holds { "in-position" } else { "completed" },
-            to,
+            to: to.map(|place| At::of(site, place)),
             speed_mps: parameters.maximum_speed,
             heading_deg: parameters.heading,
             pedestrian_distance_m: parameters.minimum_pedestrian_distance,
