@@ -23,7 +23,9 @@ fn every_rule_holds_in_every_street_and_every_premise_is_met() {
 const PERSON: Street = Street::PERSON;
 
 /// A street, settings that are weaker, and the rule that these break alone.
-const WEAKENINGS: &[(Street, fn(&mut Setup), Rule)] = &[
+type Weakening = (Street, fn(&mut Setup), Rule);
+
+const WEAKENINGS: &[Weakening] = &[
     // One empty frame is enough, and nobody lingers.
     (
         PERSON,

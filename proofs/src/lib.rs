@@ -14,6 +14,7 @@
 //! `proofs/run` proves all of them, and `times.tsv` has how long that took.
 
 pub mod codec;
+pub mod crossing;
 mod harness;
 pub mod protocol;
 #[cfg(not(all(kani, not(feature = "stand-in"))))]
@@ -51,6 +52,7 @@ pub fn harnesses() -> impl Iterator<Item = &'static Harness> {
         protocol::exchange::leader::HARNESSES,
         protocol::exchange::follower::HARNESSES,
         protocol::exchange::frame::HARNESSES,
+        crossing::HARNESSES,
         codec::time::HARNESSES,
         codec::si::HARNESSES,
         codec::geonet::HARNESSES,

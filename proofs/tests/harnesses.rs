@@ -29,6 +29,11 @@ fn every_harness_of_the_protocol_holds_for_random_values_and_reaches_its_marks()
 }
 
 #[test]
+fn every_harness_of_the_crossing_holds_for_random_values_and_reaches_its_marks() {
+    hold_and_reach_their_marks("crossing::");
+}
+
+#[test]
 fn every_harness_of_the_codec_holds_for_random_values_and_reaches_its_marks() {
     hold_and_reach_their_marks("codec::");
 }

@@ -189,7 +189,7 @@ impl Shipped {
             };
             let verdict = CheckVerdict::of_property(run.is_some(), found.cut_off);
             properties.push(PropertyReport {
-                counterexample: steps.map(in_words).collect(),
+                counterexample: steps.map(|state| in_words(state)).collect(),
                 ..report(claim.id, "S", verdict, claim.statement)
             });
             let verdict = CheckVerdict::of_premise(found.met.contains(rule), found.cut_off);
@@ -230,10 +230,10 @@ const ASSUMPTIONS: [&str; 6] = [
 ];
 
 /// A state of a run, in a chart.
-fn in_words(state: &String) -> ChartStep {
+fn in_words(state: &str) -> ChartStep {
     ChartStep {
         place: ChartPlace::At(0),
-        action: state.clone(),
+        action: state.to_owned(),
         outputs: Vec::new(),
     }
 }
@@ -285,9 +285,10 @@ pub fn explore(
     let is_met = |rule: &Rule| checker.discovery(rule.claim().premise_id).is_some();
     // stateright says that it is done where it stops at a limit as well.
     let is_late = time_max.is_some_and(|time| begin.elapsed() >= time);
-    let cut_off = match checker.state_count() >= steps_max {
-        true => Some(CutOff::StateLimit),
-        false => is_late.then_some(CutOff::TimeLimit),
+    let cut_off = if checker.state_count() >= steps_max {
+        Some(CutOff::StateLimit)
+    } else {
+        is_late.then_some(CutOff::TimeLimit)
     };
     Found {
         states: checker.unique_state_count(),

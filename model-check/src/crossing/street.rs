@@ -220,7 +220,7 @@ impl World {
         all
     }
 
-    fn faults(&self, state: &State) -> Vec<Fault> {
+    fn faults(state: &State) -> Vec<Fault> {
         let left = &state.left;
         let may_drift = left.drifts > 0 && state.team.guards() && state.guard.adrift == 0;
         let possible = [
@@ -405,7 +405,7 @@ impl stateright::Model for World {
     }
 
     fn actions(&self, state: &State, ticks: &mut Vec<Tick>) {
-        let faults = self.faults(state);
+        let faults = Self::faults(state);
         for (moves, missed) in self.moves(state) {
             ticks.extend(faults.iter().map(|&fault| Tick {
                 moves,

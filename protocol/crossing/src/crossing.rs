@@ -344,7 +344,7 @@ impl<const N: usize> Crossing<N> {
                 obligation.is_said_clear = false;
             }
         } else if frame.age < self.quiet {
-            self.occupancy.count(frame);
+            self.occupancy.count(setup, frame);
             if self.occupancy.settle(setup) {
                 self.tracks.resolve();
             }

@@ -5,6 +5,9 @@
 //! anew: somebody on the road, also as another station reports them, a frame that comes too late, a gap between two
 //! frames, a line that is no frame. Silence counts nothing.
 
+#[cfg(any(test, feature = "laws"))]
+pub mod laws;
+
 use crossguard_protocol::Millis;
 
 use crate::ground::Coverage;
@@ -98,11 +101,14 @@ impl Occupancy {
         Ok(())
     }
 
-    /// Counts a frame that was admitted and had nobody on the road.
-    pub(crate) fn count(&mut self, frame: &Frame<'_>) {
+    /// Counts a frame that was admitted and had nobody on the road, unless it is as old as silence.
+    pub(crate) fn count(&mut self, setup: &Setup, frame: &Frame<'_>) {
         let Some(source) = self.sources.get_mut(usize::from(frame.source)) else {
             return;
         };
+        if !source.is_fresh(&setup.sensors) {
+            return source.start_anew();
+        }
         for (part, empty) in source.empty.iter_mut().enumerate() {
             let is_covered = frame.covers.has(Coverage(1 << part));
             *empty = if is_covered {

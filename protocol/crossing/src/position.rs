@@ -2,11 +2,21 @@
 //!
 //! Errors of the position count against it. No position, an old one, or one that is not newer than the one before renews nothing.
 
+#[cfg(any(test, feature = "laws"))]
+pub mod laws;
+
 use crossguard_protocol::Millis;
 
 use crate::ground::Point;
 use crate::input::Pose;
 use crate::setup::PositionRules;
+
+/// How far off its place a body is, in centimetres.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Off {
+    cm: u32,
+    error_cm: u16,
+}
 
 /// A lease on being at a place.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
@@ -42,7 +52,15 @@ impl Presence {
         pose: Option<Pose>,
         age: Millis,
     ) {
-        let Some(pose) = pose else {
+        let off = pose.map(|pose| Off {
+            cm: place.distance_cm(pose.at),
+            error_cm: pose.error_cm,
+        });
+        self.take(rules, off, age);
+    }
+
+    fn take(&mut self, rules: PositionRules, off: Option<Off>, age: Millis) {
+        let Some(off) = off else {
             self.left = Millis::ZERO;
             return;
         };
@@ -50,10 +68,9 @@ impl Presence {
             return;
         }
         self.newest = Some(age);
-        let (off, error) = (place.distance_cm(pose.at), u32::from(pose.error_cm));
-        let tolerance = u32::from(rules.tolerance_cm);
-        self.is_elsewhere = off.saturating_sub(error) > tolerance;
-        let is_there = off.saturating_add(error) <= tolerance;
+        let (error, tolerance) = (u32::from(off.error_cm), u32::from(rules.tolerance_cm));
+        self.is_elsewhere = off.cm.saturating_sub(error) > tolerance;
+        let is_there = off.cm.saturating_add(error) <= tolerance;
         self.left = if is_there {
             rules.lease.saturating_sub(age)
         } else {

@@ -4,14 +4,26 @@
 //! `v * reaction + v² / (2 * deceleration)`. An older report counts as if the vehicle had gone on since. A vehicle that
 //! falls silent counts for `keep`. Vehicles that are neither heard nor seen are the road authority's concern.
 
+#[cfg(any(test, feature = "laws"))]
+pub mod laws;
+
 use crossguard_protocol::Millis;
 
 use crate::ground::{Point, Shape};
 use crate::input::Vehicle;
-use crate::setup::Setup;
+use crate::setup::{Setup, TrafficRules};
 
 /// Capacity for vehicles. A further one takes the place of one that stands or goes away, or else is a hindrance.
 pub const VEHICLES: usize = 32;
+
+/// How a vehicle comes to the crossing.
+#[derive(Clone, Copy, Debug)]
+struct Motion {
+    /// How far it is from it.
+    left_cm: u32,
+    error_cm: u16,
+    speed_cmps: u32,
+}
 
 /// What is known of the vehicles around.
 #[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
@@ -90,13 +102,25 @@ fn is_hindrance(setup: &Setup, vehicle: &Vehicle, age: Millis) -> bool {
     if !may_hinder(setup, vehicle) {
         return false;
     }
-    let rules = &setup.traffic;
-    let speed = u64::from(vehicle.velocity.length_cm());
-    let gone = speed.saturating_mul(u64::from(age.0)) / 1_000 + u64::from(vehicle.error_cm);
-    let left = u64::from(crossing.distance_cm(vehicle.at)).saturating_sub(gone);
-    let reacting = speed.saturating_mul(u64::from(rules.reaction.0)) / 1_000;
-    let braking = speed.saturating_mul(speed) / (2 * u64::from(rules.deceleration_cmps2.max(1)));
-    left <= reacting.saturating_add(braking)
+    let motion = Motion {
+        left_cm: crossing.distance_cm(vehicle.at),
+        error_cm: vehicle.error_cm,
+        speed_cmps: vehicle.velocity.length_cm(),
+    };
+    !motion.can_stop(&setup.traffic, age)
+}
+
+impl Motion {
+    /// Whether it can stop comfortably, if it was like this `age` ago and has gone on.
+    fn can_stop(self, rules: &TrafficRules, age: Millis) -> bool {
+        let speed = u64::from(self.speed_cmps);
+        let gone = speed.saturating_mul(u64::from(age.0)) / 1_000 + u64::from(self.error_cm);
+        let left = u64::from(self.left_cm).saturating_sub(gone);
+        let reacting = speed.saturating_mul(u64::from(rules.reaction.0)) / 1_000;
+        let braking =
+            speed.saturating_mul(speed) / (2 * u64::from(rules.deceleration_cmps2.max(1)));
+        left > reacting.saturating_add(braking)
+    }
 }
 
 /// Whether a vehicle moves towards the crossing, on a line that comes near it.
