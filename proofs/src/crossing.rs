@@ -1,78 +1,123 @@
 //! The crossing machine: its beliefs are valid for ever, and less evidence gives no permission (P7), step by step.
 
-use crossguard_crossing::occupancy::laws::{self as occupancy, Extent};
+use crossguard_crossing::occupancy::laws::{self as occupancy, Change};
 use crossguard_crossing::position::laws as position;
 use crossguard_crossing::traffic::laws as traffic;
 
 use crate::harness::harnesses;
 use crate::{Symbolic, kani};
 
-/// What keeps products small: 100 m/s, and 8 s.
+/// What keeps products small: 40 m/s, and 4 s.
 const BOUNDS: traffic::Bounds = traffic::Bounds {
-    speed_cmps: 10_000,
-    time_ms: 8_191,
+    speed_cmps: 4_095,
+    time_ms: 4_095,
 };
 
-/// Parts and sources do not mix: the same is done for each.
-const EXTENT: Extent = Extent {
-    parts: 3,
-    source: Some(0),
-};
+/// Of how many parts both of two sources know something. Parts do not mix: the same is done for each.
+const PARTS: usize = 3;
 
 harnesses! {
-    /// Any sensors, any road, any valid state of four sources that know of three parts, the first of which delivers; any change.
-    #[unwind(66)]
+    /// Any sensors, any valid state of a source with 32 parts, any time.
+    #[unwind(34)]
     #[solver(cadical)]
-    fn what_is_known_of_the_road_stays_valid() {
-        let admitted = occupancy::stays_valid(&mut Symbolic, EXTENT);
-        kani::cover!(admitted, "taken in");
+    fn a_source_stays_valid_as_time_passes() {
+        let passes = occupancy::stays_valid(&mut Symbolic, Change::Elapsed);
+        kani::cover!(passes, "time passes");
     }
 
-    /// As above, any two states of which one has no more evidence than the other.
-    #[unwind(66)]
+    /// As above, any empty frame.
+    #[unwind(34)]
     #[solver(cadical)]
-    fn with_less_evidence_no_road_is_clearer() {
-        let is_clear = occupancy::less_is_no_clearer(&mut Symbolic, EXTENT);
+    fn a_source_stays_valid_by_an_empty_frame() {
+        let is_taken_in = occupancy::stays_valid(&mut Symbolic, Change::Empty);
+        kani::cover!(is_taken_in, "taken in");
+    }
+
+    /// As above, any frame with somebody on the road.
+    #[unwind(34)]
+    #[solver(cadical)]
+    fn a_source_stays_valid_by_a_person() {
+        let is_taken_in = occupancy::stays_valid(&mut Symbolic, Change::Occupied);
+        kani::cover!(is_taken_in, "taken in");
+    }
+
+    /// Any two valid states of which one has no more evidence than the other.
+    #[unwind(34)]
+    #[solver(cadical)]
+    fn with_less_evidence_no_part_is_clearer() {
+        let is_clear = occupancy::less_is_no_clearer(&mut Symbolic);
         kani::cover!(is_clear, "clear");
     }
 
-    /// As above, any change.
-    #[unwind(66)]
+    /// As above, of three parts, any time.
+    #[unwind(34)]
     #[solver(cadical)]
-    fn less_evidence_stays_less() {
-        let counts = occupancy::less_stays_less(&mut Symbolic, EXTENT);
-        kani::cover!(counts, "an empty frame counts");
+    fn less_evidence_stays_less_as_time_passes() {
+        let passes = occupancy::less_stays_less(&mut Symbolic, Change::Elapsed, PARTS);
+        kani::cover!(passes, "time passes");
     }
 
-    /// As above, any frame that covers everything.
-    #[unwind(66)]
+    /// As above, any empty frame.
+    #[unwind(34)]
+    #[solver(cadical)]
+    fn less_evidence_stays_less_by_an_empty_frame() {
+        let counts = occupancy::less_stays_less(&mut Symbolic, Change::Empty, PARTS);
+        kani::cover!(counts, "it counts");
+    }
+
+    /// As above, any frame with somebody on the road.
+    #[unwind(34)]
+    #[solver(cadical)]
+    fn less_evidence_stays_less_by_a_person() {
+        let counts = occupancy::less_stays_less(&mut Symbolic, Change::Occupied, PARTS);
+        kani::cover!(counts, "taken in");
+    }
+
+    /// Any valid state, any empty frame that covers everything.
+    #[unwind(34)]
     #[solver(cadical)]
     fn an_empty_frame_is_evidence() {
-        let counts = occupancy::a_frame_is_evidence(&mut Symbolic, EXTENT);
+        let counts = occupancy::a_frame_is_evidence(&mut Symbolic);
         kani::cover!(counts, "it counts");
     }
 
     /// As above, at once or at any time later.
-    #[unwind(66)]
+    #[unwind(34)]
     #[solver(cadical)]
     fn a_late_frame_is_less_evidence() {
-        let counts = occupancy::late_is_less(&mut Symbolic, EXTENT);
+        let counts = occupancy::late_is_less(&mut Symbolic);
         kani::cover!(counts, "it counts although it is late");
     }
 
-    /// As above, anything but an empty frame.
-    #[unwind(66)]
+    /// Any valid state, any empty frame.
+    #[unwind(34)]
     #[solver(cadical)]
-    fn nothing_but_an_empty_frame_is_evidence() {
-        let is_frame = occupancy::the_rest_is_none(&mut Symbolic, EXTENT);
-        kani::cover!(is_frame, "a frame");
+    fn a_frame_that_is_dropped_is_no_evidence() {
+        let is_dropped = occupancy::the_rest_is_none(&mut Symbolic, Change::Empty);
+        kani::cover!(is_dropped, "dropped");
     }
 
-    /// As above, any frame.
-    #[unwind(66)]
+    /// Any valid state, any frame with somebody on the road.
+    #[unwind(34)]
+    #[solver(cadical)]
+    fn a_person_is_no_evidence() {
+        let is_taken_in = occupancy::the_rest_is_none(&mut Symbolic, Change::Occupied);
+        kani::cover!(is_taken_in, "taken in");
+    }
+
+    /// Any valid state, any time.
+    #[unwind(34)]
+    #[solver(cadical)]
+    fn time_is_no_evidence() {
+        let passes = occupancy::the_rest_is_none(&mut Symbolic, Change::Elapsed);
+        kani::cover!(passes, "time passes");
+    }
+
+    /// Any valid state, any frame.
+    #[unwind(34)]
     #[solver(cadical)]
     fn a_frame_counts_once() {
-        let counts = occupancy::twice_is_once(&mut Symbolic, EXTENT);
+        let counts = occupancy::twice_is_once(&mut Symbolic);
         kani::cover!(counts, "it counts");
     }
 
@@ -100,9 +145,8 @@ harnesses! {
         kani::cover!(is_there, "there by the better one");
     }
 
-    /// Vehicles up to 100 m/s, reports and reactions up to 8 s.
-    #[unwind(2)]
-    #[solver(cadical)]
+    /// Vehicles up to 40 m/s, reports and reactions up to 4 s.
+    #[random_only("products of two numbers that nothing binds: not within 100 s")]
     fn a_worse_report_stops_no_vehicle() {
         let can_stop = traffic::worse_stops_no_vehicle(&mut Symbolic, BOUNDS);
         kani::cover!(can_stop, "it can stop");

@@ -2,9 +2,9 @@
 //! types.
 //!
 //! ```text
-//!  laws of protocol and codec ◄── harnesses here ◄── cargo kani: every value
-//!                             ◄──                ◄── tests/harnesses.rs: random values
-//!                             ◄── tests: proptest, with shrinking; sweeps over all values
+//!  laws of protocol, crossing and codec ◄── harnesses here ◄── cargo kani: every value
+//!                                       ◄──                ◄── tests/harnesses.rs: random values
+//!                                       ◄── tests: proptest, with shrinking; sweeps over all values
 //! ```
 //!
 //! A harness chooses symbolic values, states its bound by `kani::assume`, calls a law, and marks

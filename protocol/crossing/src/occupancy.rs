@@ -58,23 +58,71 @@ impl Source {
     const fn start_anew(&mut self) {
         self.empty = [0; PARTS];
     }
+
+    fn elapse(&mut self, sensors: &Sensors, time: Millis) {
+        // What is older than any limit is as old as it gets.
+        let oldest = sensors.gap_max.saturating_add(sensors.age_max);
+        let oldest = oldest.saturating_add(Millis(1));
+        self.age = self.age.map(|age| age.saturating_add(time).min(oldest));
+        if !self.is_fresh(sensors) {
+            self.start_anew();
+        }
+    }
+
+    /// Whether a frame of such an age counts; that it came is noted.
+    fn admit(&mut self, sensors: &Sensors, age: Millis, covers: Coverage) -> Result<(), FrameDrop> {
+        if age > sensors.age_max {
+            self.start_anew();
+            return Err(FrameDrop::Stale);
+        }
+        if let Some(newest) = self.age.filter(|newest| age >= *newest) {
+            // One that was on its way while others overtook it: those were not consecutive.
+            if age > newest {
+                self.start_anew();
+            }
+            return Err(FrameDrop::OutOfOrder);
+        }
+        let gap = self.age.map(|newest| newest.saturating_sub(age));
+        if gap.is_none_or(|gap| gap > sensors.gap_max) {
+            self.start_anew();
+        }
+        (self.age, self.covers) = (Some(age), covers);
+        Ok(())
+    }
+
+    /// Counts the frame that was admitted last and had nobody on the road, unless it is as old as silence.
+    fn count(&mut self, sensors: &Sensors) {
+        if !self.is_fresh(sensors) {
+            return self.start_anew();
+        }
+        for part in 0..PARTS {
+            let is_covered = self.covers.has(Coverage(1 << part));
+            self.empty[part] = if is_covered {
+                self.empty[part].saturating_add(1)
+            } else {
+                0
+            };
+        }
+    }
+
+    /// The frame that was admitted last had somebody on the road.
+    fn owe(&mut self, parts: Coverage) {
+        let covered = if self.covers == Coverage::NONE {
+            parts
+        } else {
+            self.covers
+        };
+        self.owed = self.owed.union(covered);
+        self.start_anew();
+    }
 }
 
 impl Occupancy {
     /// Lets time pass.
     pub(crate) fn elapse(&mut self, setup: &Setup, time: Millis) {
         self.seen = self.seen.saturating_sub(time);
-        // What is older than any limit is as old as it gets.
-        let oldest = setup
-            .sensors
-            .gap_max
-            .saturating_add(setup.sensors.age_max)
-            .saturating_add(Millis(1));
         for source in &mut self.sources {
-            source.age = source.age.map(|age| age.saturating_add(time).min(oldest));
-            if source.age.is_some() && !source.is_fresh(&setup.sensors) {
-                source.start_anew();
-            }
+            source.elapse(&setup.sensors, time);
         }
     }
 
@@ -82,52 +130,20 @@ impl Occupancy {
     pub(crate) fn admit(&mut self, setup: &Setup, frame: &Frame<'_>) -> Result<(), FrameDrop> {
         let source = self.sources.get_mut(usize::from(frame.source));
         let source = source.ok_or(FrameDrop::NoSuchSource)?;
-        if frame.age > setup.sensors.age_max {
-            source.start_anew();
-            return Err(FrameDrop::Stale);
-        }
-        if let Some(age) = source.age.filter(|age| frame.age >= *age) {
-            // One that was on its way while others overtook it: those were not consecutive.
-            if frame.age > age {
-                source.start_anew();
-            }
-            return Err(FrameDrop::OutOfOrder);
-        }
-        let gap = source.age.map(|age| age.saturating_sub(frame.age));
-        if gap.is_none_or(|gap| gap > setup.sensors.gap_max) {
-            source.start_anew();
-        }
-        (source.age, source.covers) = (Some(frame.age), frame.covers);
-        Ok(())
+        source.admit(&setup.sensors, frame.age, frame.covers)
     }
 
     /// Counts a frame that was admitted and had nobody on the road, unless it is as old as silence.
     pub(crate) fn count(&mut self, setup: &Setup, frame: &Frame<'_>) {
-        let Some(source) = self.sources.get_mut(usize::from(frame.source)) else {
-            return;
-        };
-        if !source.is_fresh(&setup.sensors) {
-            return source.start_anew();
-        }
-        for (part, empty) in source.empty.iter_mut().enumerate() {
-            let is_covered = frame.covers.has(Coverage(1 << part));
-            *empty = if is_covered {
-                empty.saturating_add(1)
-            } else {
-                0
-            };
+        if let Some(source) = self.sources.get_mut(usize::from(frame.source)) {
+            source.count(&setup.sensors);
         }
     }
 
     /// A frame that was admitted has somebody on the road.
     pub(crate) fn owe(&mut self, setup: &Setup, frame: &Frame<'_>) {
         if let Some(source) = self.sources.get_mut(usize::from(frame.source)) {
-            let parts = if frame.covers == Coverage::NONE {
-                setup.ground.parts
-            } else {
-                frame.covers
-            };
-            source.owed = source.owed.union(parts);
+            source.owe(setup.ground.parts);
         }
         self.occupy(setup);
     }

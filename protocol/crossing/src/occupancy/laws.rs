@@ -1,224 +1,194 @@
-//! Laws of what is known of the carriageway: valid for ever, and less evidence clears no road (P7).
+//! Laws of what one source knows of the carriageway: valid for ever, and less evidence clears no part of it (P7).
 //!
-//! Less evidence is an order, [`has_no_more`], which every input keeps and which a clear road follows. So what is true of
-//! one step is true of runs of any length.
+//! Less evidence is an order, `has_no_more`, which every change keeps and which the clear parts follow. So what is true
+//! of one step is true of runs of any length. The road is clear where the sources together have its parts clear.
 
 #![expect(clippy::missing_panics_doc, reason = "laws assert")]
 
 use crossguard_protocol::Millis;
 use crossguard_protocol::laws::Source as Numbers;
 
-use super::{Occupancy, PARTS, Source};
-use crate::ground::{Coverage, Ground, Point, Shape};
-use crate::input::{Frame, FrameDrop};
-use crate::setup::Setup;
+use super::{PARTS, Source};
+use crate::ground::Coverage;
+use crate::input::FrameDrop;
+use crate::setup::Sensors;
 
-/// How much of it is arbitrary.
-#[derive(Clone, Copy, Debug)]
-pub struct Extent {
-    /// Of how many parts of the carriageway something is known.
-    pub parts: usize,
-    /// The source that delivers; any, if none is said.
-    pub source: Option<u8>,
-}
-
-impl Extent {
-    /// All of it.
-    pub const ALL: Self = Self {
-        parts: PARTS,
-        source: None,
-    };
-
-    fn source(self, source: &mut impl Numbers) -> u8 {
-        self.source.unwrap_or_else(|| source.u8(0))
-    }
-}
-
-/// What happens to it.
-#[derive(Clone, Copy, Debug)]
-enum Change {
-    Elapsed(Millis),
-    /// A frame, with somebody on the road or without.
-    Frame(Frame<'static>, bool),
-    /// As a frame that was made before a sign went to stop, or something that is no frame.
-    Doubt(u8),
+/// What happens to a source.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Change {
+    /// Time passes.
+    Elapsed,
+    /// A frame has nobody on the road.
+    Empty,
+    /// A frame has somebody on the road.
     Occupied,
-    Settled,
+    /// Something says that there may be somebody.
+    Doubt,
+}
+
+/// A frame, as far as this goes.
+#[derive(Clone, Copy, Debug)]
+struct Look {
+    age: Millis,
+    covers: Coverage,
 }
 
 fn millis(source: &mut impl Numbers, hint: u32) -> Millis {
     Millis(source.number(u32::MAX, hint))
 }
 
-/// Any sensors, on a road that is known or not, of any parts.
-fn setup(source: &mut impl Numbers) -> Setup {
-    let corners = [(0, 0), (400, 0), (400, 400)].map(|(east, north)| Point::new(east, north));
-    let mut setup = Setup {
-        ground: Ground {
-            road: Shape::new(&corners).filter(|_| source.likely(Some(true))),
-            parts: Coverage(source.number(u32::MAX, 3)),
-            ..Ground::default()
-        },
-        ..Setup::default()
-    };
-    setup.sensors.miss_max = source.u8(1);
-    setup.sensors.age_max = millis(source, 500);
-    setup.sensors.gap_max = millis(source, 500);
-    setup.sensors.linger = millis(source, 1_000);
-    setup
+fn sensors(source: &mut impl Numbers) -> Sensors {
+    Sensors {
+        miss_max: source.u8(1),
+        age_max: millis(source, 500),
+        gap_max: millis(source, 500),
+        ..Sensors::default()
+    }
 }
 
-/// One that is valid in the end: any, or one with less evidence than `more`.
-fn state(
-    source: &mut impl Numbers,
-    extent: Extent,
-    setup: &Setup,
-    more: Option<&Occupancy>,
-) -> Option<Occupancy> {
-    let mut state = Occupancy {
-        seen: millis(source, 0),
-        ..Occupancy::default()
+fn look(source: &mut impl Numbers) -> Look {
+    Look {
+        age: millis(source, 0),
+        covers: Coverage(source.number(u32::MAX, 3)),
+    }
+}
+
+/// One that is valid, if these numbers make one; with no more empty frames than `most`.
+fn state(source: &mut impl Numbers, sensors: &Sensors, most: &[u8; PARTS]) -> Option<Source> {
+    let mut state = Source {
+        age: source.likely(Some(true)).then(|| millis(source, 200)),
+        covers: Coverage(source.number(u32::MAX, 3)),
+        owed: Coverage(source.number(u32::MAX, 0)),
+        ..Source::default()
     };
-    for (number, one) in state.sources.iter_mut().enumerate() {
-        one.age = source.likely(Some(true)).then(|| millis(source, 200));
-        one.covers = Coverage(source.number(u32::MAX, 3));
-        one.owed = Coverage(source.number(u32::MAX, 0));
-        let known = more.map(|more| more.sources[number]);
-        for (part, empty) in one.empty.iter_mut().enumerate().take(extent.parts) {
-            let most = known.map_or(u8::MAX, |it| it.empty[part]);
-            *empty = source.u8(2).min(most);
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "iterators of slices take Kani long"
+    )]
+    for part in 0..PARTS {
+        if most[part] > 0 {
+            state.empty[part] = source.u8(2).min(most[part]);
         }
     }
-    let has_no_more = more.is_none_or(|more| has_no_more(&state, more));
-    (has_no_more && is_valid(&state, setup)).then_some(state)
+    is_valid(&state, sensors).then_some(state)
 }
 
-fn change(source: &mut impl Numbers, extent: Extent) -> Change {
-    match source.number(4, 1) {
-        0 => Change::Elapsed(millis(source, 100)),
-        1 => Change::Frame(frame(source, extent, Coverage::NONE), source.flag()),
-        2 => Change::Doubt(extent.source(source)),
-        3 => Change::Occupied,
-        _ => Change::Settled,
-    }
-}
-
-/// A frame that covers these parts at least.
-fn frame(source: &mut impl Numbers, extent: Extent, covers: Coverage) -> Frame<'static> {
-    Frame {
-        source: extent.source(source),
-        age: millis(source, 0),
-        covers: covers.union(Coverage(source.number(u32::MAX, 3))),
-        sightings: &[],
-    }
+/// Two that are valid, the first of which has no more evidence than the second; of so many parts, the others of which
+/// nobody knows anything.
+fn pair(source: &mut impl Numbers, sensors: &Sensors, parts: usize) -> Option<(Source, Source)> {
+    let mut most = [0; PARTS];
+    most[..parts.min(PARTS)].fill(u8::MAX);
+    let more = state(source, sensors, &most)?;
+    let less = state(source, sensors, &more.empty)?;
+    has_no_more(&less, &more).then_some((less, more))
 }
 
 /// Makes it happen, as the machine does.
-fn apply(state: &mut Occupancy, setup: &Setup, change: Change) -> Result<(), FrameDrop> {
+fn apply(
+    state: &mut Source,
+    sensors: &Sensors,
+    change: Change,
+    look: Look,
+) -> Result<(), FrameDrop> {
     match change {
-        Change::Elapsed(time) => state.elapse(setup, time),
-        Change::Frame(frame, is_occupied) => {
-            state.admit(setup, &frame)?;
-            if is_occupied {
-                state.owe(setup, &frame);
-            } else {
-                state.count(setup, &frame);
-            }
+        Change::Elapsed => state.elapse(sensors, look.age),
+        Change::Empty => {
+            state.admit(sensors, look.age, look.covers)?;
+            state.count(sensors);
         }
-        Change::Doubt(source) => state.doubt(source),
-        Change::Occupied => state.occupy(setup),
-        Change::Settled => {
-            state.settle(setup);
+        Change::Occupied => {
+            state.admit(sensors, look.age, look.covers)?;
+            state.owe(Coverage::ALL);
         }
+        Change::Doubt => state.start_anew(),
     }
     Ok(())
 }
 
+fn counts_nothing(state: &Source) -> bool {
+    (0..PARTS).all(|part| state.empty[part] == 0)
+}
+
 /// Whether every state that comes about is like this: a source that never spoke counts for nothing, nor does one that
-/// has been silent for longer than a gap may last, and nothing outlasts its limit.
-fn is_valid(state: &Occupancy, setup: &Setup) -> bool {
-    let sensors = &setup.sensors;
-    let oldest = sensors.gap_max.saturating_add(sensors.age_max);
-    let is_valid = |it: &Source| {
-        let counts = it.empty != [0; PARTS];
-        match it.age {
-            None => !counts && it.covers == Coverage::NONE && it.owed == Coverage::NONE,
-            Some(age) => {
-                age <= oldest.saturating_add(Millis(1)) && (age <= sensors.gap_max || !counts)
-            }
+/// has been silent for longer than a gap may last.
+fn is_valid(state: &Source, sensors: &Sensors) -> bool {
+    match state.age {
+        None => {
+            let is_blank = state.covers == Coverage::NONE && state.owed == Coverage::NONE;
+            is_blank && counts_nothing(state)
         }
-    };
-    state.seen <= sensors.linger && state.sources.iter().all(is_valid)
+        Some(age) => {
+            let oldest = sensors.gap_max.saturating_add(sensors.age_max);
+            let is_old = age > oldest.saturating_add(Millis(1));
+            !is_old && (age <= sensors.gap_max || counts_nothing(state))
+        }
+    }
 }
 
-/// Whether `less` has no more for a clear road than `more`: of each source nothing at all, or not newer frames, and as many
-/// empty ones at most.
-fn has_no_more(less: &Occupancy, more: &Occupancy) -> bool {
-    let mut sources = less.sources.iter().zip(&more.sources);
-    sources.all(|(less, more)| {
-        let is_newer = match (less.age, more.age) {
-            (Some(less), Some(more)) => less < more,
-            (less, more) => more.is_none() && less.is_some(),
-        };
-        let mut parts = less.empty.iter().zip(&more.empty);
-        less.empty == [0; PARTS] || (!is_newer && parts.all(|(less, more)| less <= more))
-    })
+/// Whether `less` has no more for a clear road than `more`: nothing at all, or no newer frames, and as many empty ones of
+/// each part at most.
+fn has_no_more(less: &Source, more: &Source) -> bool {
+    let is_newer = match (less.age, more.age) {
+        (Some(less), Some(more)) => less < more,
+        (less, more) => more.is_none() && less.is_some(),
+    };
+    let counts_no_more = (0..PARTS).all(|part| less.empty[part] <= more.empty[part]);
+    counts_nothing(less) || (!is_newer && counts_no_more)
 }
 
-/// A state that is valid stays valid.
-pub fn stays_valid(source: &mut impl Numbers, extent: Extent) -> bool {
-    let setup = setup(source);
-    assert!(is_valid(&Occupancy::default(), &setup));
-    let Some(mut state) = state(source, extent, &setup, None) else {
+/// A state that is valid stays valid. Whether a frame was taken in.
+pub fn stays_valid(source: &mut impl Numbers, change: Change) -> bool {
+    let sensors = sensors(source);
+    assert!(is_valid(&Source::default(), &sensors));
+    let Some(mut state) = state(source, &sensors, &[u8::MAX; PARTS]) else {
         return false;
     };
-    let admitted = apply(&mut state, &setup, change(source, extent)).is_ok();
-    assert!(is_valid(&state, &setup));
-    admitted
+    let is_taken_in = apply(&mut state, &sensors, change, look(source)).is_ok();
+    assert!(is_valid(&state, &sensors));
+    is_taken_in
 }
 
-/// With less evidence the road is clear only where it is clear with more. Whether it is clear with more.
-pub fn less_is_no_clearer(source: &mut impl Numbers, extent: Extent) -> bool {
-    let setup = setup(source);
-    let Some(more) = state(source, extent, &setup, None) else {
+/// With less evidence a part is clear only where it is clear with more. Whether the first of them is.
+pub fn less_is_no_clearer(source: &mut impl Numbers) -> bool {
+    let sensors = sensors(source);
+    let Some((less, more)) = pair(source, &sensors, PARTS) else {
         return false;
     };
-    let Some(less) = state(source, extent, &setup, Some(&more)) else {
-        return false;
-    };
-    assert!(!less.is_clear(&setup) || more.is_clear(&setup));
-    less.is_clear(&setup)
+    let part = usize::from(source.u8(0)) % PARTS;
+    let is_clear = |it: &Source| it.is_fresh(&sensors) && it.empty[part] > sensors.miss_max;
+    assert!(!is_clear(&less) || is_clear(&more));
+    is_clear(&less)
 }
 
 /// Whatever comes, less evidence stays less, unless the one that has more drops what comes because it is out of order:
-/// that would be evidence for the other one alone. Whether a frame counted.
-pub fn less_stays_less(source: &mut impl Numbers, extent: Extent) -> bool {
-    let setup = setup(source);
-    let Some(mut more) = state(source, extent, &setup, None) else {
+/// that would be evidence for the other one alone. Whether it was not dropped.
+pub fn less_stays_less(source: &mut impl Numbers, change: Change, parts: usize) -> bool {
+    let sensors = sensors(source);
+    let Some((mut less, mut more)) = pair(source, &sensors, parts) else {
         return false;
     };
-    let Some(mut less) = state(source, extent, &setup, Some(&more)) else {
-        return false;
-    };
-    let change = change(source, extent);
-    let outcome = apply(&mut more, &setup, change);
+    let look = look(source);
+    let outcome = apply(&mut more, &sensors, change, look);
     if outcome == Err(FrameDrop::OutOfOrder) {
         return false;
     }
-    let _ = apply(&mut less, &setup, change);
+    let _ = apply(&mut less, &sensors, change, look);
     assert!(has_no_more(&less, &more));
-    outcome.is_ok() && matches!(change, Change::Frame(_, false))
+    outcome.is_ok()
 }
 
 /// Without an empty frame that covers everything there is less evidence than with it. Whether it counted.
-pub fn a_frame_is_evidence(source: &mut impl Numbers, extent: Extent) -> bool {
-    let setup = setup(source);
-    let Some(without) = state(source, extent, &setup, None) else {
+pub fn a_frame_is_evidence(source: &mut impl Numbers) -> bool {
+    let sensors = sensors(source);
+    let Some(without) = state(source, &sensors, &[u8::MAX; PARTS]) else {
         return false;
     };
-    let mut with = without.clone();
-    let frame = frame(source, extent, Coverage::ALL);
-    if apply(&mut with, &setup, Change::Frame(frame, false)).is_err() {
+    let mut with = without;
+    let look = Look {
+        covers: Coverage::ALL,
+        ..look(source)
+    };
+    if apply(&mut with, &sensors, Change::Empty, look).is_err() {
         return false;
     }
     assert!(has_no_more(&without, &with));
@@ -226,54 +196,54 @@ pub fn a_frame_is_evidence(source: &mut impl Numbers, extent: Extent) -> bool {
 }
 
 /// An empty frame that comes late is no more evidence than one that comes at once. Whether it counted.
-pub fn late_is_less(source: &mut impl Numbers, extent: Extent) -> bool {
-    let setup = setup(source);
-    let Some(mut late) = state(source, extent, &setup, None) else {
+pub fn late_is_less(source: &mut impl Numbers) -> bool {
+    let sensors = sensors(source);
+    let Some(mut late) = state(source, &sensors, &[u8::MAX; PARTS]) else {
         return false;
     };
-    let mut soon = late.clone();
-    let (frame, by) = (frame(source, extent, Coverage::ALL), millis(source, 100));
-    if apply(&mut soon, &setup, Change::Frame(frame, false)) == Err(FrameDrop::OutOfOrder) {
+    let (mut soon, by) = (late, millis(source, 100));
+    let look = Look {
+        covers: Coverage::ALL,
+        ..look(source)
+    };
+    if apply(&mut soon, &sensors, Change::Empty, look) == Err(FrameDrop::OutOfOrder) {
         return false;
     }
-    soon.elapse(&setup, by);
-    late.elapse(&setup, by);
-    let age = frame.age.saturating_add(by);
-    let counted = apply(
-        &mut late,
-        &setup,
-        Change::Frame(Frame { age, ..frame }, false),
-    );
+    soon.elapse(&sensors, by);
+    late.elapse(&sensors, by);
+    let age = look.age.saturating_add(by);
+    let counted = apply(&mut late, &sensors, Change::Empty, Look { age, ..look });
     assert!(has_no_more(&late, &soon));
     counted.is_ok()
 }
 
-/// Somebody on the road, what is no frame, a frame that is stale or out of order, and time are no evidence. Whether it was a
-/// frame.
-pub fn the_rest_is_none(source: &mut impl Numbers, extent: Extent) -> bool {
-    let setup = setup(source);
-    let Some(before) = state(source, extent, &setup, None) else {
+/// Somebody on the road, a doubt, an empty frame that is stale or out of order, and time are no evidence. Whether it was
+/// an empty frame, or one with somebody that counted.
+pub fn the_rest_is_none(source: &mut impl Numbers, change: Change) -> bool {
+    let sensors = sensors(source);
+    let Some(before) = state(source, &sensors, &[u8::MAX; PARTS]) else {
         return false;
     };
-    let (mut after, change) = (before.clone(), change(source, extent));
-    let outcome = apply(&mut after, &setup, change);
-    if outcome.is_ok() && matches!(change, Change::Frame(_, false)) {
+    let mut after = before;
+    let is_taken_in = apply(&mut after, &sensors, change, look(source)).is_ok();
+    if is_taken_in && change == Change::Empty {
         return false;
     }
     assert!(has_no_more(&after, &before));
-    matches!(change, Change::Frame(..))
+    is_taken_in || change == Change::Empty
 }
 
 /// A frame that comes twice changes nothing the second time. Whether it counted.
-pub fn twice_is_once(source: &mut impl Numbers, extent: Extent) -> bool {
-    let setup = setup(source);
-    let Some(mut once) = state(source, extent, &setup, None) else {
+pub fn twice_is_once(source: &mut impl Numbers) -> bool {
+    let sensors = sensors(source);
+    let Some(mut once) = state(source, &sensors, &[u8::MAX; PARTS]) else {
         return false;
     };
-    let change = Change::Frame(frame(source, extent, Coverage::NONE), false);
-    let outcome = apply(&mut once, &setup, change);
-    let mut twice = once.clone();
-    assert!(apply(&mut twice, &setup, change).is_err());
-    assert_eq!(once, twice);
+    let look = look(source);
+    let outcome = apply(&mut once, &sensors, Change::Empty, look);
+    let mut twice = once;
+    assert!(apply(&mut twice, &sensors, Change::Empty, look).is_err());
+    let is_same = twice.age == once.age && twice.covers == once.covers && twice.owed == once.owed;
+    assert!(is_same && (0..PARTS).all(|part| twice.empty[part] == once.empty[part]));
     outcome.is_ok()
 }

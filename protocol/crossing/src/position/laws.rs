@@ -49,7 +49,7 @@ fn presence(source: &mut impl Source, rules: PositionRules) -> Option<Presence> 
 fn is_valid(presence: Presence, rules: PositionRules) -> bool {
     let Presence { left, newest, .. } = presence;
     let rests =
-        newest.is_some_and(|age| age.saturating_add(left) == rules.lease && age < rules.lease);
+        newest.is_some_and(|age| age < rules.lease && left == rules.lease.saturating_sub(age));
     let ages = newest.is_none_or(|age| age <= rules.lease.saturating_add(Millis(1)));
     ages && (left == Millis::ZERO || (rests && !presence.is_elsewhere))
 }
