@@ -2,7 +2,6 @@
 
 mod channels;
 mod confinement;
-mod crossing;
 mod fair;
 mod insiders;
 mod odds;

@@ -19,9 +19,8 @@ const AGAIN: Millis = Millis(500);
 /// How long a leader waits before it asks again for an open corridor or an escort.
 const OPENING_PERIOD: Millis = Millis(500);
 
-/// For how long people step on the road beside an escort, which waits for each of them: a stream of people would keep it on
-/// the road, so later ones wait for its next way. A team that holds shows go until nobody has stepped on the road for so long:
-/// somebody who only stands there would keep the vehicles waiting.
+/// For how long people step on the road beside an escort, which waits for each of them. Who comes later waits for its next
+/// way: a stream of people would keep it on the road.
 const STEP_ON: Millis = Millis(10_000);
 
 /// For how long an escort goes on to its kerb after everybody is across.
@@ -79,10 +78,8 @@ pub(crate) struct Lead {
     tried: Millis,
     /// After that time it gives up.
     patience: Millis,
-    /// Until then people step on the road.
+    /// Until then people step on the road beside an escort.
     opened: Millis,
-    /// Whether that time was over before everybody who waits had stepped on it.
-    is_unused: bool,
     /// Until then it waits for its escort to come to the kerb, after everybody is across.
     ending: Millis,
 }
@@ -120,7 +117,6 @@ impl Lead {
             tried: Millis::ZERO,
             patience: plan.patience,
             opened: STEP_ON,
-            is_unused: false,
             ending: ESCORT_ENDS,
         }
     }
@@ -532,8 +528,7 @@ impl Lead {
         let is_done = plan.is_last(self.stage) && self.is_ready(plan);
         let is_over_there = plan.is_last(self.stage) && self.is_over_there(setup, plan);
         let may_try = self.tried == Millis::ZERO;
-        let goes_with_escort = plan.is_escort(self.stage, setup.escorts());
-        if view.corridor != Corridor::Open || !goes_with_escort && view.was_seen {
+        if view.corridor != Corridor::Open {
             self.opened = STEP_ON;
         }
         if !view.everybody_is_across && !view.nobody_is_lost {
@@ -541,10 +536,10 @@ impl Lead {
         }
         match view.corridor {
             Corridor::Open => {
-                // People who come when the escort is over there wait for its next way.
-                let is_full = self.opened == Millis::ZERO;
-                self.is_unused = is_full && !goes_with_escort;
-                if is_full || is_over_there && (goes_with_escort || !view.is_wanted) {
+                // Who comes when the escort is over there waits for its next way; a team that holds lets everybody across.
+                let is_escorted = plan.is_escort(self.stage, setup.escorts());
+                let is_full = is_escorted && self.opened == Millis::ZERO;
+                if is_full || is_over_there && (is_escorted || !view.is_wanted) {
                     out.tell(Event::CloseCorridor);
                 }
             }
@@ -553,20 +548,20 @@ impl Lead {
                 let lets_cross = plan.lets_cross(setup.guarding);
                 // An escort that lost its person on the road waits there; its leader knows where they are. One that is
                 // not heard any more may be lost itself.
-                let is_escorted =
-                    plan.is_last(self.stage) && goes_with_escort && self.are_heard(setup, plan);
+                let is_escorted = plan.is_last(self.stage)
+                    && plan.is_escort(self.stage, setup.escorts())
+                    && self.are_heard(setup, plan);
                 let is_ended = self.ending == Millis::ZERO;
                 let may_end =
                     is_done || is_ended && (is_over_there || is_escorted && view.has_opened);
-                // For people who wait by then it calls anew.
-                let is_through =
-                    (is_escorted && view.has_crossed || self.is_unused) && view.nobody_is_lost;
+                // Who waits by then is called for anew.
+                let is_through = is_escorted && view.has_crossed && view.nobody_is_lost;
                 if is_done && !lets_cross || may_end && (view.everybody_is_across || is_through) {
                     out.tell(Event::TaskCompleted);
                 } else if self.patience == Millis::ZERO {
                     out.tell(Event::LeaveRequested);
                     return false;
-                } else if may_try && is_done && goes_with_escort {
+                } else if may_try && is_done && plan.is_escort(self.stage, setup.escorts()) {
                     // The escort is over there, and nobody came along.
                     self.tried = OPENING_PERIOD;
                     self.begin_stage(setup, plan, view, 0, out);
