@@ -68,8 +68,13 @@ impl Told {
     }
 }
 
-fn millis(source: &mut impl Source, hint: u32) -> Millis {
+pub(crate) fn millis(source: &mut impl Source, hint: u32) -> Millis {
     Millis(source.number(u32::MAX, hint))
+}
+
+/// Whether something so old is newer than something so old; what never was is older than everything.
+pub(crate) fn is_newer(age: Option<Millis>, than: Option<Millis>) -> bool {
+    age.is_some_and(|age| than.is_none_or(|than| age < than))
 }
 
 fn centimetres(source: &mut impl Source, hint: i32) -> i32 {

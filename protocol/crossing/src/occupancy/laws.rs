@@ -11,6 +11,7 @@ use crossguard_protocol::laws::Source as Numbers;
 use super::{PARTS, Source};
 use crate::ground::Coverage;
 use crate::input::FrameDrop;
+use crate::laws::{is_newer, millis};
 use crate::setup::Sensors;
 
 /// What happens to a source.
@@ -22,8 +23,6 @@ pub enum Change {
     Empty,
     /// A frame has somebody on the road.
     Occupied,
-    /// Something says that there may be somebody.
-    Doubt,
 }
 
 /// A frame, as far as this goes.
@@ -31,10 +30,6 @@ pub enum Change {
 struct Look {
     age: Millis,
     covers: Coverage,
-}
-
-fn millis(source: &mut impl Numbers, hint: u32) -> Millis {
-    Millis(source.number(u32::MAX, hint))
 }
 
 fn sensors(source: &mut impl Numbers) -> Sensors {
@@ -100,7 +95,6 @@ fn apply(
             state.admit(sensors, look.age, look.covers)?;
             state.owe(Coverage::ALL);
         }
-        Change::Doubt => state.start_anew(),
     }
     Ok(())
 }
@@ -128,10 +122,7 @@ fn is_valid(state: &Source, sensors: &Sensors) -> bool {
 /// Whether `less` has no more for a clear road than `more`: nothing at all, or no newer frames, and as many empty ones of
 /// each part at most.
 fn has_no_more(less: &Source, more: &Source) -> bool {
-    let is_newer = match (less.age, more.age) {
-        (Some(less), Some(more)) => less < more,
-        (less, more) => more.is_none() && less.is_some(),
-    };
+    let is_newer = is_newer(less.age, more.age);
     let counts_no_more = (0..PARTS).all(|part| less.empty[part] <= more.empty[part]);
     counts_nothing(less) || (!is_newer && counts_no_more)
 }
@@ -217,7 +208,7 @@ pub fn late_is_less(source: &mut impl Numbers) -> bool {
     counted.is_ok()
 }
 
-/// Somebody on the road, a doubt, an empty frame that is stale or out of order, and time are no evidence. Whether it was
+/// Somebody on the road, an empty frame that is stale or out of order, and time are no evidence. Whether it was
 /// an empty frame, or one with somebody that counted.
 pub fn the_rest_is_none(source: &mut impl Numbers, change: Change) -> bool {
     let sensors = sensors(source);

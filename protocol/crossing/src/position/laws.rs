@@ -6,14 +6,11 @@ use crossguard_protocol::Millis;
 use crossguard_protocol::laws::Source;
 
 use super::{Off, Presence};
+use crate::laws::{is_newer, millis};
 use crate::setup::PositionRules;
 
 /// A position, as far as its presence goes: how far off, and how old.
 type Look = (Option<Off>, Millis);
-
-fn millis(source: &mut impl Source, hint: u32) -> Millis {
-    Millis(source.number(u32::MAX, hint))
-}
 
 fn rules(source: &mut impl Source) -> PositionRules {
     PositionRules {
@@ -56,10 +53,7 @@ fn is_valid(presence: Presence, rules: PositionRules) -> bool {
 
 /// Whether `less` is there for no longer than `more`, by positions that are no newer.
 fn has_no_more(less: Presence, more: Presence) -> bool {
-    let is_newer = match (less.newest, more.newest) {
-        (Some(less), Some(more)) => less < more,
-        (less, more) => more.is_none() && less.is_some(),
-    };
+    let is_newer = is_newer(less.newest, more.newest);
     less.left == Millis::ZERO || (!is_newer && less.left <= more.left)
 }
 

@@ -2,25 +2,15 @@
 
 #![expect(clippy::missing_panics_doc, reason = "laws assert")]
 
-use crossguard_protocol::Millis;
 use crossguard_protocol::laws::Source;
 
 use super::Motion;
+use crate::laws::millis;
 use crate::setup::TrafficRules;
-
-/// Bounds of numbers, which keep products small.
-#[derive(Clone, Copy, Debug)]
-pub struct Bounds {
-    /// Largest speed, in cm/s.
-    pub speed_cmps: u32,
-    /// Longest time, in milliseconds.
-    pub time_ms: u32,
-}
 
 /// A vehicle that can stop comfortably by an old or an inexact report of it can by a newer or a more exact one that says the
 /// same, and from farther away. Whether it can by the worse one.
-pub fn worse_stops_no_vehicle(source: &mut impl Source, bounds: Bounds) -> bool {
-    let millis = |source: &mut _, hint| Millis(Source::number(source, bounds.time_ms, hint));
+pub fn worse_stops_no_vehicle(source: &mut impl Source) -> bool {
     let rules = TrafficRules {
         reaction: millis(source, 2_000),
         deceleration_cmps2: source.u16(300),
@@ -29,7 +19,7 @@ pub fn worse_stops_no_vehicle(source: &mut impl Source, bounds: Bounds) -> bool 
     let better = Motion {
         left_cm: source.number(u32::MAX, 6_500),
         error_cm: source.u16(10),
-        speed_cmps: source.number(bounds.speed_cmps, 1_389),
+        speed_cmps: source.number(u32::MAX, 1_389),
     };
     let worse = Motion {
         left_cm: better.left_cm.saturating_sub(source.number(u32::MAX, 50)),
