@@ -70,6 +70,29 @@ proptest! {
     }
 }
 
+/// The laws of beliefs, that Kani proves: where it does not run, many random values look for what breaks them.
+#[test]
+fn less_evidence_of_a_belief_gives_no_permission() {
+    use crate::occupancy::laws::{self as occupancy, Change};
+    use crate::{position::laws as position, traffic::laws as traffic};
+    for seed in 0..200_000 {
+        let source = &mut Random(seed);
+        for change in [Change::Elapsed, Change::Empty, Change::Occupied] {
+            occupancy::stays_valid(source, change);
+            occupancy::less_stays_less(source, change, 2);
+            occupancy::the_rest_is_none(source, change);
+        }
+        occupancy::less_is_no_clearer(source);
+        occupancy::a_frame_is_evidence(source);
+        occupancy::late_is_less(source);
+        occupancy::twice_is_once(source);
+        position::stays_valid(source);
+        position::less_stays_less(source);
+        position::worse_is_less(source);
+        traffic::worse_stops_no_vehicle(source);
+    }
+}
+
 /// The laws are about something: random machines have clear roads, and would show go.
 #[test]
 fn the_premises_are_reached() {
