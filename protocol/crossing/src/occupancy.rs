@@ -82,10 +82,7 @@ impl Source {
             }
             return Err(FrameDrop::OutOfOrder);
         }
-        let gap = self.age.map(|newest| newest.saturating_sub(age));
-        if gap.is_none_or(|gap| gap > sensors.gap_max) {
-            self.start_anew();
-        }
+        // After a gap nothing counts any more: that ended as time passed.
         (self.age, self.covers) = (Some(age), covers);
         Ok(())
     }
