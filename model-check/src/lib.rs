@@ -48,6 +48,7 @@
 mod canonical;
 pub mod check;
 pub mod confinement;
+pub mod crossing;
 mod exploration;
 pub mod export;
 pub mod fair;

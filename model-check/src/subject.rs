@@ -1,6 +1,7 @@
-//! What can be checked by name: scenarios, untimed and timed, and the paper's text.
+//! What can be checked by name: scenarios, untimed and timed, streets, and the paper's text.
 
 use crate::check::check;
+use crate::crossing::{SHIPPED, Shipped};
 use crate::exploration::{CheckProgress, Options};
 use crate::model::Model;
 use crate::paper;
@@ -13,6 +14,8 @@ use crate::timed;
 pub enum Subject {
     /// A scenario.
     Scenario(Box<Scenario>),
+    /// The crossing machine on a street.
+    Street(Shipped),
     /// The paper's text as it stands, which must fail.
     PaperLiteral,
 }
@@ -20,7 +23,8 @@ pub enum Subject {
 impl Subject {
     /// The names of the shipped subjects; quick scenarios first.
     pub fn shipped() -> impl Iterator<Item = &'static str> {
-        Scenario::shipped().chain([paper::NAME])
+        let streets = SHIPPED.iter().map(|street| street.name);
+        Scenario::shipped().chain(streets).chain([paper::NAME])
     }
 
     /// The one of this name, or the scenario in the file of this name.
@@ -31,13 +35,17 @@ impl Subject {
         if name == paper::NAME {
             return Ok(Self::PaperLiteral);
         }
+        if let Some(street) = Shipped::of(name) {
+            return Ok(Self::Street(street));
+        }
         Ok(Self::Scenario(Box::new(Scenario::load(name)?)))
     }
 
-    /// Checks it. `watch` receives the progress now and then; never of the paper's text, which is small.
+    /// Checks it. `watch` receives the progress now and then; never of the paper's text and of streets, which are small.
     pub fn check(self, options: &Options, watch: &mut dyn FnMut(CheckProgress)) -> ScenarioReport {
         match self {
             Self::PaperLiteral => paper::check(),
+            Self::Street(street) => street.check(options),
             Self::Scenario(scenario) => match timed::TimedModel::new((*scenario).clone()) {
                 Some(model) => timed::check(&model, options, watch),
                 None => check(&Model::new(*scenario), options, watch),

@@ -2,6 +2,7 @@
 
 mod channels;
 mod confinement;
+mod crossing;
 mod fair;
 mod insiders;
 mod odds;

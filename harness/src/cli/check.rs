@@ -14,6 +14,7 @@ use std::time::Duration;
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
 use crossguard_model_check::check::{CheckProgress, Options, Stop};
+use crossguard_model_check::crossing::SHIPPED;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::paper;
 use crossguard_model_check::replay::Replay;
@@ -214,6 +215,9 @@ fn list() -> Result<(), Failure> {
         Ok(())
     };
     rows(&mut Scenario::shipped())?;
+    for street in SHIPPED {
+        row(street.name, street.summary)?;
+    }
     row(paper::NAME, paper::SUMMARY)?;
     print("\nLarge ones, for --large or --workers:")?;
     rows(&mut Scenario::large())

@@ -19,8 +19,9 @@ const AGAIN: Millis = Millis(500);
 /// How long a leader waits before it asks again for an open corridor or an escort.
 const OPENING_PERIOD: Millis = Millis(500);
 
-/// For how long people step on the road beside an escort, which waits for each of them. Who comes later waits for its next
-/// way: a stream of people would keep it on the road.
+/// For how long people step on the road beside an escort, which waits for each of them: a stream of people would keep it on
+/// the road, so later ones wait for its next way. A team that holds shows go until nobody has stepped on the road for so long:
+/// somebody who only stands there would keep the vehicles waiting.
 const STEP_ON: Millis = Millis(10_000);
 
 /// For how long an escort goes on to its kerb after everybody is across.
@@ -78,8 +79,10 @@ pub(crate) struct Lead {
     tried: Millis,
     /// After that time it gives up.
     patience: Millis,
-    /// Until then people step on the road beside an escort.
+    /// Until then people step on the road.
     opened: Millis,
+    /// Whether that time was over before everybody who waits had stepped on it.
+    is_unused: bool,
     /// Until then it waits for its escort to come to the kerb, after everybody is across.
     ending: Millis,
 }
@@ -117,6 +120,7 @@ impl Lead {
             tried: Millis::ZERO,
             patience: plan.patience,
             opened: STEP_ON,
+            is_unused: false,
             ending: ESCORT_ENDS,
         }
     }
@@ -528,7 +532,8 @@ impl Lead {
         let is_done = plan.is_last(self.stage) && self.is_ready(plan);
         let is_over_there = plan.is_last(self.stage) && self.is_over_there(setup, plan);
         let may_try = self.tried == Millis::ZERO;
-        if view.corridor != Corridor::Open {
+        let goes_with_escort = plan.is_escort(self.stage, setup.escorts());
+        if view.corridor != Corridor::Open || !goes_with_escort && view.was_seen {
             self.opened = STEP_ON;
         }
         if !view.everybody_is_across && !view.nobody_is_lost {
@@ -536,10 +541,10 @@ impl Lead {
         }
         match view.corridor {
             Corridor::Open => {
-                // Who comes when the escort is over there waits for its next way; a team that holds lets everybody across.
-                let is_escorted = plan.is_escort(self.stage, setup.escorts());
-                let is_full = is_escorted && self.opened == Millis::ZERO;
-                if is_full || is_over_there && (is_escorted || !view.is_wanted) {
+                // People who come when the escort is over there wait for its next way.
+                let is_full = self.opened == Millis::ZERO;
+                self.is_unused = is_full && !goes_with_escort;
+                if is_full || is_over_there && (goes_with_escort || !view.is_wanted) {
                     out.tell(Event::CloseCorridor);
                 }
             }
@@ -548,20 +553,20 @@ impl Lead {
                 let lets_cross = plan.lets_cross(setup.guarding);
                 // An escort that lost its person on the road waits there; its leader knows where they are. One that is
                 // not heard any more may be lost itself.
-                let is_escorted = plan.is_last(self.stage)
-                    && plan.is_escort(self.stage, setup.escorts())
-                    && self.are_heard(setup, plan);
+                let is_escorted =
+                    plan.is_last(self.stage) && goes_with_escort && self.are_heard(setup, plan);
                 let is_ended = self.ending == Millis::ZERO;
                 let may_end =
                     is_done || is_ended && (is_over_there || is_escorted && view.has_opened);
-                // Who waits by then is called for anew.
-                let is_through = is_escorted && view.has_crossed && view.nobody_is_lost;
+                // For people who wait by then it calls anew.
+                let is_through =
+                    (is_escorted && view.has_crossed || self.is_unused) && view.nobody_is_lost;
                 if is_done && !lets_cross || may_end && (view.everybody_is_across || is_through) {
                     out.tell(Event::TaskCompleted);
                 } else if self.patience == Millis::ZERO {
                     out.tell(Event::LeaveRequested);
                     return false;
-                } else if may_try && is_done && plan.is_escort(self.stage, setup.escorts()) {
+                } else if may_try && is_done && goes_with_escort {
                     // The escort is over there, and nobody came along.
                     self.tried = OPENING_PERIOD;
                     self.begin_stage(setup, plan, view, 0, out);

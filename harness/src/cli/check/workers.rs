@@ -118,7 +118,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 fn scenario(name: &str) -> Result<Scenario, Failure> {
     match Subject::load(name).map_err(Failure::input)? {
         Subject::Scenario(scenario) => Ok(*scenario),
-        Subject::PaperLiteral => Err(Failure::input(format!(
+        Subject::PaperLiteral | Subject::Street(_) => Err(Failure::input(format!(
             "'{name}' is no scenario, and small: leave --workers and --hosts out"
         ))),
     }

@@ -171,8 +171,10 @@ impl World<'_> {
         let crossing_us = draw.plan.crossing_us(draw.time_scale);
         if self.swarm.sensing.is_some() {
             // Robots call by themselves when they see somebody wait.
-            self.walkers_come();
-            let next_us = self.now_us + self.draws.random_range(5 * SECOND_US..=30 * SECOND_US);
+            if !self.somebody_waits() {
+                self.walkers_come();
+            }
+            let next_us = self.now_us + self.draws.random_range(SECOND_US..=5 * SECOND_US);
             self.at(next_us, Next::Notices);
             return Ok(());
         }

@@ -200,7 +200,7 @@ impl World<'_> {
                 self.sets_out(number, session);
             }
         }
-        if self.walkers.iter().any(|it| it.waits) {
+        if self.somebody_waits() {
             self.plan_look(0);
         }
         Ok(())
@@ -251,6 +251,11 @@ impl World<'_> {
             waits[usize::from(walker.is_after_healing)].left += 1;
         }
         waits
+    }
+
+    /// Whether somebody waits at the kerb, or comes to it.
+    pub(super) fn somebody_waits(&self) -> bool {
+        self.walkers.iter().any(|it| it.waits)
     }
 
     /// Whether nobody is on the road.

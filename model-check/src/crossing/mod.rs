@@ -1,0 +1,302 @@
+//! The crossing machine with real robots, people, a sensor, a body, a sign and a vehicle, explored to the end by stateright.
+//!
+//! ```text
+//!   people ──► sensor: misses, ids, blindness ──► Crossing ◄──► Robot   leader
+//!      ▲                                                          │ good channel
+//!    sign ◄───────────────────────────────────── Crossing ◄──► Robot   follower ──► body
+//!      └───────────► truth: P1 to P3, P5 and P6, from people, bodies and the sign alone
+//! ```
+//!
+//! Time passes in ticks of half a second. In each tick people and the vehicle move as they like, the sensor misses people
+//! within the assumption `sees`, and at most one of the things happens that a [`Street`] allows. People step on the
+//! carriageway under go alone, and are then on it for as long as they like, also beside the crossing. A vehicle, changes of
+//! ids, hangs, blindness and drifts are bounded for a run, and no run is as long as `T_lock` or `T_exec`; nothing else is
+//! bounded. `truth` judges, and shares nothing with the machine. P4, about escorts, needs finer geometry and is not here.
+
+mod rules;
+mod street;
+mod team;
+mod truth;
+
+use std::time::{Duration, Instant};
+
+use crossguard_crossing::Setup;
+use stateright::{Checker, Model as _};
+
+use crate::check::{Options, STATERIGHT};
+use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
+use crate::sequence::{ChartPlace, ChartStep};
+use crate::transitions::Transitions;
+
+use rules::Rules;
+use street::World;
+pub use truth::{Rule, RuleClaim};
+
+/// In how many consecutive frames the machines assume that the sensor misses somebody at most, and it does.
+pub const MISS_MAX: u8 = 1;
+
+/// What may happen in a run, and how often.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Street {
+    /// How many people there are, at most two.
+    pub people: u8,
+    /// In how many consecutive frames the sensor misses somebody at most.
+    pub misses: u8,
+    /// How often ids change, or are swapped.
+    pub id_changes: u8,
+    /// How many ticks the leader's process hangs in all.
+    pub hang: u8,
+    /// How many ticks the sensor delivers nothing in all.
+    pub blind: u8,
+    /// How often the guard drifts off its place, or does not know any more where it is.
+    pub drifts: u8,
+    /// Whether a vehicle comes along.
+    pub vehicle: bool,
+}
+
+impl Street {
+    /// One person, and a sensor that misses as much as it may.
+    pub const PERSON: Self = Self {
+        people: 1,
+        misses: MISS_MAX,
+        id_changes: 0,
+        hang: 0,
+        blind: 0,
+        drifts: 0,
+        vehicle: false,
+    };
+}
+
+/// A street that can be checked by name.
+#[derive(Clone, Copy, Debug)]
+pub struct Shipped {
+    /// Its name.
+    pub name: &'static str,
+    /// What it is about, in one line.
+    pub summary: &'static str,
+    /// What may happen.
+    pub street: Street,
+    /// The rules whose premises are met in it.
+    pub rules: &'static [Rule],
+    /// How many states it has.
+    pub states: usize,
+}
+
+/// The shipped streets.
+pub const SHIPPED: [Shipped; 6] = {
+    const PERSON: Street = Street::PERSON;
+    const MET: &[Rule] = &[Rule::P1, Rule::P5, Rule::P6];
+    const DRIFT: &[Rule] = &[Rule::P1, Rule::P2, Rule::P5, Rule::P6];
+    const VEHICLE: &[Rule] = &[Rule::P1, Rule::P3, Rule::P5, Rule::P6];
+    const fn of(
+        name: &'static str,
+        summary: &'static str,
+        street: Street,
+        rules: &'static [Rule],
+        states: usize,
+    ) -> Shipped {
+        Shipped {
+            name,
+            summary,
+            street,
+            rules,
+            states,
+        }
+    }
+    [
+        of(
+            "street-person",
+            "a sensor misses a person who crosses in every other frame, or less often",
+            PERSON,
+            MET,
+            12_219,
+        ),
+        of(
+            "street-ids",
+            "the same, and the tracker's ids change twice",
+            Street {
+                id_changes: 2,
+                ..PERSON
+            },
+            MET,
+            53_169,
+        ),
+        of(
+            "street-hang",
+            "the same with ids that stay, and the leader hangs for up to 1 s",
+            Street { hang: 2, ..PERSON },
+            MET,
+            415_714,
+        ),
+        of(
+            "street-blind",
+            "the same, and the sensor delivers nothing for up to 1 s",
+            Street { blind: 2, ..PERSON },
+            MET,
+            185_598,
+        ),
+        of(
+            "street-drift",
+            "the same, and the guard leaves its place, or does not know it any more",
+            Street {
+                drifts: 1,
+                ..PERSON
+            },
+            DRIFT,
+            111_408,
+        ),
+        of(
+            "street-vehicle",
+            "the same, and a vehicle comes at 50 km/h",
+            Street {
+                vehicle: true,
+                ..PERSON
+            },
+            VEHICLE,
+            143_061,
+        ),
+    ]
+};
+
+/// More steps than any shipped street has.
+const STEPS_MAX: usize = 20_000_000;
+
+impl Shipped {
+    /// The street of this name, if there is one.
+    #[must_use]
+    pub fn of(name: &str) -> Option<Self> {
+        SHIPPED.into_iter().find(|it| it.name == name)
+    }
+
+    /// Explores it.
+    #[must_use]
+    pub fn check(&self, options: &Options) -> ScenarioReport {
+        let states_max = options.states_max.unwrap_or(STEPS_MAX);
+        let found = explore(self.street, |_| (), states_max, options.time_max);
+        let mut properties = Vec::new();
+        for rule in self.rules {
+            let claim = rule.claim();
+            let run = found.broken.iter().find(|(broken, _)| broken == rule);
+            let steps = run.iter().flat_map(|(_, run)| run.iter());
+            let report = |id: &str, kind: &str, verdict, statement: &str| PropertyReport {
+                id: id.to_owned(),
+                kind: kind.to_owned(),
+                verdict,
+                statement: statement.to_owned(),
+                authentication: None,
+                counterexample: Vec::new(),
+                repeats_after: None,
+            };
+            let verdict = CheckVerdict::of_property(run.is_some(), found.cut_off);
+            properties.push(PropertyReport {
+                counterexample: steps.map(|state| in_words(state)).collect(),
+                ..report(claim.id, "S", verdict, claim.statement)
+            });
+            let verdict = CheckVerdict::of_premise(found.met.contains(rule), found.cut_off);
+            properties.push(report(claim.premise_id, "premise", verdict, claim.premise));
+        }
+        ScenarioReport {
+            name: self.name.to_owned(),
+            summary: self.summary.to_owned(),
+            robots: ["leader", "follower"].map(str::to_owned).to_vec(),
+            unique_states: found.states,
+            transitions: found.transitions,
+            depth: found.depth,
+            seconds: found.time.as_secs_f64(),
+            engines: vec![STATERIGHT],
+            exhaustive: found.cut_off.is_none(),
+            cut_off: found.cut_off,
+            size_as_expected: found
+                .cut_off
+                .is_none()
+                .then_some(found.states == self.states),
+            properties,
+            figures: Vec::new(),
+            assumptions: ASSUMPTIONS.map(str::to_owned).to_vec(),
+            // The machine's states are not those of the diagram.
+            transitions_taken: Transitions::default(),
+        }
+    }
+}
+
+/// What the verdicts assume.
+const ASSUMPTIONS: [&str; 6] = [
+    "sees: the sensor, which covers the whole road, misses nobody in more than 1 frame in a row; nobody walks faster than 9 m/s, or crosses within a second",
+    "people step on the road under go alone, and stay on it for as long as they like",
+    "time passes in ticks of 0.5 s, and at most one fault happens in a tick; messages arrive at once",
+    "positions and what vehicles say of themselves are true",
+    "the follower has no sensors: a person tells it that the road is clear, when it is, once its leader is idle",
+    "no run is as long as T_lock or T_exec",
+];
+
+/// A state of a run, in a chart.
+fn in_words(state: &str) -> ChartStep {
+    ChartStep {
+        place: ChartPlace::At(0),
+        action: state.to_owned(),
+        outputs: Vec::new(),
+    }
+}
+
+/// What an exploration found.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// Distinct states.
+    pub states: usize,
+    /// Steps between them.
+    pub transitions: usize,
+    /// Steps from the first to the farthest of them.
+    pub depth: usize,
+    /// Why not every state was explored, where that is so.
+    pub cut_off: Option<CutOff>,
+    /// The rules that are broken, each with a shortest run, as states in words.
+    pub broken: Vec<(Rule, Vec<String>)>,
+    /// The rules whose premises were met.
+    pub met: Vec<Rule>,
+    /// How long it took.
+    pub time: Duration,
+}
+
+/// Explores a street until nothing is left, about `steps_max` steps have been taken, or the time is over. `change` changes the
+/// settings of both machines.
+#[must_use]
+pub fn explore(
+    street: Street,
+    change: fn(&mut Setup),
+    steps_max: usize,
+    time_max: Option<Duration>,
+) -> Found {
+    let begin = Instant::now();
+    let world = World {
+        street,
+        rules: Rules::new(change),
+    };
+    let checker = world.checker().threads(2).target_state_count(steps_max);
+    let checker = match time_max {
+        Some(time) => checker.timeout(time),
+        None => checker,
+    };
+    let checker = checker.spawn_bfs().join();
+    let run = |rule: &Rule| {
+        let path = checker.discovery(rule.claim().id)?;
+        let states = path.into_states().into_iter();
+        Some((*rule, states.map(|state| state.to_string()).collect()))
+    };
+    let is_met = |rule: &Rule| checker.discovery(rule.claim().premise_id).is_some();
+    // stateright says that it is done where it stops at a limit as well.
+    let is_late = time_max.is_some_and(|time| begin.elapsed() >= time);
+    let cut_off = if checker.state_count() >= steps_max {
+        Some(CutOff::StateLimit)
+    } else {
+        is_late.then_some(CutOff::TimeLimit)
+    };
+    Found {
+        states: checker.unique_state_count(),
+        transitions: checker.state_count(),
+        depth: checker.max_depth(),
+        cut_off,
+        broken: Rule::ALL.iter().filter_map(run).collect(),
+        met: Rule::ALL.into_iter().filter(is_met).collect(),
+        time: begin.elapsed(),
+    }
+}

@@ -1,0 +1,122 @@
+//! What both robots are set up with.
+
+use crossguard_crossing::{
+    Coverage, Ground, Leg, Plan, Point, Pose, PositionRules, Sensors, Setup, Shape, Stage,
+    WaitingRules,
+};
+use crossguard_protocol::{Config, HelpRequest, List, Millis, Settings, TaskSet, TaskType};
+
+use super::MISS_MAX;
+use super::street::{Guard, TICK};
+
+/// Where the guard stands.
+pub(super) const POST: Point = Point::new(-200, 200);
+
+/// Where a guard is that has drifted: 4 m off its place.
+const DRIFTED: Point = Point::new(-600, 200);
+
+/// A machine. It has room for more tracks than there are people: those whose ids change have two.
+pub(super) type Machine = crossguard_crossing::Crossing<4>;
+
+/// Where the body of a guard says that it is, if it is there but for what went wrong.
+pub(super) fn pose(guard: Guard, at: Point) -> Option<Pose> {
+    let at = if guard.is_drifted { DRIFTED } else { at };
+    (!guard.is_lost).then_some(Pose { at, error_cm: 10 })
+}
+
+/// What both robots are set up with.
+#[derive(Clone, Debug)]
+pub(super) struct Rules {
+    pub(super) setups: [Setup; 2],
+    pub(super) config: Config,
+}
+
+impl Rules {
+    pub(super) fn new(change: fn(&mut Setup)) -> Self {
+        let config = config();
+        let mut setups = setups(&config);
+        setups.iter_mut().for_each(change);
+        Self { setups, config }
+    }
+}
+
+/// The timers are as in use, or shorter where that makes fewer states, and multiples of a tick but for leases.
+fn config() -> Config {
+    let settings = Settings {
+        ram_period: TICK,
+        t_select: TICK,
+        t_offer: Millis(2_000),
+        t_help: Millis(3_000),
+        t_safety: Millis(2_000),
+        t_lease: Millis(1_800),
+        t_farewell: Millis(1_500),
+        drift_ppm: 0,
+        delay_max: Millis::ZERO,
+        ..Settings::default()
+    };
+    Config::new(settings).unwrap_or_default()
+}
+
+fn rectangle(west: i32, south: i32, east: i32, north: i32) -> Option<Shape> {
+    let corners = [(west, south), (east, south), (east, north), (west, north)];
+    Shape::new(&corners.map(|(east, north)| Point::new(east, north)))
+}
+
+/// The settings of the leader's machine and of the follower's, which has no sensors.
+fn setups(config: &Config) -> [Setup; 2] {
+    let ground = Ground {
+        road: rectangle(-3_000, 0, 3_000, 700),
+        crossing: rectangle(-300, 0, 300, 700),
+        waiting: rectangle(-300, -250, 300, 950),
+        parts: Coverage(1),
+    };
+    let task = TaskType::BLOCK;
+    let leg = Leg {
+        task,
+        to: POST,
+        speed_mmps: 1_000,
+        heading_ddeg: None,
+    };
+    let mut leader = Setup {
+        watches: true,
+        calls: true,
+        sensors: Sensors {
+            miss_max: MISS_MAX,
+            // People go from cell to cell within a tick.
+            speed_max_cmps: 900,
+            age_max: Millis(250),
+            gap_max: TICK,
+            ..Sensors::default()
+        },
+        waiting: WaitingRules {
+            dwell: TICK,
+            ..WaitingRules::default()
+        },
+        position: PositionRules {
+            lease: Millis(750),
+            ..PositionRules::default()
+        },
+        ground,
+        plan: Some(Plan {
+            followers: 1,
+            stages: core::iter::once(Stage::everybody(leg)).collect(),
+            roles: List::EMPTY,
+            own_place: None,
+            patience: Millis(10_000),
+            kerbs: None,
+        }),
+        ..Setup::default()
+    }
+    .with(config);
+    leader.request = HelpRequest {
+        tasks: TaskSet::of(&[task]),
+        ..leader.request
+    };
+    let follower = Setup {
+        watches: false,
+        calls: false,
+        plan: None,
+        ..leader.clone()
+    };
+    [leader, follower]
+}

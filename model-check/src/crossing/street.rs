@@ -1,0 +1,465 @@
+//! The street: people, a vehicle, the guard's body, the sign and the sensor, and what may happen to them in a tick.
+
+use std::fmt;
+
+use crossguard_crossing::{Coverage, Frame, Input, Point, RoadUser, Sighting, Vehicle, Way};
+use crossguard_protocol::Millis;
+use stateright::Property;
+
+use super::Street;
+use super::rules::Rules;
+use super::team::Team;
+use super::truth::{ADRIFT_MAX, DETECT_MAX, END_MAX, Rule};
+
+/// A tick.
+pub(super) const TICK: Millis = Millis(500);
+
+/// How many people there are at most.
+pub(super) const PEOPLE_MAX: usize = 2;
+
+/// Where somebody is.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) enum Cell {
+    /// On the pavement, at the crossing.
+    Near,
+    /// On the crossing.
+    Lane,
+    /// On the carriageway, beside the crossing.
+    Beside,
+    /// On the other pavement.
+    Far,
+    /// Out of everybody's sight, off the road.
+    Away,
+}
+
+impl Cell {
+    pub(super) const fn is_road(self) -> bool {
+        matches!(self, Self::Lane | Self::Beside)
+    }
+
+    /// Where it is. Cells from one of which somebody gets to another within a tick are at most 4.5 m apart.
+    const fn place(self, person: usize) -> Point {
+        let east = if person == 0 { 100 } else { 0 };
+        match self {
+            Self::Near => Point::new(east, -30),
+            Self::Lane => Point::new(east, 350),
+            Self::Beside => Point::new(450 + east, 350),
+            Self::Far => Point::new(east, 730),
+            Self::Away => Point::new(east, -4_000),
+        }
+    }
+
+    /// Where somebody may be a tick later. People step on the road under go alone, and leave it where they like.
+    const fn moves(self, goes: bool, is_free: bool) -> &'static [Self] {
+        match self {
+            Self::Near if goes => &[Self::Near, Self::Lane, Self::Away],
+            Self::Near => &[Self::Near, Self::Away],
+            Self::Lane => &[Self::Lane, Self::Near, Self::Far, Self::Beside],
+            Self::Beside => &[Self::Beside, Self::Lane],
+            // Somebody who stays there for longer waits there.
+            Self::Far if is_free => &[Self::Away],
+            Self::Far => &[Self::Far, Self::Away],
+            Self::Away => &[Self::Away],
+        }
+    }
+}
+
+/// Somebody.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) struct Person {
+    pub(super) at: Cell,
+    /// In how many frames the sensor has missed them in a row.
+    pub(super) missed: u8,
+    /// What the sensor calls them.
+    id: u8,
+    /// Whether they have been on the road.
+    has_walked: bool,
+    /// Whether a frame that the leader took in at once had them there.
+    was_seen_there: bool,
+    /// For how many ticks they have been on the road, at most 2.
+    on_road: u8,
+}
+
+/// The guard's body.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub(super) struct Guard {
+    /// It is 4 m off its place.
+    pub(super) is_drifted: bool,
+    /// It does not say any more where it is.
+    pub(super) is_lost: bool,
+    /// For how many ticks it has been off its place, saturating.
+    pub(super) adrift: u8,
+    /// It has guarded, and does not any more; or a word of the leader has freed it.
+    pub(super) has_left: bool,
+}
+
+/// The leader's sign.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub(super) struct Sign {
+    /// For how many milliseconds yet it shows go.
+    pub(super) left: u32,
+    /// Whether go began in this tick.
+    pub(super) has_begun: bool,
+}
+
+impl Sign {
+    pub(super) const fn shows_go(self) -> bool {
+        self.left > 0
+    }
+}
+
+/// Who was where, and was seen as whom, at one time.
+type Seen = [Option<(Cell, u8)>; PEOPLE_MAX];
+
+/// What the leader takes in at a tick.
+pub(super) struct Sensed<'a> {
+    /// How many ticks have passed since it ran last; none while it hangs.
+    pub(super) passed: u8,
+    /// Frames with their ages in ticks.
+    frames: &'a [(u8, Seen)],
+    vehicle: Option<Vehicle>,
+}
+
+impl Sensed<'_> {
+    /// Calls `tell` with everything, in order.
+    pub(super) fn each(&self, mut tell: impl FnMut(Input<'_>)) {
+        for (age, seen) in self.frames {
+            let people = seen.iter().enumerate();
+            let people = people.filter_map(|(number, it)| Some(sighting(number, (*it)?)));
+            let sightings: Vec<_> = people.collect();
+            tell(Input::Frame(Frame {
+                source: 0,
+                age: Millis(u32::from(*age) * TICK.0),
+                covers: Coverage::ALL,
+                sightings: &sightings,
+            }));
+        }
+        if let Some(vehicle) = self.vehicle {
+            tell(Input::Vehicle(vehicle, Millis::ZERO));
+        }
+    }
+}
+
+/// One state.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub(super) struct State {
+    pub(super) team: Team,
+    pub(super) people: Vec<Person>,
+    pub(super) guard: Guard,
+    pub(super) sign: Sign,
+    /// How many metres a vehicle is before the crossing.
+    pub(super) car: Option<u8>,
+    /// Frames that wait for a leader that hangs, oldest first, with their ages in ticks.
+    piled: Vec<(u8, Seen)>,
+    /// For how many ticks the leader hangs already.
+    hangs: u8,
+    /// What may still happen.
+    pub(super) left: Street,
+    /// Whether the guard guards.
+    pub(super) guards: bool,
+    /// Whether the team is free.
+    pub(super) is_free: bool,
+    /// For how many ticks somebody has waited in front of an idle team.
+    pub(super) undetected: u8,
+    /// For how many ticks everybody has been off the road for good and the team is not free.
+    pub(super) off_road: u8,
+}
+
+/// What happens in a tick.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Tick {
+    moves: [Option<Cell>; PEOPLE_MAX],
+    /// Who is missed.
+    missed: [bool; PEOPLE_MAX],
+    fault: Fault,
+}
+
+/// What goes wrong, or comes along: one thing in a tick.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Fault {
+    None,
+    ChangesIds,
+    Blind,
+    Hangs,
+    Drifts,
+    IsLost,
+    CarComes,
+}
+
+/// A street to explore.
+#[derive(Clone, Debug)]
+pub(super) struct World {
+    pub(super) street: Street,
+    pub(super) rules: Rules,
+}
+
+impl World {
+    fn moves(&self, state: &State) -> Vec<([Option<Cell>; PEOPLE_MAX], [bool; PEOPLE_MAX])> {
+        let mut all = vec![([None; PEOPLE_MAX], [false; PEOPLE_MAX])];
+        for (number, person) in state.people.iter().enumerate() {
+            let mut more = Vec::new();
+            for (moves, missed) in &all {
+                for cell in person.at.moves(state.sign.shows_go(), state.is_free) {
+                    // Nobody runs across in a second. Somebody who did, and was missed, would be one who waits over there.
+                    if *cell == Cell::Far && person.at.is_road() && person.on_road < 2 {
+                        continue;
+                    }
+                    for is_missed in [false, true] {
+                        if is_missed && (person.missed >= self.street.misses || *cell == Cell::Away)
+                        {
+                            continue;
+                        }
+                        let (mut moves, mut missed) = (*moves, *missed);
+                        (moves[number], missed[number]) = (Some(*cell), is_missed);
+                        more.push((moves, missed));
+                    }
+                }
+            }
+            all = more;
+        }
+        all
+    }
+
+    fn faults(state: &State) -> Vec<Fault> {
+        let left = &state.left;
+        let may_drift = left.drifts > 0 && state.team.guards() && state.guard.adrift == 0;
+        let possible = [
+            (Fault::None, true),
+            (Fault::ChangesIds, left.id_changes > 0),
+            (Fault::Blind, left.blind > 0),
+            (Fault::Hangs, left.hang > 0),
+            (Fault::Drifts, may_drift),
+            (Fault::IsLost, may_drift),
+            (Fault::CarComes, left.vehicle),
+        ];
+        let possible = possible.into_iter().filter(|(_, may)| *may);
+        possible.map(|(fault, _)| fault).collect()
+    }
+
+    fn successor(&self, state: &State, tick: Tick) -> State {
+        let mut next = state.clone();
+        next.move_all(tick);
+        next.sense(&self.rules, tick);
+        next.judge(tick.fault);
+        next
+    }
+}
+
+impl State {
+    /// People, the car and the guard move, and the sign goes on.
+    fn move_all(&mut self, tick: Tick) {
+        for (person, to) in self.people.iter_mut().zip(tick.moves) {
+            person.at = to.unwrap_or(person.at);
+            person.has_walked |= person.at.is_road();
+            let since = (person.on_road + 1).min(2);
+            person.on_road = if person.at.is_road() { since } else { 0 };
+        }
+        self.sign.left = self.sign.left.saturating_sub(TICK.0);
+        self.car = self.car.and_then(|metres| metres.checked_sub(14));
+        self.car = self.car.filter(|metres| *metres > 0);
+        if self.team.begins() {
+            self.guard = Guard::default();
+        }
+        self.team.walk();
+        let left = &mut self.left;
+        match tick.fault {
+            Fault::None => {}
+            Fault::ChangesIds => {
+                left.id_changes -= 1;
+                match &mut self.people[..] {
+                    [first, second] => core::mem::swap(&mut first.id, &mut second.id),
+                    people => people.iter_mut().for_each(|it| it.id += 1),
+                }
+            }
+            Fault::Blind => left.blind -= 1,
+            Fault::Hangs => left.hang -= 1,
+            Fault::Drifts => (left.drifts, self.guard.is_drifted) = (left.drifts - 1, true),
+            Fault::IsLost => (left.drifts, self.guard.is_lost) = (left.drifts - 1, true),
+            Fault::CarComes => (left.vehicle, self.car) = (false, Some(84)),
+        }
+    }
+
+    /// The sensor looks, and the robots do what they do.
+    fn sense(&mut self, rules: &Rules, tick: Tick) {
+        let went = self.sign.shows_go();
+        let mut seen = [None; PEOPLE_MAX];
+        for (number, person) in self.people.iter_mut().enumerate() {
+            let is_missed = tick.missed[number];
+            // A frame that is not made misses nobody.
+            if tick.fault != Fault::Blind {
+                person.missed = if is_missed { person.missed + 1 } else { 0 };
+            }
+            if !is_missed && person.at != Cell::Away {
+                seen[number] = Some((person.at, person.id));
+                let is_taken_in = !matches!(tick.fault, Fault::Blind | Fault::Hangs);
+                person.was_seen_there |= is_taken_in && person.at.is_road();
+            }
+        }
+        for (age, _) in &mut self.piled {
+            *age += 1;
+        }
+        if tick.fault != Fault::Blind {
+            self.piled.push((0, seen));
+        }
+        let (passed, frames) = if tick.fault == Fault::Hangs {
+            self.hangs += 1;
+            (0, Vec::new())
+        } else {
+            let hung = core::mem::take(&mut self.hangs);
+            (hung + 1, core::mem::take(&mut self.piled))
+        };
+        let sensed = Sensed {
+            passed,
+            frames: &frames,
+            vehicle: self.car.map(vehicle),
+        };
+        let is_road_empty = !self.people.iter().any(|it| it.at.is_road());
+        self.team
+            .tick(rules, self.guard, &sensed, is_road_empty, &mut self.sign);
+        self.sign.has_begun = self.sign.shows_go() && !went;
+    }
+
+    /// What is kept of the past to judge by.
+    fn judge(&mut self, fault: Fault) {
+        self.guards = self.team.guards();
+        self.guard.has_left = self.team.has_left();
+        let is_off = self.guard.is_drifted || self.guard.is_lost;
+        self.guard.adrift = if is_off && self.guards {
+            (self.guard.adrift + 1).min(ADRIFT_MAX + 1)
+        } else {
+            0
+        };
+        self.is_free = self.team.is_idle();
+        let is_disturbed = self.hangs > 0 || fault == Fault::Blind;
+        let is_new = |it: &Person| it.at == Cell::Near && !it.has_walked;
+        let waits = self.people.iter().any(is_new);
+        self.undetected = if waits && self.is_free && !is_disturbed {
+            (self.undetected + 1).min(DETECT_MAX + 1)
+        } else {
+            0
+        };
+        // Somebody at the other kerb whom no frame had on the road waits there, as far as anybody can know.
+        let is_off_road =
+            |it: &Person| it.at == Cell::Away || it.at == Cell::Far && it.was_seen_there;
+        let is_calm = self.people.iter().all(is_off_road) && !is_disturbed && self.car.is_none();
+        self.off_road = if is_calm && !self.is_free {
+            (self.off_road + 1).min(END_MAX + 1)
+        } else {
+            0
+        };
+        self.team.canonicalize();
+    }
+}
+
+fn vehicle(metres: u8) -> Vehicle {
+    Vehicle {
+        key: 7,
+        at: Point::new(-300 - 100 * i32::from(metres), 200),
+        error_cm: 0,
+        velocity: Way {
+            east_cm: 1_389,
+            north_cm: 0,
+        },
+    }
+}
+
+/// Somebody as a frame has them.
+fn sighting(person: usize, (cell, id): (Cell, u8)) -> Sighting {
+    Sighting {
+        id: Some(id.into()),
+        at: cell.place(person),
+        error_cm: 0,
+        velocity: None,
+        what: RoadUser::Pedestrian,
+        confidence: 90,
+    }
+}
+
+impl stateright::Model for World {
+    type State = State;
+    type Action = Tick;
+
+    fn init_states(&self) -> Vec<State> {
+        let person = |number: u8| Person {
+            at: Cell::Near,
+            missed: 0,
+            id: number,
+            has_walked: false,
+            was_seen_there: false,
+            on_road: 0,
+        };
+        vec![State {
+            team: Team::new(),
+            people: (0..self.street.people).map(person).collect(),
+            guard: Guard::default(),
+            sign: Sign::default(),
+            car: None,
+            piled: Vec::new(),
+            hangs: 0,
+            left: self.street,
+            guards: false,
+            is_free: true,
+            undetected: 0,
+            off_road: 0,
+        }]
+    }
+
+    fn actions(&self, state: &State, ticks: &mut Vec<Tick>) {
+        let faults = Self::faults(state);
+        for (moves, missed) in self.moves(state) {
+            ticks.extend(faults.iter().map(|&fault| Tick {
+                moves,
+                missed,
+                fault,
+            }));
+        }
+    }
+
+    fn next_state(&self, state: &State, tick: Tick) -> Option<State> {
+        Some(self.successor(state, tick))
+    }
+
+    fn properties(&self) -> Vec<Property<Self>> {
+        let mut properties = Vec::new();
+        macro_rules! rules {
+            ($($rule:ident)*) => {$(
+                properties.push(Property::always(
+                    Rule::$rule.claim().id,
+                    |_: &Self, state| Rule::$rule.holds(state),
+                ));
+                properties.push(Property::sometimes(
+                    Rule::$rule.claim().premise_id,
+                    |_: &Self, state| Rule::$rule.is_premise_met(state),
+                ));
+            )*};
+        }
+        rules!(P1 P2 P3 P5 P6);
+        // One that never comes about, so that the exploration goes to its end.
+        properties.push(Property::sometimes("never", |_, _| false));
+        properties
+    }
+}
+
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for person in &self.people {
+            let missed = if person.missed > 0 { ", missed" } else { "" };
+            write!(f, "{:?} as {}{missed}; ", person.at, person.id)?;
+        }
+        let sign = if self.sign.shows_go() { "go" } else { "stop" };
+        write!(f, "sign {sign}, {}", self.team)?;
+        if self.guard.adrift > 0 {
+            write!(f, ", the guard is off its place")?;
+        }
+        if let Some(metres) = self.car {
+            write!(f, ", a vehicle {metres} m away")?;
+        }
+        if self.hangs > 0 {
+            write!(f, ", the leader hangs")?;
+        }
+        if self.guard.has_left {
+            write!(f, ", the guard has left")?;
+        }
+        Ok(())
+    }
+}

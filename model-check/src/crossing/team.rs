@@ -1,0 +1,355 @@
+//! A leader and a follower, each a robot of the protocol with a crossing machine, on a good channel.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::fmt;
+
+use crossguard_crossing::{BodyReport, Input, Leg, Output, Outputs, Point};
+use crossguard_protocol::{
+    self as protocol, Decimetres, Duty, Event, Heartbeat, ManeuverId, Millis, Phase, Renaming,
+    Robot, SessionId, StationId, Timer, UniqueNumber,
+};
+
+use super::rules::{Machine, POST, Rules, pose};
+use super::street::{Guard, Sensed, Sign, TICK};
+
+const LEADER: usize = 0;
+const FOLLOWER: usize = 1;
+
+/// The leader's station.
+const LEADING: StationId = StationId(1);
+
+/// A robot with its machine.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+struct Member {
+    robot: Robot,
+    crossing: Machine,
+}
+
+/// What the follower's body does.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+struct Body {
+    at: Point,
+    task: Option<ManeuverId>,
+    to: Option<Point>,
+    /// Whether it holds a place because of a fallback.
+    holds: bool,
+    /// Whether a maneuver has begun since the last tick.
+    begins: bool,
+    has_guarded: bool,
+}
+
+/// The robots and the body of the follower.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub(super) struct Team {
+    members: [Member; 2],
+    body: Body,
+}
+
+/// What one handling needs besides the state.
+struct Turn<'a> {
+    rules: &'a Rules,
+    queue: VecDeque<(usize, protocol::Input)>,
+    sign: &'a mut Sign,
+    guard: Guard,
+    /// Whether the leader hangs, and what is sent to it is lost.
+    is_leader_deaf: bool,
+}
+
+impl Team {
+    pub(super) fn new() -> Self {
+        let member = |station| Member {
+            robot: Robot::new(StationId(station), 1),
+            crossing: Machine::default(),
+        };
+        Self {
+            members: [member(1), member(2)],
+            body: Body::default(),
+        }
+    }
+
+    /// Whether the body begins a maneuver, and so goes to its place.
+    pub(super) const fn begins(&self) -> bool {
+        self.body.begins
+    }
+
+    /// The body goes to its place, which takes a tick.
+    pub(super) fn walk(&mut self) {
+        self.body.begins = false;
+        if let Some(to) = self.body.to {
+            self.body.at = to;
+        }
+    }
+
+    /// A tick of both, or of the follower alone while the leader hangs. Once the leader is idle and nobody is on the road, a
+    /// person says so to a follower that waits for that word, for it has no sensors.
+    pub(super) fn tick(
+        &mut self,
+        rules: &Rules,
+        guard: Guard,
+        sensed: &Sensed<'_>,
+        is_road_empty: bool,
+        sign: &mut Sign,
+    ) {
+        let mut turn = Turn {
+            rules,
+            queue: VecDeque::new(),
+            sign,
+            guard,
+            is_leader_deaf: sensed.passed == 0,
+        };
+        if sensed.passed > 0 {
+            let passed = Millis(u32::from(sensed.passed) * TICK.0);
+            self.pass(LEADER, passed, &mut turn);
+            sensed.each(|input| self.tell(LEADER, input, &mut turn));
+            self.settle(&mut turn);
+        }
+        let is_leader_idle = matches!(self.members[LEADER].robot.phase(), Phase::Idle);
+        if is_leader_idle && is_road_empty && !turn.sign.shows_go() {
+            self.tell(FOLLOWER, Input::SaidClear, &mut turn);
+        }
+        self.follow(&mut turn);
+    }
+
+    fn follow(&mut self, turn: &mut Turn<'_>) {
+        self.pass(FOLLOWER, TICK, turn);
+        if let Some(pose) = pose(turn.guard, self.body.at) {
+            self.tell(FOLLOWER, Input::Pose(Some(pose), Millis::ZERO), turn);
+        }
+        if let Some(id) = self
+            .body
+            .task
+            .filter(|_| self.body.to == Some(self.body.at))
+        {
+            self.body.has_guarded = true;
+            self.tell(FOLLOWER, Input::Body(BodyReport::InPosition(id)), turn);
+        }
+        self.settle(turn);
+    }
+
+    fn pass(&mut self, member: usize, time: Millis, turn: &mut Turn<'_>) {
+        self.tell(member, Input::Elapsed(time), turn);
+        let elapsed = protocol::Input::Elapsed(time);
+        turn.queue.push_back((member, elapsed));
+        self.settle(turn);
+    }
+
+    fn tell(&mut self, member: usize, input: Input<'_>, turn: &mut Turn<'_>) {
+        let setup = &turn.rules.setups[member];
+        let out = self.members[member].crossing.step(setup, input);
+        self.carry_out(member, &out, turn);
+    }
+
+    fn carry_out(&mut self, member: usize, out: &Outputs, turn: &mut Turn<'_>) {
+        for output in out.iter().copied() {
+            match output {
+                Output::Tell(event) => {
+                    turn.queue
+                        .push_back((member, protocol::Input::Local(event)));
+                }
+                Output::Order(follower, Leg { task, .. }) => {
+                    let event = Event::CommandManeuver { follower, task };
+                    turn.queue
+                        .push_back((member, protocol::Input::Local(event)));
+                }
+                Output::Go(left) => turn.sign.left = left.0,
+                Output::Stop => turn.sign.left = 0,
+                Output::Release if member == FOLLOWER => self.body.holds = false,
+                _ => {}
+            }
+        }
+    }
+
+    /// Handles everything that is to be handled at this time.
+    fn settle(&mut self, turn: &mut Turn<'_>) {
+        while let Some((member, input)) = turn.queue.pop_front() {
+            if member == FOLLOWER || !turn.is_leader_deaf {
+                self.step(member, input, turn);
+            }
+        }
+    }
+
+    fn step(&mut self, member: usize, input: protocol::Input, turn: &mut Turn<'_>) {
+        use protocol::Output as Said;
+        let out = self.members[member].robot.step(&turn.rules.config, input);
+        for said in out.iter().copied() {
+            match said {
+                Said::SendRam => self.send_ram(member, turn),
+                Said::SendRmcm(rmcm) => {
+                    let rmcm = protocol::Input::Rmcm(rmcm);
+                    turn.queue.push_back((1 - member, rmcm));
+                }
+                Said::StartManeuver(maneuver) => {
+                    self.body = Body {
+                        task: Some(maneuver.id),
+                        to: Some(POST),
+                        holds: false,
+                        begins: true,
+                        ..self.body
+                    };
+                    self.tell(member, Input::Started(maneuver, Some(POST)), turn);
+                }
+                Said::StopManeuver(..) => {
+                    self.body.leave_task(false);
+                    self.tell(member, Input::Stopped, turn);
+                }
+                Said::FallBack(maneuver, policy) => {
+                    self.body.leave_task(true);
+                    self.tell(member, Input::FellBack(maneuver, policy), turn);
+                }
+                Said::CorridorOpened(left) | Said::CorridorExtended(left) => {
+                    self.tell(member, Input::CorridorOpen(left), turn);
+                }
+                Said::CorridorClosed(_) => self.tell(member, Input::CorridorClosed, turn),
+                Said::Notify(notice) => self.tell(member, Input::Notice(notice), turn),
+                _ => {}
+            }
+        }
+        let is_call = matches!(input, protocol::Input::Local(Event::PedestrianDetected(_)));
+        if is_call && out.ignored().is_some() {
+            self.tell(member, Input::CallIgnored, turn);
+        }
+        let Member { robot, crossing } = &mut self.members[member];
+        let out = crossing.learn(&turn.rules.setups[member], robot);
+        self.carry_out(member, &out, turn);
+    }
+
+    fn send_ram(&mut self, from: usize, turn: &mut Turn<'_>) {
+        let ram = self.members[from].robot.ram();
+        if from == FOLLOWER
+            && !turn.is_leader_deaf
+            && let Some(pose) = pose(turn.guard, self.body.at)
+        {
+            let at = Input::FollowerAt(ram.station, Some(pose), Millis::ZERO);
+            self.tell(LEADER, at, turn);
+        }
+        let distance = Decimetres(50);
+        let ram = protocol::Input::Ram { ram, distance };
+        turn.queue.push_back((1 - from, ram));
+    }
+
+    /// Whether the follower guards, or stands by because of a fallback.
+    pub(super) const fn guards(&self) -> bool {
+        let follows = matches!(self.members[FOLLOWER].robot.phase(), Phase::Following(_));
+        self.body.holds || follows && self.body.task.is_some()
+    }
+
+    /// Whether the follower has guarded, and does not any more.
+    pub(super) const fn has_left(&self) -> bool {
+        self.body.has_guarded && !self.guards()
+    }
+
+    pub(super) fn is_idle(&self) -> bool {
+        let is_idle =
+            |it: &Member| matches!(it.robot.phase(), Phase::Idle) && it.robot.duty().is_none();
+        self.members.iter().all(is_idle)
+    }
+
+    /// Takes absolute numbers out. The protocol asks of two heartbeats of one session, and of two numbers of one station,
+    /// which is newer, and of two sessions whether they are the same, so states that differ in such a renaming alone do
+    /// the same. Numbers in the machines are those of the follower's maneuver and duty: they and all older ones stay as
+    /// they are, until there is neither.
+    pub(super) fn canonicalize(&mut self) {
+        let mut names = Names::default();
+        for member in &self.members {
+            let _ = member.robot.renamed(&mut names);
+            let duty = member.robot.duty().map(|duty| match duty {
+                Duty::FallingBack(maneuver) => maneuver.id.session,
+                Duty::Crossing(session) => session,
+            });
+            let task = match member.robot.phase() {
+                Phase::Following(following) => following.executing().map(|it| it.id.session),
+                _ => None,
+            };
+            let held = duty.into_iter().chain(task).map(|it| it.number.0.count);
+            names.held = names.held.max(held.max());
+        }
+        for member in &mut self.members {
+            member.robot = member.robot.renamed(&mut Renamed(&names));
+        }
+    }
+}
+
+impl Body {
+    fn leave_task(&mut self, holds: bool) {
+        (self.task, self.to, self.holds) = (None, None, holds);
+    }
+}
+
+/// The names that occur in a state.
+#[derive(Default)]
+struct Names {
+    newest: BTreeMap<SessionId, Heartbeat>,
+    numbers: BTreeMap<StationId, BTreeSet<u16>>,
+    /// The newest number of the leader that a machine may have.
+    held: Option<u16>,
+}
+
+impl Renaming for Names {
+    fn heartbeat(&mut self, session: SessionId, heartbeat: Heartbeat) -> Heartbeat {
+        let newest = self.newest.entry(session).or_insert(heartbeat);
+        if heartbeat.is_newer_than(*newest) {
+            *newest = heartbeat;
+        }
+        heartbeat
+    }
+
+    fn number(&mut self, owner: StationId, number: UniqueNumber) -> UniqueNumber {
+        self.numbers.entry(owner).or_default().insert(number.count);
+        number
+    }
+}
+
+/// Heartbeats counted from the newest of their session, numbers in their order without gaps, and limits that are far away as
+/// they were: no run is as long as they are.
+struct Renamed<'a>(&'a Names);
+
+impl Renaming for Renamed<'_> {
+    fn heartbeat(&mut self, session: SessionId, heartbeat: Heartbeat) -> Heartbeat {
+        let newest = self.0.newest[&session];
+        Heartbeat(1_000_u16.wrapping_add(heartbeat.0).wrapping_sub(newest.0))
+    }
+
+    fn number(&mut self, owner: StationId, number: UniqueNumber) -> UniqueNumber {
+        let held = self.0.held.filter(|_| owner == LEADING);
+        if held.is_some_and(|held| number.count <= held) {
+            return number;
+        }
+        let first = held.map_or(0, |held| held + 1);
+        let between = self.0.numbers[&owner].range(first..number.count).count();
+        let count = first + u16::try_from(between).unwrap_or_default();
+        UniqueNumber { count, ..number }
+    }
+
+    fn countdown(&mut self, timer: Timer, left: Millis) -> Millis {
+        match timer {
+            Timer::IdentityLock | Timer::Execution(_) => Millis(60_000),
+            _ => left,
+        }
+    }
+}
+
+impl fmt::Display for Team {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [leader, follower] = &self.members;
+        let corridor = match leader.robot.phase() {
+            Phase::Leading(leading) => Some(leading.corridor),
+            _ => None,
+        };
+        let corridor = corridor.map_or_else(String::new, |it| format!(" ({it})"));
+        write!(
+            f,
+            "leader {}{corridor}, follower {}",
+            leader.robot.role(),
+            follower.robot.role()
+        )?;
+        let duty = follower.robot.duty().is_some();
+        let told = [
+            (self.body.task.is_some(), ", commanded"),
+            (duty, ", on duty"),
+            (self.body.holds, ", holds"),
+        ];
+        told.iter()
+            .filter(|(is, _)| *is)
+            .try_for_each(|(_, what)| f.write_str(what))
+    }
+}

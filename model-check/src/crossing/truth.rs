@@ -1,0 +1,121 @@
+//! What must hold of people, bodies and signs: from the ground truth alone, without a look into any machine.
+
+use serde::Deserialize;
+
+use super::street::{Cell, State};
+
+/// The team is free at most so many ticks after everybody was off the road for good: the leader's patience, which ends a session
+/// whose guard does not come back, or go that nobody uses, and some seconds.
+pub(super) const END_MAX: u8 = 34;
+
+/// A person who waits is detected within so many frames.
+pub(super) const DETECT_MAX: u8 = 6;
+
+/// Go is shown for so many ticks at most after a guard has left its place.
+pub(super) const ADRIFT_MAX: u8 = 2;
+
+/// At 50 km/h a driver goes 27.8 m within the 2 s of reaction, and then 32.2 m to stop at 3 m/s².
+const STOP_M: u8 = 60;
+
+/// A rule of the ground truth.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Deserialize)]
+pub enum Rule {
+    /// See [`Rule::claim`].
+    P1,
+    /// See [`Rule::claim`].
+    P2,
+    /// See [`Rule::claim`].
+    P3,
+    /// See [`Rule::claim`].
+    P5,
+    /// See [`Rule::claim`].
+    P6,
+}
+
+/// What a rule says.
+#[derive(Clone, Copy, Debug)]
+pub struct RuleClaim {
+    /// Its id.
+    pub id: &'static str,
+    /// The id of its premise.
+    pub premise_id: &'static str,
+    /// What must hold.
+    pub statement: &'static str,
+    /// What must come about, or the rule says nothing.
+    pub premise: &'static str,
+}
+
+impl Rule {
+    /// The rules. P4, escorts beside their people, needs continuous geometry: fuzz and `validate` judge it.
+    pub const ALL: [Self; 5] = [Self::P1, Self::P2, Self::P3, Self::P5, Self::P6];
+
+    /// What it says.
+    #[must_use]
+    pub const fn claim(self) -> RuleClaim {
+        match self {
+            Self::P1 => RuleClaim {
+                id: "P1",
+                premise_id: "P1-premise",
+                statement: "while somebody is on the carriageway, no guard that can stay leaves, and no word frees it",
+                premise: "somebody is on the carriageway beside the crossing, at a sign that shows stop, and the sensor has missed them as often as it may",
+            },
+            Self::P2 => RuleClaim {
+                id: "P2",
+                premise_id: "P2-premise",
+                statement: "go is shown only while the guard is at its place, or left it at most 1 s ago",
+                premise: "the guard has left its place while go is shown",
+            },
+            Self::P3 => RuleClaim {
+                id: "P3",
+                premise_id: "P3-premise",
+                statement: "go does not begin while a vehicle that is heard can no longer stop comfortably",
+                premise: "a vehicle can no longer stop, somebody waits, and the guard is at its place",
+            },
+            Self::P5 => RuleClaim {
+                id: "P5",
+                premise_id: "P5-premise",
+                statement: "a person who waits in front of an idle team is detected within 6 frames",
+                premise: "somebody waits in front of an idle team, and has not been seen in the last frame",
+            },
+            Self::P6 => RuleClaim {
+                id: "P6",
+                premise_id: "P6-premise",
+                statement: "the team is free within 17 s after everybody was off the road for good, seen on it before or out of sight",
+                premise: "somebody has crossed, and the team is free again",
+            },
+        }
+    }
+
+    pub(super) fn holds(self, state: &State) -> bool {
+        match self {
+            Self::P1 => !(is_on_road(state) && state.guard.has_left),
+            Self::P2 => !state.sign.shows_go() || state.guard.adrift <= ADRIFT_MAX,
+            Self::P3 => !(state.sign.has_begun && cannot_stop(state)),
+            Self::P5 => state.undetected <= DETECT_MAX,
+            Self::P6 => state.off_road <= END_MAX,
+        }
+    }
+
+    pub(super) fn is_premise_met(self, state: &State) -> bool {
+        let mut people = state.people.iter();
+        match self {
+            Self::P1 => {
+                let is_missed =
+                    |it: &Cell, missed| *it == Cell::Beside && missed >= state.left.misses;
+                !state.sign.shows_go() && people.any(|it| is_missed(&it.at, it.missed))
+            }
+            Self::P2 => state.sign.shows_go() && state.guard.adrift > 0,
+            Self::P3 => cannot_stop(state) && state.guards && people.any(|it| it.at == Cell::Near),
+            Self::P5 => state.undetected > 0 && people.any(|it| it.missed > 0),
+            Self::P6 => state.is_free && people.any(|it| it.at == Cell::Far),
+        }
+    }
+}
+
+fn is_on_road(state: &State) -> bool {
+    state.people.iter().any(|person| person.at.is_road())
+}
+
+fn cannot_stop(state: &State) -> bool {
+    state.car.is_some_and(|metres| metres <= STOP_M)
+}
