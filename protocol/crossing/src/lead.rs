@@ -19,10 +19,9 @@ const AGAIN: Millis = Millis(500);
 /// How long a leader waits before it asks again for an open corridor or an escort.
 const OPENING_PERIOD: Millis = Millis(500);
 
-/// For how long people step on the road beside an escort, which waits for each of them: a stream of people would keep it on
-/// the road, so later ones wait for its next way. A team that holds shows go until nobody has stepped on the road for so long:
-/// somebody who only stands there would keep the vehicles waiting.
-const STEP_ON: Millis = Millis(10_000);
+/// For how long after the first go of a session people step on the road. Who comes later is called for anew: a stream of
+/// people would keep the team, and vehicles, until its execution limit.
+const STEP_ON: Millis = Millis(20_000);
 
 /// For how long an escort goes on to its kerb after everybody is across.
 const ESCORT_ENDS: Millis = Millis(5_000);
@@ -81,8 +80,6 @@ pub(crate) struct Lead {
     patience: Millis,
     /// Until then people step on the road.
     opened: Millis,
-    /// Whether that time was over before everybody who waits had stepped on it.
-    is_unused: bool,
     /// Until then it waits for its escort to come to the kerb, after everybody is across.
     ending: Millis,
 }
@@ -120,7 +117,6 @@ impl Lead {
             tried: Millis::ZERO,
             patience: plan.patience,
             opened: STEP_ON,
-            is_unused: false,
             ending: ESCORT_ENDS,
         }
     }
@@ -512,7 +508,8 @@ impl Lead {
         }
         self.tried = OPENING_PERIOD;
         let is_free = self.hindrance(setup, plan, view).is_none();
-        if view.corridor != Corridor::Open && view.is_wanted && is_free {
+        let is_full = self.opened == Millis::ZERO;
+        if view.corridor != Corridor::Open && view.is_wanted && is_free && !is_full {
             out.tell(Event::OpenCorridor);
         }
     }
@@ -533,17 +530,16 @@ impl Lead {
         let is_over_there = plan.is_last(self.stage) && self.is_over_there(setup, plan);
         let may_try = self.tried == Millis::ZERO;
         let goes_with_escort = plan.is_escort(self.stage, setup.escorts());
-        if view.corridor != Corridor::Open || !goes_with_escort && view.was_seen {
+        if !view.has_opened {
             self.opened = STEP_ON;
         }
+        let is_full = self.opened == Millis::ZERO;
         if !view.everybody_is_across && !view.nobody_is_lost {
             self.ending = ESCORT_ENDS;
         }
         match view.corridor {
             Corridor::Open => {
                 // People who come when the escort is over there wait for its next way.
-                let is_full = self.opened == Millis::ZERO;
-                self.is_unused = is_full && !goes_with_escort;
                 if is_full || is_over_there && (goes_with_escort || !view.is_wanted) {
                     out.tell(Event::CloseCorridor);
                 }
@@ -560,7 +556,7 @@ impl Lead {
                     is_done || is_ended && (is_over_there || is_escorted && view.has_opened);
                 // For people who wait by then it calls anew.
                 let is_through =
-                    (is_escorted && view.has_crossed || self.is_unused) && view.nobody_is_lost;
+                    (is_escorted && view.has_crossed || is_full) && view.nobody_is_lost;
                 if is_done && !lets_cross || may_end && (view.everybody_is_across || is_through) {
                     out.tell(Event::TaskCompleted);
                 } else if self.patience == Millis::ZERO {
