@@ -41,11 +41,11 @@ impl Subject {
         Ok(Self::Scenario(Box::new(Scenario::load(name)?)))
     }
 
-    /// Checks it. `watch` receives the progress now and then; never of the paper's text and of streets, which are small.
+    /// Checks it. `watch` receives the progress now and then; never of the paper's text, which is small.
     pub fn check(self, options: &Options, watch: &mut dyn FnMut(CheckProgress)) -> ScenarioReport {
         match self {
             Self::PaperLiteral => paper::check(),
-            Self::Street(street) => street.check(options),
+            Self::Street(street) => street.check(options, watch),
             Self::Scenario(scenario) => match timed::TimedModel::new((*scenario).clone()) {
                 Some(model) => timed::check(&model, options, watch),
                 None => check(&Model::new(*scenario), options, watch),

@@ -1,18 +1,18 @@
 //! The crossing machine with real robots, explored to the end: the rules hold, each premise is met, and each rule has a
 //! weakening that breaks it alone.
 
-use crossguard_crossing::Setup;
-use crossguard_model_check::check::Options;
-use crossguard_model_check::crossing::*;
-use crossguard_protocol::Millis;
+use std::time::Duration;
 
-/// More steps than any street here has.
-const STEPS_MAX: usize = 10_000_000;
+use crossguard_crossing::Setup;
+use crossguard_model_check::check::{Options, Stop};
+use crossguard_model_check::crossing::*;
+use crossguard_model_check::report::CutOff;
+use crossguard_protocol::Millis;
 
 #[test]
 fn every_rule_holds_in_every_street_and_every_premise_is_met() {
     for street in SHIPPED {
-        let report = street.check(&Options::default());
+        let report = street.check(&Options::default(), &mut |_| ());
         let name = street.name;
         assert!(report.exhaustive && !report.failed(), "{name}: {report:#?}");
     }
@@ -82,7 +82,7 @@ const WEAKENINGS: &[Weakening] = &[
 #[test]
 fn each_weakening_breaks_its_rule_alone() {
     for &(street, weaken, rule) in WEAKENINGS {
-        let found = explore(street, weaken, STEPS_MAX, None);
+        let found = explore(street, weaken, &Options::default(), &mut |_| ());
         let broken: Vec<_> = found.broken.iter().map(|(rule, _)| *rule).collect();
         assert!(
             broken == [rule] && found.cut_off.is_none(),
@@ -91,4 +91,39 @@ fn each_weakening_breaks_its_rule_alone() {
     }
     let is_broken = |rule: &Rule| WEAKENINGS.iter().any(|(.., broken)| broken == rule);
     assert!(Rule::ALL.iter().all(is_broken));
+}
+
+#[test]
+fn a_street_that_is_cut_off_says_so() {
+    let stop = Stop::default();
+    stop.request();
+    let cases = [
+        (
+            Options {
+                stop,
+                ..Options::default()
+            },
+            CutOff::Stopped,
+        ),
+        (
+            Options {
+                states_max: Some(100),
+                ..Options::default()
+            },
+            CutOff::StateLimit,
+        ),
+        (
+            Options {
+                time_max: Some(Duration::ZERO),
+                ..Options::default()
+            },
+            CutOff::TimeLimit,
+        ),
+    ];
+    for (options, cut_off) in cases {
+        let street = Street { hang: 2, ..PERSON };
+        let found = explore(street, |_| (), &options, &mut |_| ());
+        assert_eq!(found.cut_off, Some(cut_off));
+        assert!(found.states < 400_000, "{} states", found.states);
+    }
 }

@@ -18,12 +18,13 @@ mod street;
 mod team;
 mod truth;
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crossguard_crossing::Setup;
 use stateright::{Checker, Model as _};
 
-use crate::check::{Options, STATERIGHT};
+use crate::check::STATERIGHT;
+use crate::exploration::{CheckProgress, Options, Stop};
 use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
 use crate::sequence::{ChartPlace, ChartStep};
 use crate::transitions::Transitions;
@@ -158,9 +159,6 @@ pub const SHIPPED: [Shipped; 6] = {
     ]
 };
 
-/// More steps than any shipped street has.
-const STEPS_MAX: usize = 20_000_000;
-
 impl Shipped {
     /// The street of this name, if there is one.
     #[must_use]
@@ -168,11 +166,15 @@ impl Shipped {
         SHIPPED.into_iter().find(|it| it.name == name)
     }
 
-    /// Explores it.
+    /// Explores it. `watch` receives the progress now and then.
     #[must_use]
-    pub fn check(&self, options: &Options) -> ScenarioReport {
-        let states_max = options.states_max.unwrap_or(STEPS_MAX);
-        let found = explore(self.street, |_| (), states_max, options.time_max);
+    pub fn check(&self, options: &Options, watch: &mut dyn FnMut(CheckProgress)) -> ScenarioReport {
+        let found = explore(self.street, |_| (), options, &mut |reached| {
+            watch(CheckProgress {
+                expected: Some(self.states),
+                ..reached
+            });
+        });
         let mut properties = Vec::new();
         for rule in self.rules {
             let claim = rule.claim();
@@ -257,46 +259,54 @@ pub struct Found {
     pub time: Duration,
 }
 
-/// Explores a street until nothing is left, about `steps_max` steps have been taken, or the time is over. `change` changes the
-/// settings of both machines.
+/// Explores a street until nothing is left, or a limit is reached. `change` changes the settings of both machines.
 #[must_use]
 pub fn explore(
     street: Street,
     change: fn(&mut Setup),
-    steps_max: usize,
-    time_max: Option<Duration>,
+    options: &Options,
+    watch: &mut dyn FnMut(CheckProgress),
 ) -> Found {
-    let begin = Instant::now();
+    let limits = options.limits();
+    let drain = Stop::default();
     let world = World {
         street,
         rules: Rules::new(change),
+        drain: drain.clone(),
     };
-    let checker = world.checker().threads(2).target_state_count(steps_max);
-    let checker = match time_max {
-        Some(time) => checker.timeout(time),
-        None => checker,
-    };
-    let checker = checker.spawn_bfs().join();
+    let checker = world.checker().threads(options.threads.get()).spawn_bfs();
+    let mut cut_off = None;
+    while !checker.is_done() {
+        std::thread::sleep(Duration::from_millis(20));
+        let states = checker.unique_state_count();
+        let is_full = limits.states_reached(states);
+        let reached = is_full.then_some(CutOff::StateLimit);
+        cut_off = cut_off.or(reached).or(limits.time_reached());
+        if cut_off.is_some() {
+            drain.request();
+        }
+        watch(CheckProgress {
+            checked: states,
+            explored: states,
+            depth: checker.max_depth() - 1,
+            ..CheckProgress::default()
+        });
+    }
+    let checker = checker.join();
     let run = |rule: &Rule| {
         let path = checker.discovery(rule.claim().id)?;
         let states = path.into_states().into_iter();
         Some((*rule, states.map(|state| state.to_string()).collect()))
     };
     let is_met = |rule: &Rule| checker.discovery(rule.claim().premise_id).is_some();
-    // stateright says that it is done where it stops at a limit as well.
-    let is_late = time_max.is_some_and(|time| begin.elapsed() >= time);
-    let cut_off = if checker.state_count() >= steps_max {
-        Some(CutOff::StateLimit)
-    } else {
-        is_late.then_some(CutOff::TimeLimit)
-    };
     Found {
         states: checker.unique_state_count(),
-        transitions: checker.state_count(),
-        depth: checker.max_depth(),
+        // stateright counts the initial state in both.
+        transitions: checker.state_count() - 1,
+        depth: checker.max_depth() - 1,
         cut_off,
         broken: Rule::ALL.iter().filter_map(run).collect(),
         met: Rule::ALL.into_iter().filter(is_met).collect(),
-        time: begin.elapsed(),
+        time: limits.elapsed(),
     }
 }

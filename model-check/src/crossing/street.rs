@@ -6,6 +6,8 @@ use crossguard_crossing::{Coverage, Frame, Input, Point, RoadUser, Sighting, Veh
 use crossguard_protocol::Millis;
 use stateright::Property;
 
+use crate::exploration::Stop;
+
 use super::Street;
 use super::rules::Rules;
 use super::team::Team;
@@ -191,6 +193,8 @@ enum Fault {
 pub(super) struct World {
     pub(super) street: Street,
     pub(super) rules: Rules,
+    /// Once it is requested nothing happens any more, and the exploration ends.
+    pub(super) drain: Stop,
 }
 
 impl World {
@@ -405,6 +409,9 @@ impl stateright::Model for World {
     }
 
     fn actions(&self, state: &State, ticks: &mut Vec<Tick>) {
+        if self.drain.is_requested() {
+            return;
+        }
         let faults = Self::faults(state);
         for (moves, missed) in self.moves(state) {
             ticks.extend(faults.iter().map(|&fault| Tick {

@@ -311,9 +311,9 @@ fn explore(cast: Cast) -> Exploration {
     let checker = question.checker().spawn_bfs().join();
     Exploration {
         unique_states: checker.unique_state_count(),
-        // What stateright counts has the initial state in it.
+        // stateright counts the initial state in both.
         transitions: checker.state_count() - 1,
-        depth: checker.max_depth(),
+        depth: checker.max_depth() - 1,
         is_p0_broken: checker.discovery(model::HOLDS).is_some(),
         is_wait_endless: checker.discovery(model::CLOSED).is_some(),
         is_crossing_found: checker.discovery(model::PREMISE).is_some(),
