@@ -1,9 +1,9 @@
-//! What does not belong on the channel while the robots cross: garbage, other versions, and a thousand packets a second of
-//! other stations.
+//! What does not belong on the channel while the robots cross: garbage, other versions, and hundreds of packets a second
+//! of other stations.
 
 use std::net::UdpSocket;
 use std::sync::atomic::Ordering;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crossguard_codec::geonet::{EgoPosition, Stack};
 use crossguard_codec::{Identifiers, Service, encode, golden, ram_from};
@@ -11,8 +11,8 @@ use crossguard_codec::{MessageIdentifiers, RobotState};
 use crossguard_protocol::{Availability, Robot, StationId};
 use crossguard_testkit::command::*;
 
-/// Packets a second to each robot.
-const RATE: u32 = 1_000;
+/// Packets a second to each robot, at most: an attacker that was held up does not catch up.
+const RATE: u32 = 300;
 
 /// A packet with these octets, from a station that has no part in anything.
 fn packet(station: u32, service: Service, message: &[u8]) -> Vec<u8> {
@@ -92,16 +92,14 @@ fn the_crossing_goes_on_in_a_flood_and_each_kind_of_garbage_is_counted_by_its_ca
         let all: Vec<_> = all
             .flat_map(|(four, bad)| four.iter().chain([bad]))
             .collect();
-        let began = Instant::now();
-        for (datagram, sent) in all.into_iter().cycle().zip(1..) {
+        for datagram in all.into_iter().cycle() {
             for to in [port, port + 1] {
                 let _ = socket.send_to(datagram, ("127.0.0.1", to));
             }
             if stop.load(Ordering::Relaxed) {
                 break;
             }
-            let due = began + Duration::from_secs(1) / RATE * sent;
-            std::thread::sleep(due.saturating_duration_since(Instant::now()));
+            std::thread::sleep(Duration::from_secs(1) / RATE);
         }
     });
     assert_eq!(
