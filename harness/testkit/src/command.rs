@@ -139,6 +139,15 @@ pub fn wait_for(child: &mut Child, patience: Duration) -> std::process::ExitStat
     }
 }
 
+/// Waits until something is so, at most for two minutes.
+pub fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
+    let deadline = Instant::now() + Duration::from_mins(2);
+    while !is_so() {
+        assert!(Instant::now() < deadline, "waited in vain: {what}");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
 /// A process that does not outlive its test.
 pub struct Killed(pub Child);
 

@@ -1,7 +1,7 @@
 //! Long commands that are told to stop, or whose disk is full: they end in order, with what they have.
 
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use crossguard_testkit::command::*;
@@ -11,8 +11,8 @@ const PATIENCE: Duration = Duration::from_mins(2);
 /// A scenario of so many states that no check of it ends before it is told to stop.
 const LONG: &str = "team-of-four";
 
-/// A command in a folder of its own, how long it runs before it gets a signal, its exit code, and what it then says or
-/// has written to a file.
+/// A command in a folder of its own, how long it handles signals before it gets one, its exit code, and what it then says
+/// or has written to a file.
 struct Row {
     command: &'static str,
     after_ms: u64,
@@ -25,7 +25,7 @@ struct Row {
 const ROWS: [Row; 8] = [
     Row {
         command: "demo --speed 1 --port PORT --log log --report page",
-        after_ms: 4_000,
+        after_ms: 500,
         signal: "-INT",
         code: 3,
         says: &["Stopped before it was done", "T_neg"],
@@ -33,7 +33,7 @@ const ROWS: [Row; 8] = [
     },
     Row {
         command: "demo --speed 1 --port PORT --log log --json",
-        after_ms: 4_000,
+        after_ms: 500,
         signal: "-TERM",
         code: 3,
         says: &[
@@ -96,6 +96,17 @@ const ROWS: [Row; 8] = [
     },
 ];
 
+/// Waits until a process handles SIGTERM, and so SIGINT, whose handler is set before.
+fn wait_for_handler(child: &Child) {
+    const SIGTERM: u64 = 1 << 14;
+    let path = format!("/proc/{}/status", child.id());
+    wait_until("a signal handler", || {
+        let status = std::fs::read_to_string(&path).unwrap();
+        let caught = status.lines().find_map(|it| it.strip_prefix("SigCgt:"));
+        u64::from_str_radix(caught.unwrap().trim(), 16).unwrap() & SIGTERM != 0
+    });
+}
+
 fn cut_short(row: &Row) {
     let folder = tempfile::tempdir().unwrap();
     let port = two_free_ports();
@@ -111,6 +122,13 @@ fn cut_short(row: &Row) {
     command.current_dir(&folder).stdin(Stdio::null());
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped());
     let child = child.spawn().unwrap();
+    wait_for_handler(&child);
+    if row.command.starts_with("demo ") {
+        wait_until("a maneuver", || {
+            let log = std::fs::read_to_string(folder.path().join("log"));
+            log.is_ok_and(|log| log.contains("\"startManeuver\""))
+        });
+    }
     std::thread::sleep(Duration::from_millis(row.after_ms));
     signal(&child, row.signal);
     let began = Instant::now();
@@ -157,6 +175,7 @@ fn a_check_ends_when_its_time_is_over_and_at_once_at_a_second_interrupt() {
     assert_eq!(json(&output)["scenarios"][0]["cutOff"], "time-limit");
     let mut command = crossguard(&["check", LONG, "--threads", "1"]);
     let child = command.stdout(Stdio::null()).spawn().unwrap();
+    wait_for_handler(&child);
     std::thread::sleep(Duration::from_secs(1));
     // Both come before the command can end because of the first.
     for name in ["-STOP", "-INT", "-TERM", "-CONT"] {
