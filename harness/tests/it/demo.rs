@@ -258,10 +258,14 @@ fn a_person_sees_the_chart_the_table_and_the_verdict_on_the_log() {
 
 #[test]
 fn a_second_demo_on_the_same_port_is_refused_and_the_first_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("log");
     let port = two_free_ports().to_string();
-    let mut first = crossguard(&["demo", "--speed", "10", "--port", &port, "--json"]);
-    let mut first = first.stdout(Stdio::piped()).spawn().unwrap();
-    std::thread::sleep(Duration::from_millis(500));
+    let mut first = crossguard(&["demo", "--speed", "5", "--port", &port, "--json", "--log"]);
+    let mut first = first.arg(&log).stdout(Stdio::piped()).spawn().unwrap();
+    wait_until("the first to start", || {
+        std::fs::read_to_string(&log).is_ok_and(|it| it.contains("\"started\""))
+    });
     let second = run(&["demo", "--port", &port]);
     assert_refused(
         &second,
