@@ -13,7 +13,7 @@ use crate::street::{ARI, GO2, Street, assert_valid, skipped};
 /// Two namespaces and the link between them. Go2 is told what is typed into a pipe, ARI what the last argument prints.
 const HOSTS: &str = r#"
 set -e
-unshare --net sleep 120 &
+unshare --net sleep 600 &
 other=$!
 trap 'kill $other' EXIT
 until [ "$(readlink /proc/$other/ns/net)" != "$(readlink /proc/$$/ns/net)" ]; do sleep 0.01; done
@@ -45,13 +45,21 @@ const ONCE: &str = "printf 'wait 1\ndetect\nuntil maneuver-executing 20\nuntil i
 /// The interface is gone in the middle of a crossing, and comes back. Both had to leave a road on which somebody may have
 /// been.
 const TWICE: &str = r"
+await() {
+    turn=0
+    until grep -qs $1 $2; do
+        [ $((turn += 1)) -le 1200 ] || { echo quit; exit; }
+        sleep 0.05
+    done
+}
 printf 'wait 0.7\ndetect\nuntil maneuver-executing 20\n'
-sleep 2.5
+await corridorOpened ARI.jsonl
+sleep 0.3
 ip link del ari
-printf 'until idle 20\n'
-sleep 9
+await contactLost Go2.jsonl
+await noFollowers ARI.jsonl
 connect
-printf 'clear\n' | tee /dev/fd/3
+printf 'until idle 20\nclear\n' | tee /dev/fd/3
 sleep 3
 printf 'detect\nuntil maneuver-executing 20\nuntil idle 30\nquit\n'
 ";
