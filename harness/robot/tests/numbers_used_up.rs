@@ -20,7 +20,8 @@ use crossguard_robot::site::{Place, Site};
 use crossguard_robot::trace::Entry;
 use crossguard_robot::transport::{Air, Transport};
 
-const PATIENCE: Duration = Duration::from_mins(2);
+/// The robot takes 32,768 requests, and a record of each step.
+const PATIENCE: Duration = Duration::from_mins(15);
 
 #[test]
 fn the_next_boot_counter_is_persisted_and_used_before_numbers_run_out() {
