@@ -228,18 +228,18 @@ fn garbage_does_not_fill_the_disk_and_every_piece_of_it_is_counted() {
     assert_eq!(wait_for(&mut robot.child, PATIENCE).code(), Some(0));
     let seconds = began.elapsed().as_secs() + 2;
     let records = records(&std::fs::read_to_string(&log).unwrap());
-    let counted = records.last().unwrap()["counters"]["packet"].clone();
-    let counted: u64 = counted
-        .as_object()
-        .unwrap()
-        .values()
-        .filter_map(Value::as_u64)
-        .sum();
+    let counters = &records.last().unwrap()["counters"];
+    // On a busy machine pieces wait too long before the robot takes them apart.
+    let causes = ["packet", "inbox"]
+        .into_iter()
+        .filter_map(|layer| counters[layer].as_object());
+    let counts = causes.flatten().filter_map(|(_, count)| count.as_u64());
+    let counted: u64 = counts.sum();
     assert!(counted > 1_000, "{counted} arrived");
-    // Of each cause so many in a second; these have one or two.
+    // Of each cause so many in a second; these have up to three.
     let of = |entry: &str| records.iter().filter(|it| it["entry"] == entry).count() as u64;
     assert!(
-        of("dropped") <= 2 * 32 * seconds,
+        of("dropped") <= 3 * 32 * seconds,
         "{} in {seconds} s",
         of("dropped")
     );
