@@ -18,7 +18,7 @@ const ROBOT: u32 = 4_711;
 
 /// Where the messages of [`golden::ITS`] and [`golden::VAM`] are from, and the robot. It drops none for a busy machine.
 const SITE: &str = "[site]\nlatitude = 48.7654321\nlongitude = 9.1234567\n\n\
-    [protocol]\nt_lease = 1500\ndelay_max = 400\n\n[link]";
+    [protocol]\nt_safety = 5000\ndelay_max = 2500\n\n[link]";
 
 /// How often each message is sent.
 const TIMES: usize = 12;
@@ -126,12 +126,18 @@ fn stations_of_others_are_in_status_metrics_and_log_and_what_outlived_its_lifeti
     let scraped = robot.scrape();
     // While nobody says how right the clock is, old packets are taken.
     type_to(&mut robot.child, "status\nclock 20\nwait 0.1\nstatus\n");
-    std::thread::sleep(Duration::from_secs(1));
+    let mut said: Vec<String> = Vec::new();
+    while !said.iter().any(|it| it.contains("clock right to 20 ms")) {
+        said.push(robot.lines.next().expect("it goes on"));
+    }
     send(&sent_ago(120));
-    std::thread::sleep(Duration::from_millis(300));
+    wait_until("a packet that outlived its lifetime", || {
+        let log = std::fs::read_to_string(&log).unwrap();
+        log.contains("lifetime over")
+    });
     let later = robot.scrape();
     type_to(&mut robot.child, "clock lost\nwait 0.3\nstatus\nquit\n");
-    let said: Vec<_> = robot.lines.collect();
+    said.extend(robot.lines);
     let said = said.join("\n");
     assert_eq!(
         wait_for(&mut robot.child, PATIENCE).code(),
@@ -144,7 +150,7 @@ fn stations_of_others_are_in_status_metrics_and_log_and_what_outlived_its_lifeti
         (&said, &*heard),
         (&said, "of 4 stations"),
         // A station, and what another one perceives; one by itself, and a cluster.
-        (&said, "2 vehicles (nearest station 100 at 0.0 m, oldest 0."),
+        (&said, "2 vehicles (nearest station 100 at 0.0 m, oldest "),
         (&said, "2 vulnerable road users (nearest "),
         (
             &said,
