@@ -5,30 +5,32 @@ use std::net::UdpSocket;
 use std::os::unix::net::UnixStream;
 use std::time::{Duration, Instant};
 
+use crossguard_codec::core::ram::RAM;
+use crossguard_codec::{Service, decode};
+use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::station::Security;
-use crossguard_robot::attachment::{Frame, Kind, Radio, Sends, Side};
+use crossguard_robot::attachment::{Frame, Kind, Radio, Sends};
 use crossguard_robot::boot;
-use crossguard_robot::journal::Journal;
+use crossguard_robot::journal::{Journal, RECORDS, WhenFull};
 use crossguard_robot::robot_file::RobotFile;
 use crossguard_robot::runtime::Order;
+use crossguard_robot::trace::Entry;
 use crossguard_robot::transport::{Link, Transport};
 use serde_json::json;
 
-/// For how long congestion control may settle, and for how long is counted after that.
-const SETTLING: Duration = Duration::from_millis(1_500);
-const COUNTED: Duration = Duration::from_secs(4);
+const PATIENCE: Duration = Duration::from_mins(2);
 
-/// How many packets a robot sends that changes its speed all the time, while its unit says that.
-fn sent_at(busy_permyriad: u16) -> usize {
+/// The shortest time between so many RAM, by the times in them, of a robot that changes its speed all the time, while its
+/// unit says how busy the channel is and congestion control keeps this interval.
+fn shortest_gap_ms(busy_permyriad: u16, interval_ms: u64, count: usize) -> u16 {
     let folder = tempfile::tempdir().unwrap();
     let unit = UdpSocket::bind("127.0.0.1:0").unwrap();
-    unit.set_read_timeout(Some(Duration::from_millis(10)))
-        .unwrap();
+    unit.set_read_timeout(Some(PATIENCE)).unwrap();
     let address = unit.local_addr().unwrap();
     let path = folder.path().join("robot.toml");
     let text = format!(
         "name = \"R\"\nstation = 1\nbuild = \"wheeled\"\nboot_file = \"r.boot\"\n\
-         [body]\nlisten = \"unix:r.sock\"\n[link]\nunit = \"{address}\"\n"
+         [body]\nlisten = \"unix:r.sock\"\nsilence_ms = 5000\n[link]\nunit = \"{address}\"\n"
     );
     std::fs::write(&path, text).unwrap();
     let file = RobotFile::read(&path).unwrap();
@@ -44,40 +46,62 @@ fn sent_at(busy_permyriad: u16) -> usize {
     writeln!(moves, "{{\"type\": \"hello\", \"crossguard\": 2}}").unwrap();
     let boot = boot::take(&file.boot_file).unwrap();
     let halves = link.open().unwrap();
-    let setup = file.setup(boot, body, Security::default(), halves, Journal::new());
+    let mut journal = Journal::new();
+    let records = journal.reader(RECORDS, WhenFull::Skip, Cause::OutputFull);
+    let setup = file.setup(boot, body, Security::default(), halves, journal);
     let running = setup.start();
-    let began = Instant::now();
-    let (mut buffer, mut packets, mut turn) = ([0; 2_048], 0, 0);
-    while began.elapsed() < SETTLING + COUNTED {
+    // It says hello.
+    let (_, robot) = unit.recv_from(&mut [0; 2_048]).unwrap();
+    let channel = Frame {
+        radio: Radio {
+            power_decidbm: None,
+            busy_permyriad: Some(busy_permyriad),
+        },
+        ..Frame::new(Kind::Channel, &[])
+    };
+    let channel = channel.encode().unwrap();
+    let deadline = Instant::now() + PATIENCE;
+    let (mut sent_ms, mut is_settled, mut turn) = (Vec::new(), false, 0);
+    while sent_ms.len() < count {
+        assert!(Instant::now() < deadline, "{sent_ms:?} {is_settled}");
+        if turn % 10 == 0 {
+            unit.send_to(&channel, robot).unwrap();
+        }
         turn += 1;
         let speed_mps = turn % 5;
         let pose = json!({"type": "pose", "eastM": 0, "northM": 0, "speedMps": speed_mps});
         writeln!(moves, "{pose}").unwrap();
-        let Ok((length, robot)) = unit.recv_from(&mut buffer) else {
-            continue;
-        };
-        let frame = Frame::decode(&buffer[..length], Side::Robot).unwrap();
-        let is_counted = frame.kind == Kind::SendPacket && began.elapsed() > SETTLING;
-        packets += usize::from(is_counted);
-        let channel = Frame {
-            radio: Radio {
-                power_decidbm: None,
-                busy_permyriad: Some(busy_permyriad),
-            },
-            ..Frame::new(Kind::Channel, &[])
-        };
-        unit.send_to(&channel.encode().unwrap(), robot).unwrap();
+        std::thread::sleep(Duration::from_millis(10));
+        for record in records.try_iter() {
+            match &record.entry {
+                Entry::Channel(now) => {
+                    is_settled = now.interval_ms == interval_ms;
+                    sent_ms.retain(|_| is_settled);
+                }
+                Entry::Sent {
+                    message: Service::Ram,
+                    octets,
+                    ..
+                } if is_settled => {
+                    let ram = decode::<RAM>(&file.identifiers, octets).unwrap().message;
+                    sent_ms.push(ram.ram.generation_delta_time.0);
+                }
+                _ => {}
+            }
+        }
     }
     running.order(Order::Die);
     running.wait().unwrap();
-    packets
+    let gaps_ms = sent_ms.windows(2).map(|two| two[1].wrapping_sub(two[0]));
+    gaps_ms.min().unwrap()
 }
 
 #[test]
 fn a_moving_robot_sends_ten_ram_a_second_on_a_free_channel_and_one_on_a_full_one() {
-    let [free, full] = [0, 8_000].map(|busy| std::thread::spawn(move || sent_at(busy)));
-    let (free, full) = (free.join().unwrap(), full.join().unwrap());
-    // A machine that is busy itself sends fewer.
-    assert!((20..=41).contains(&free), "{free} on a free channel");
-    assert!((3..=5).contains(&full), "{full} on a full channel");
+    let [free_ms, full_ms] = [(0, 100, 30), (8_000, 1_000, 3)].map(|(busy, interval_ms, count)| {
+        std::thread::spawn(move || shortest_gap_ms(busy, interval_ms, count))
+    });
+    let (free_ms, full_ms) = (free_ms.join().unwrap(), full_ms.join().unwrap());
+    assert!((95..=150).contains(&free_ms), "{free_ms}");
+    assert!(full_ms >= 950, "{full_ms}");
 }
