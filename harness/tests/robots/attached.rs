@@ -2,15 +2,17 @@
 //! measures a busy channel and sends what is no frame.
 
 use std::fs;
-use std::io::{Read, Write};
+use std::io::Write;
 use std::net::{TcpStream, UdpSocket};
 use std::process::{Command, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use crossguard_robot::attachment::{Frame, Kind, Radio, Side};
 use crossguard_testkit::command::*;
 
-use crate::street::{ARI, CROSS, GO2, Street, skipped};
+use crate::street::{ARI, CROSS, GO2, PATIENCE, Street, skipped};
 
 /// A street whose robots are attached to the units at the first of these ports and the next one.
 fn attached(port: u16, speed: &str) -> Street {
@@ -90,27 +92,31 @@ fn a_unit_that_is_killed_in_the_middle_closes_the_corridor_and_makes_the_followe
     );
 }
 
-/// Answers a robot with frames that tell this busy ratio, and with what is none; how many packets it was to send.
-fn busy_unit(socket: &UdpSocket, busy_permyriad: u16) -> usize {
-    let wait = Some(Duration::from_secs(4));
+/// Tells a robot this busy ratio ten times a second until it is `done`, and sends it what is no frame; how many packets
+/// it was to send.
+fn busy_unit(socket: &UdpSocket, busy_permyriad: u16, done: &AtomicBool) -> usize {
+    let wait = Some(Duration::from_millis(100));
     socket.set_read_timeout(wait).unwrap();
-    let mut buffer = [0; 2_048];
-    let mut packets = 0;
-    // It ends when the robot has.
-    while let Ok((length, robot)) = socket.recv_from(&mut buffer) {
-        let frame = Frame::decode(&buffer[..length], Side::Robot).unwrap();
-        packets += usize::from(frame.kind == Kind::SendPacket);
-        let radio = Radio {
-            power_decidbm: Some(-801),
-            busy_permyriad: Some(busy_permyriad),
-        };
-        let channel = Frame {
-            radio,
-            ..Frame::new(Kind::Channel, &[])
-        };
-        let _ = socket.send_to(&channel.encode().unwrap(), robot);
-        for bad in [&b"CG\x02"[..], &[0x11; 30]] {
-            let _ = socket.send_to(bad, robot);
+    let radio = Radio {
+        power_decidbm: Some(-801),
+        busy_permyriad: Some(busy_permyriad),
+    };
+    let channel = Frame {
+        radio,
+        ..Frame::new(Kind::Channel, &[])
+    };
+    let channel = channel.encode().unwrap();
+    let (mut buffer, mut packets, mut address) = ([0; 2_048], 0, None);
+    while !done.load(Ordering::Relaxed) {
+        if let Ok((length, robot)) = socket.recv_from(&mut buffer) {
+            let frame = Frame::decode(&buffer[..length], Side::Robot).unwrap();
+            packets += usize::from(frame.kind == Kind::SendPacket);
+            address = Some(robot);
+        }
+        for octets in [&channel[..], &b"CG\x02"[..], &[0x11; 30]] {
+            if let Some(robot) = address {
+                let _ = socket.send_to(octets, robot);
+            }
         }
     }
     packets
@@ -120,42 +126,43 @@ fn busy_unit(socket: &UdpSocket, busy_permyriad: u16) -> usize {
 fn a_full_channel_is_shown_and_bad_frames_are_counted_each_under_its_cause() {
     let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
     let street = attached(socket.local_addr().unwrap().port(), "speed = 40.0");
-    let heard = std::thread::spawn(move || busy_unit(&socket, 8_000));
+    let done = Arc::new(AtomicBool::new(false));
+    let stop = Arc::clone(&done);
+    let heard = std::thread::spawn(move || busy_unit(&socket, 8_000, &stop));
     let address = format!("127.0.0.1:{}", free_ports(1));
     let options = ["--status", "always", "--metrics", &address];
-    let mut robot = crossguard(&["run", "--config", &street.configs[ARI]])
+    let [lines, status] = ["lines", "status"].map(|file| street.path(file));
+    let robot = crossguard(&["run", "--config", &street.configs[ARI]])
         .args(options)
         .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    std::thread::sleep(Duration::from_secs(3));
-    let mut client = TcpStream::connect(&address).unwrap();
-    client
-        .write_all(b"GET /metrics?x=1 HTTP/1.1\r\n\r\n")
-        .unwrap();
-    let mut metrics = String::new();
-    client.read_to_string(&mut metrics).unwrap();
-    type_to(&mut robot, "quit\n");
-    let output = robot.wait_with_output().unwrap();
-    let (lines, status) = (stdout(&output), stderr(&output));
-    for (said, expected) in [
-        (&metrics, "crossguard_channel_busy_ratio{robot=\"ARI\"} 0.8"),
-        (
-            &metrics,
-            "crossguard_reception_power_dbm{robot=\"ARI\"} -80.1",
-        ),
-        (
-            &metrics,
-            "crossguard_congestion_interval_seconds{robot=\"ARI\"} 1",
-        ),
-        (&metrics, "layer=\"link\",cause=\"frame too short\""),
-        (&metrics, "layer=\"link\",cause=\"no frame\""),
-        (&status, "channel 80 % busy, RAM at most every 1000 ms"),
-        (&lines, "dropped, link: frame too short"),
+        .stdout(fs::File::create(&lines).unwrap())
+        .stderr(fs::File::create(&status).unwrap())
+        .spawn();
+    let mut robot = Killed(robot.unwrap());
+    let scrape = || {
+        let mut client = TcpStream::connect(&address)?;
+        client.write_all(b"GET /metrics?x=1 HTTP/1.1\r\n\r\n")?;
+        std::io::read_to_string(client)
+    };
+    for expected in [
+        "crossguard_channel_busy_ratio{robot=\"ARI\"} 0.8",
+        "crossguard_reception_power_dbm{robot=\"ARI\"} -80.1",
+        "crossguard_congestion_interval_seconds{robot=\"ARI\"} 1\n",
+        "layer=\"link\",cause=\"frame too short\"",
+        "layer=\"link\",cause=\"no frame\"",
     ] {
-        assert!(said.contains(expected), "'{expected}' is not in:\n{said}");
+        wait_until(expected, || scrape().is_ok_and(|it| it.contains(expected)));
     }
+    let expected = "channel 80 % busy, RAM at most every 1000 ms";
+    wait_until(expected, || {
+        let shown = fs::read_to_string(&status).unwrap();
+        shown.contains(expected)
+    });
+    type_to(&mut robot.0, "quit\n");
+    wait_for(&mut robot.0, PATIENCE);
+    let lines = fs::read_to_string(lines).unwrap();
+    let expected = "dropped, link: frame too short";
+    assert!(lines.contains(expected), "{lines}");
+    done.store(true, Ordering::Relaxed);
     assert!(heard.join().unwrap() > 0);
 }
