@@ -22,7 +22,7 @@ fn messages(log: &str, entry: &str, kind: &str) -> Vec<Vec<u8>> {
 #[test]
 fn the_place_of_a_command_and_the_signals_of_its_leader_arrive() {
     // Slow enough for a RAM with the slow container in each stage.
-    let street = Street::new(&[("speed = 40.0", "speed = 4.0")]);
+    let street = Street::new(&[("speed = 40.0", "speed = 2.0")]);
     let said = "crossing = \"276:4711\"\nshows = [\"gesture\", \"display\"]\n\n[link]";
     edit(&street.configs[ARI], &[("\n[link]", said)]);
     let mut leader = Killed(start(&street.configs[ARI]));
