@@ -56,13 +56,17 @@ fn body(file: &str, [east, north]: [f64; 2], faster: f64) -> Child {
 }
 
 impl Street {
-    fn begin(faster: f64) -> Self {
+    fn begin(faster: f64, silence_ms: u64) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let port = two_free_ports();
         let files = [
             ported(folder.path(), "ARI", 1, port, port + 1),
             ported(folder.path(), "Go2", 2, port + 1, port),
         ];
+        let silence = format!("[body]\nsilence_ms = {silence_ms}");
+        for file in &files {
+            edit(file, &[("[body]", &silence)]);
+        }
         let robots = [start(&files[0]), start(&files[1])];
         let bodies = [
             body(&files[0], [0.0, -1.5], faster),
@@ -122,9 +126,16 @@ fn counted(log: &str, reason: &str) -> u64 {
     last["counters"]["body"][reason].as_u64().unwrap_or(0)
 }
 
+/// Whether a robot takes part, by the last state in its log.
+fn availability(log: &str) -> Value {
+    let mut last = records(log).into_iter().rev();
+    let last = last.find_map(|record| record.get("state").cloned());
+    last.unwrap()["availability"].clone()
+}
+
 #[test]
 fn two_bodies_in_python_do_a_whole_crossing() {
-    let street = Street::begin(10.0);
+    let street = Street::begin(10.0, 5_000);
     street.until(0, "taskCompleted", 0);
     let [ari, go2] = street.end();
     assert_eq!(ari.matches("\"corridorOpened\"").count(), 1);
@@ -140,7 +151,7 @@ fn two_bodies_in_python_do_a_whole_crossing() {
 
 /// What happens to the corridor when a body is lost in the middle of the road, by this signal.
 fn lose(victim: usize, how: &str) {
-    let street = Street::begin(1.5);
+    let street = Street::begin(1.5, 500);
     let opened = street.until(0, "\"corridorOpened\"", 0);
     std::thread::sleep(Duration::from_millis(500));
     signal(&street.bodies[victim], how);
@@ -158,10 +169,10 @@ fn lose(victim: usize, how: &str) {
     let logs = street.end();
     let stopped = &logs[victim];
     assert_eq!(counted(stopped, "silent"), 1, "{stopped}");
-    let mut last = records(stopped).into_iter().rev();
-    let last = last.find_map(|record| record.get("state").cloned());
-    let availability = &last.unwrap()["availability"];
-    assert_eq!(*availability, json!({"unavailable": "emergencyStop"}));
+    assert_eq!(
+        availability(stopped),
+        json!({"unavailable": "emergencyStop"})
+    );
 }
 
 #[test]
@@ -201,6 +212,7 @@ fn a_body_that_is_not_understood_is_counted_and_a_second_one_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let port = two_free_ports();
     let go2 = ported(folder.path(), "Go2", 2, port, port + 1);
+    edit(&go2, &[("[body]", "[body]\nsilence_ms = 5000")]);
     let mut robot = start(&go2);
     let socket = socket_of(&go2);
     let deadline = Instant::now() + PATIENCE;
@@ -219,6 +231,7 @@ fn a_body_that_is_not_understood_is_counted_and_a_second_one_is_refused() {
         "no json",
         "{\"type\": \"pose\", \"eastM\": 1e30, \"northM\": 0}",
         "{\"type\": \"completed\", \"id\": \"1#1.0/0\"}",
+        "{\"type\": \"beat\"}",
         "{\"type\": \"fault\", \"text\": \"hot motor\"}",
     ] {
         writeln!(first, "{line}").unwrap();
@@ -226,16 +239,19 @@ fn a_body_that_is_not_understood_is_counted_and_a_second_one_is_refused() {
     let second = UnixStream::connect(&socket).unwrap();
     let refused = hears(&mut BufReader::new(second));
     assert_eq!(refused["type"], "refused");
-    for _ in 0..10 {
-        writeln!(first, "{{\"type\": \"beat\"}}").unwrap();
-        std::thread::sleep(Duration::from_millis(50));
-    }
+    wait_until("the fault", || {
+        log_of(&go2).contains(r#""layer":"body","cause":"fault""#)
+    });
     type_to(&mut robot, "quit\n");
     assert_eq!(wait_for(&mut robot, PATIENCE).code(), Some(0));
     let log = log_of(&go2);
     let counts = ["not understood", "fault", "silent"].map(|reason| counted(&log, reason));
     assert_eq!(counts, [4, 1, 0], "{log}");
-    assert!(log.contains("\"unavailable\":\"localFault\""), "{log}");
+    assert_eq!(
+        availability(&log),
+        json!({"unavailable": "localFault"}),
+        "{log}"
+    );
 }
 
 #[test]
