@@ -9,7 +9,7 @@ use crossguard_robot::boot;
 use crossguard_testkit::command::*;
 use serde_json::Value;
 
-use crate::street::{ARI, CROSS, GO2, Street, side_by_side};
+use crate::street::{ARI, CLOCKS_MS, CROSS, GO2, Street, side_by_side, sign_ended_ms};
 
 struct Row {
     what: &'static str,
@@ -20,9 +20,6 @@ struct Row {
     has: [&'static [&'static str]; 2],
     lacks: [&'static [&'static str]; 2],
 }
-
-/// By how much the times of two logs may differ.
-const CLOCKS_MS: f64 = 2.0;
 
 const ROWS: [Row; 7] = [
     Row {
@@ -109,19 +106,6 @@ const ROWS: [Row; 7] = [
         lacks: [&["leaseExpired"], &[]],
     },
 ];
-
-/// When the sign of the first session ended, at the latest, as people saw it.
-fn sign_ended_ms(leader: &[(f64, Value)]) -> f64 {
-    let mut ends_ms = f64::NAN;
-    for (at_ms, it) in leader {
-        if let Some(lasts) = it.get("corridorOpened").or(it.get("corridorExtended")) {
-            ends_ms = at_ms + lasts.as_f64().unwrap();
-        } else if it.get("corridorClosed").is_some() {
-            return ends_ms.min(*at_ms);
-        }
-    }
-    ends_ms
-}
 
 fn lose(row: &Row) {
     let what = row.what;

@@ -17,6 +17,9 @@ pub(crate) const PATIENCE: Duration = Duration::from_mins(1);
 pub(crate) const ARI: usize = 0;
 pub(crate) const GO2: usize = 1;
 
+/// By how much the times of two logs may differ.
+pub(crate) const CLOCKS_MS: f64 = 2.0;
+
 /// What ARI is told for a crossing by its autopilot.
 pub(crate) const CROSS: &str = "wait 0.5\ndetect\nuntil maneuver-executing 30\nuntil idle 30\n";
 
@@ -129,6 +132,19 @@ impl Street {
         assert_valid(logs.chain(self.before.iter().map(|(_, log)| log.clone())));
         [ARI, GO2].map(|robot| records(&self.log(robot)))
     }
+}
+
+/// When the sign of the first session ended, at the latest, as people saw it.
+pub(crate) fn sign_ended_ms(leader: &[(f64, Value)]) -> f64 {
+    let mut ends_ms = f64::NAN;
+    for (at_ms, it) in leader {
+        if let Some(lasts) = it.get("corridorOpened").or(it.get("corridorExtended")) {
+            ends_ms = at_ms + lasts.as_f64().unwrap();
+        } else if it.get("corridorClosed").is_some() {
+            return ends_ms.min(*at_ms);
+        }
+    }
+    ends_ms
 }
 
 /// Asserts that logs are of something that could have happened.
