@@ -70,7 +70,7 @@ const ROWS: [Row; 7] = [
         guard_leaves: false,
         lose: |street| {
             street.signal(GO2, "-STOP");
-            std::thread::sleep(Duration::from_millis(800));
+            std::thread::sleep(Duration::from_millis(400));
             street.signal(GO2, "-CONT");
             street.until(ARI, "taskCompleted");
         },
@@ -126,7 +126,13 @@ fn lose(row: &Row) {
     }
     let [of_leader, of_follower] = [ARI, GO2].map(|robot| happenings(&street.first_log(robot)));
     let fell_back_ms = first(&of_follower, |it| it.get("fallBack").is_some());
-    // The sign ends first, but where the guard itself is told to leave. Logs say to a millisecond when they began.
+    // The leader closes the corridor before it releases anybody.
+    let mut outputs = of_leader.iter().map(|(_, it)| it);
+    let is_closing = |it: &Value| it.get("corridorClosed").is_some();
+    let is_release = |it: &Value| it["notify"].get("sessionEnded").is_some();
+    let next = outputs.find(|it| is_closing(it) || is_release(it));
+    assert!(next.is_none_or(is_closing), "{what}");
+    // The sign ends first, but where the guard itself is told to leave.
     let ended_ms = sign_ended_ms(&of_leader) - CLOCKS_MS;
     let is_first = fell_back_ms.is_none_or(|ms| ended_ms <= ms);
     assert!(
