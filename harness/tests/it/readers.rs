@@ -180,14 +180,10 @@ fn people_are_announced_by_one_robot(seen: &[Value]) {
         let mut users = of_kind.flat_map(|it| it["roadUsers"].as_array().into_iter().flatten());
         assert!(users.any(|it| it["cardinality"] == 3), "{kind}");
     }
-    let settled = seen
-        .iter()
-        .filter(|it| it["kind"] == "VAM" && it["atS"].as_f64() > Some(1.5));
-    let heads: Vec<_> = settled.map(|it| it["station"].as_u64()).collect();
-    assert!(
-        !heads.is_empty() && heads.iter().all(|it| *it == Some(1)),
-        "{heads:?}"
-    );
+    let vams = seen.iter().filter(|it| it["kind"] == "VAM");
+    let heads: Vec<_> = vams.map(|it| it["station"].as_u64()).collect();
+    let settled = heads.iter().rev().take_while(|it| **it == Some(1));
+    assert!(settled.count() >= 3, "{heads:?}");
 }
 
 fn a_packet_is_decoded_and_a_message_comes_back(of: &Run) {
