@@ -138,7 +138,8 @@ fn each_plan_ends_as_it_says_and_leaves_a_valid_log() {
 
 #[test]
 fn the_results_have_the_papers_times_for_each_maneuver() {
-    let result = json(&demo(&["--speed", "50", "--trials", "3", "--json"]));
+    // At a higher speed a thread that is held for a moment makes a maneuver much longer.
+    let result = json(&demo(&["--speed", "10", "--trials", "3", "--json"]));
     assert_eq!(
         (&result["crossings"], &result["traceValid"]),
         (&3.into(), &true.into())
