@@ -139,7 +139,7 @@ fn a_process_that_is_held_up_does_not_hold_up_the_others_for_ever() {
     let folder = TempDir::new().unwrap();
     let hosts = hosts(folder.path(), 2);
     let [waits, mut held] = ["0", "1"].map(|number| {
-        let hosts = ["--hosts", &hosts, "--process", number, "--timeout", "3"];
+        let hosts = ["--hosts", &hosts, "--process", number, "--timeout", "15"];
         begin("team-of-four", &hosts)
     });
     wait_for(&mut held, has_level);
