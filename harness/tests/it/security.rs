@@ -244,7 +244,7 @@ fn the_crossing_goes_on_and_each_false_packet_is_rejected_under_its_own_cause() 
     let child = crossguard(&[
         "demo",
         "--speed",
-        "20",
+        "5",
         "--json",
         "--security",
         "enforce",
