@@ -359,17 +359,6 @@ pub(crate) fn placed(model: &Model, action: Action) -> (ChartPlace, String) {
     }
 }
 
-/// An action in one line.
-pub(crate) fn label(model: &Model, action: Action) -> String {
-    let (place, action) = placed(model, action);
-    let step = ChartStep {
-        place,
-        action,
-        outputs: Vec::new(),
-    };
-    step.line(&names(model.scenario()))
-}
-
 /// The robots' names in charts.
 #[must_use]
 pub fn names(scenario: &Scenario) -> Vec<String> {

@@ -34,7 +34,7 @@
 //! - [`road`] is what bodies, signs and a pedestrian do.
 //! - [`odds`] are probabilities and expected times under loss, from the same transition function.
 //! - [`sequence`] draws counterexamples, [`replay`] follows them again, [`walk`] goes through a scenario step by
-//!   step, [`export`] hands the states to other tools.
+//!   step.
 //! - [`model::portable`] takes states from one process to another, for `crossguard-workers`.
 //! - [`monitor`] judges running robots by the same rules; [`universe`], [`transitions`] and [`fsm`] are one
 //!   robot against everything, and the diagram of that.
@@ -50,7 +50,6 @@ pub mod check;
 pub mod confinement;
 pub mod crossing;
 mod exploration;
-pub mod export;
 pub mod fair;
 mod fairness;
 pub mod fsm;

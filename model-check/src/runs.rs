@@ -16,7 +16,7 @@ impl Runs<'_> {
     ///
     /// # Panics
     /// Where transitions are not kept.
-    pub(crate) fn transitions(&self, state: u32) -> impl Iterator<Item = (Action, Edge)> {
+    fn transitions(&self, state: u32) -> impl Iterator<Item = (Action, Edge)> {
         let from = self.graph.state(state);
         let mut actions = Vec::new();
         self.model.actions_in(&from, &mut actions);

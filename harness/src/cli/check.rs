@@ -4,8 +4,6 @@ mod confinement;
 mod replay;
 mod workers;
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -15,7 +13,6 @@ use comfy_table::Table;
 use comfy_table::presets::NOTHING;
 use crossguard_model_check::check::{CheckProgress, Options, Stop};
 use crossguard_model_check::crossing::SHIPPED;
-use crossguard_model_check::model::Model;
 use crossguard_model_check::paper;
 use crossguard_model_check::replay::Replay;
 use crossguard_model_check::report::{CheckVerdict, PropertyReport, ScenarioReport};
@@ -23,7 +20,7 @@ use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::subject::Subject;
 use crossguard_model_check::timed::Figure;
 use crossguard_model_check::transitions::Transitions;
-use crossguard_model_check::{export, universe};
+use crossguard_model_check::universe;
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
@@ -49,7 +46,7 @@ pub(super) struct Arguments {
     all: bool,
     /// Check the large ones of the shipped scenarios instead, with as many workers as there are processors unless --workers
     /// says otherwise. Takes two hours on two cores and 15 GB. States and steps are judged, and no runs.
-    #[arg(long, conflicts_with_all = ["scenarios", "all", "hosts", "threads", "replay", "export", "junit"])]
+    #[arg(long, conflicts_with_all = ["scenarios", "all", "hosts", "threads", "replay", "junit"])]
     large: bool,
     /// List the shipped scenarios and check nothing.
     #[arg(long)]
@@ -80,12 +77,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FOLDER")]
     charts: Option<PathBuf>,
     /// Follow the run in this file, a counterexample of before, and say whether it still exists.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["export", "charts"])]
+    #[arg(long, value_name = "FILE", conflicts_with = "charts")]
     replay: Option<PathBuf>,
-    /// Write the state graph of the scenario to this file instead of checking it, in the format of Aldébaran, which CADP and
-    /// mCRL2 read.
-    #[arg(long, value_name = "FILE")]
-    export: Option<PathBuf>,
     #[command(flatten)]
     workers: workers::WorkersArguments,
     #[command(flatten)]
@@ -139,15 +132,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .map(Subject::load)
         .collect::<Result<Vec<_>, _>>();
     let scenarios = scenarios.map_err(Failure::input)?;
-    destinations::files([&arguments.export])?;
     arguments.junit.check()?;
     destinations::folders([&arguments.charts])?;
     let stop = Stop::default();
     let asked = stop.clone();
     let interrupted = interrupts_that(move || asked.request());
-    if let Some(file) = &arguments.export {
-        return export_one(arguments, &stop, scenarios, file);
-    }
     let mut report = CheckReport {
         scenarios: Vec::new(),
         fsm_coverage: None,
@@ -272,26 +261,6 @@ fn coverage(scenarios: &[ScenarioReport]) -> Coverage {
         reached: all.count() - not_reached.len(),
         of: all.count(),
         not_reached,
-    }
-}
-
-fn export_one(
-    arguments: &Arguments,
-    stop: &Stop,
-    subjects: Vec<Subject>,
-    file: &Path,
-) -> Result<(), Failure> {
-    let Ok([Subject::Scenario(scenario)]) = <[Subject; 1]>::try_from(subjects) else {
-        return Err(Failure::input("--export wants one scenario"));
-    };
-    let cannot = |cause| Failure::input(format!("{}: {cause}", file.display()));
-    let model = Model::new(untimed(*scenario)?);
-    let mut to = BufWriter::new(File::create(file).map_err(cannot)?);
-    let cut_off = export::export(&model, &options(arguments, stop), &mut to).map_err(cannot)?;
-    to.flush().map_err(cannot)?;
-    match cut_off {
-        None => Ok(()),
-        Some(_) => Err(Failure::Incomplete),
     }
 }
 

@@ -102,38 +102,6 @@ fn small_scenario(properties: &str) -> String {
 }
 
 #[test]
-fn the_state_graph_is_exported_whole_or_not_at_all() {
-    let folder = tempfile::tempdir().unwrap();
-    let (scenario, file) = (
-        folder.path().join("small.toml"),
-        folder.path().join("graph"),
-    );
-    std::fs::write(&scenario, small_scenario("'I2'")).unwrap();
-    let (scenario, file) = (scenario.to_str().unwrap(), file.to_str().unwrap());
-    let states = json(&run(&["check", scenario, "--json"]))["scenarios"][0]["uniqueStates"]
-        .as_u64()
-        .unwrap();
-
-    let export = |more: &[&str]| {
-        let arguments = ["check", scenario, "--export", file];
-        run(&[&arguments[..], more].concat())
-    };
-    assert_eq!(export(&[]).status.code(), Some(0));
-    let graph = std::fs::read_to_string(file).unwrap();
-    let header = graph.lines().next().unwrap();
-    let transitions = graph.lines().count() - 1;
-    let words: Vec<_> = header.split_whitespace().collect();
-    assert_eq!(words.join(" "), format!("des (0, {transitions}, {states})"));
-    assert!(
-        graph.contains("\"robot 1 -x robot 2: RAM needHelp"),
-        "{header}"
-    );
-
-    assert_eq!(export(&["--max-states", "10"]).status.code(), Some(3));
-    assert_eq!(std::fs::read_to_string(file).unwrap(), "");
-}
-
-#[test]
 fn a_run_in_a_file_is_followed_as_far_as_it_exists() {
     let folder = tempfile::tempdir().unwrap();
     let (scenario, file) = (
