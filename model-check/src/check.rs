@@ -101,7 +101,6 @@ pub fn check(
         properties: findings.all(),
         figures: Vec::new(),
         assumptions: assumed(scenario, options, size.unique_states),
-        transitions_taken: model.transitions_taken(),
         seconds: limits.elapsed().as_secs_f64(),
     }
 }

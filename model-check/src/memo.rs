@@ -42,11 +42,6 @@ impl<K: Eq + Hash, V> Memo<K, V> {
             .unwrap_or_else(|| locked.add(self.results.push((of, result))));
         &self.results[number as usize].1
     }
-
-    /// All that is known.
-    pub(crate) fn all(&self) -> impl Iterator<Item = &(K, V)> {
-        self.results.iter().map(|(_, result)| result)
-    }
 }
 
 /// The same for results of numbers from 0, which are found without hashing.
@@ -97,6 +92,5 @@ mod tests {
         assert_eq!(memo.keep(1, 'a'), &'a');
         assert_eq!(memo.keep(1, 'b'), &'a');
         assert_eq!(memo.get(&1), Some(&'a'));
-        assert!(memo.all().eq(&[(1, 'a')]));
     }
 }

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 use crate::properties::{Claim, PropertyId};
 use crate::sequence::{Chart, ChartStep};
 use crate::timed::Figure;
-use crate::transitions::Transitions;
 
 /// The result of checking one scenario.
 #[derive(Clone, Debug, Serialize)]
@@ -44,9 +43,6 @@ pub struct ScenarioReport {
     pub figures: Vec<Figure>,
     /// What the verdicts assume.
     pub assumptions: Vec<String>,
-    /// The transitions of the state diagram that robots took.
-    #[serde(skip)]
-    pub transitions_taken: Transitions,
 }
 
 /// What cut an exploration off.

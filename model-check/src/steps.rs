@@ -5,7 +5,6 @@
 //! from then on.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use crossguard_protocol::{Config, Event, Input, Outputs, Timer};
 use smallvec::SmallVec;
@@ -49,8 +48,6 @@ pub(crate) struct ComputedStep {
     pub(crate) premises: u32,
     /// One bit for each step property that it breaks, as far as it depends on no history.
     pub(crate) broken: u32,
-    /// Whether it has been taken, and not only looked at.
-    pub(crate) taken: AtomicBool,
 }
 
 /// All nodes, messages and steps that have occurred.
@@ -93,13 +90,6 @@ impl Steps {
         node.step(&*self.rules, config, input)
     }
 
-    /// The steps that have been taken, each with the node before it.
-    pub(crate) fn taken(&self) -> impl Iterator<Item = (&Node, &ComputedStep)> {
-        let computed = self.computed.all();
-        let steps = computed.map(|((node, _), step)| (self.nodes.value(*node), step));
-        steps.filter(|(_, step)| step.taken.load(Ordering::Relaxed))
-    }
-
     fn compute(
         &self,
         config: &Config,
@@ -139,7 +129,6 @@ impl Steps {
             premises,
             broken,
             after,
-            taken: AtomicBool::new(false),
         })
     }
 

@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crossguard_protocol::{Coordination, Event, Farewell, Input, Progress, Rmcm, Role, State};
-use serde::{Deserialize, Serialize};
 
 use crate::node::Node;
 
@@ -11,7 +10,7 @@ use crate::node::Node;
 pub type Mode = (Role, State);
 
 /// Which inputs have led from one mode to another.
-#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Transitions(pub BTreeMap<(Mode, Mode), BTreeSet<String>>);
 
 impl Transitions {
@@ -23,41 +22,6 @@ impl Transitions {
         {
             self.0.entry((from, to)).or_default().insert(label);
         }
-    }
-
-    /// Adds the transitions of `other`.
-    pub fn add(&mut self, other: &Self) {
-        for (way, labels) in &other.0 {
-            self.0
-                .entry(*way)
-                .or_default()
-                .extend(labels.iter().cloned());
-        }
-    }
-
-    /// How many there are, each input counted.
-    #[must_use]
-    pub fn count(&self) -> usize {
-        self.0.values().map(BTreeSet::len).sum()
-    }
-
-    /// Those of them that are not in `other`, as `from --> to: input`.
-    #[must_use]
-    pub fn not_in(&self, other: &Self) -> Vec<String> {
-        let missing = |way: &(Mode, Mode), label: &String| {
-            other
-                .0
-                .get(way)
-                .is_none_or(|labels| !labels.contains(label))
-        };
-        self.0
-            .iter()
-            .flat_map(|(way, labels)| labels.iter().map(move |label| (way, label)))
-            .filter(|(way, label)| missing(way, label))
-            .map(|((from, to), label)| {
-                format!("{} --> {}: {label}", mode_name(*from), mode_name(*to))
-            })
-            .collect()
     }
 }
 

@@ -19,8 +19,6 @@ use crossguard_model_check::report::{CheckVerdict, PropertyReport, ScenarioRepor
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::subject::Subject;
 use crossguard_model_check::timed::Figure;
-use crossguard_model_check::transitions::Transitions;
-use crossguard_model_check::universe;
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
@@ -89,20 +87,8 @@ pub(super) struct Arguments {
 }
 
 #[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
 struct CheckReport {
     scenarios: Vec<ScenarioReport>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    fsm_coverage: Option<Coverage>,
-}
-
-/// How much of the state diagram the scenarios reach together.
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Coverage {
-    reached: usize,
-    of: usize,
-    not_reached: Vec<String>,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -139,7 +125,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let interrupted = interrupts_that(move || asked.request());
     let mut report = CheckReport {
         scenarios: Vec::new(),
-        fsm_coverage: None,
     };
     let (wanted, mut written) = (scenarios.len(), Ok(()));
     for subject in scenarios {
@@ -159,9 +144,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let is_all = report.scenarios.len() == wanted;
     let suites = report.scenarios.iter().map(junit::scenario);
     written = written.and(arguments.junit.write("check", suites));
-    if arguments.scenarios.is_empty() && is_all {
-        report.fsm_coverage = Some(coverage(&report.scenarios));
-    }
     if arguments.json {
         print_json(&report)?;
     } else {
@@ -247,21 +229,6 @@ fn untimed(scenario: Scenario) -> Result<Scenario, Failure> {
         )));
     }
     Ok(scenario)
-}
-
-/// How much of the state diagram these scenarios reach together.
-fn coverage(scenarios: &[ScenarioReport]) -> Coverage {
-    let all = universe::explore(&universe::config()).transitions;
-    let mut taken = Transitions::default();
-    for scenario in scenarios {
-        taken.add(&scenario.transitions_taken);
-    }
-    let not_reached = all.not_in(&taken);
-    Coverage {
-        reached: all.count() - not_reached.len(),
-        of: all.count(),
-        not_reached,
-    }
 }
 
 fn write_charts(report: &ScenarioReport, folder: &Path) -> Result<(), Failure> {
@@ -467,15 +434,5 @@ fn summarize(report: &CheckReport) -> Result<(), Failure> {
         "{verified} of {} scenarios verified exhaustively, {} states in all.",
         scenarios.len(),
         HumanCount(states as u64)
-    ))?;
-    if let Some(coverage) = &report.fsm_coverage {
-        let Coverage { reached, of, .. } = coverage;
-        print(format_args!(
-            "{reached} of the {of} transitions of the state diagram were taken in them."
-        ))?;
-        for transition in &coverage.not_reached {
-            print(format_args!("  not taken: {transition}"))?;
-        }
-    }
-    Ok(())
+    ))
 }

@@ -31,7 +31,6 @@ use crate::properties::PropertyId;
 use crate::scenario::{Bounds, MAX_ROBOTS, Scenario};
 use crate::steps::{Cause, ComputedStep, Steps};
 use crate::symmetry::Symmetry;
-use crate::transitions::Transitions;
 
 /// A global state: numbers of interned parts, and what may still happen. It means something to the model that made it
 /// alone, also where it was written down.
@@ -333,17 +332,6 @@ impl Model {
     #[must_use]
     pub fn premise_met(&self, property: PropertyId) -> bool {
         self.0.premises_met.load(Ordering::Relaxed) & property.bit() != 0
-    }
-
-    /// The transitions of the state diagram that robots have taken so far.
-    #[must_use]
-    pub fn transitions_taken(&self) -> Transitions {
-        let mut taken = Transitions::default();
-        for (before, step) in self.0.steps.taken() {
-            let after = self.0.steps.nodes.value(step.after);
-            taken.note(before, step.input, after);
-        }
-        taken
     }
 
     /// Notes that the premise of a property has been met.

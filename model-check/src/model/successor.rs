@@ -1,6 +1,5 @@
 //! The effect of an action: the next state, and the step of the robot that takes one.
 
-use std::sync::atomic::Ordering;
 
 use crossguard_protocol::{Phase, Robot, SessionId, Timer};
 
@@ -276,9 +275,6 @@ impl Model {
             next.state.history = self.0.histories.number(view.history_after());
         }
         next.state.broken |= broken;
-        if !step.taken.load(Ordering::Relaxed) {
-            step.taken.store(true, Ordering::Relaxed);
-        }
         self.note_premises(premises);
         self.transmit(next, i, step);
         next.state.nodes[i] = step.after;

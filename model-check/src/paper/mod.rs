@@ -57,7 +57,6 @@ pub use shown::{PaperRobotFrame, PaperRun, runs};
 pub use texts::{Text, on_the_road};
 
 use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
-use crate::transitions::Transitions;
 use model::{Cast, Inquiry, PaperAction, Question};
 use road::RoadProperty;
 use robot::PaperTask;
@@ -196,8 +195,6 @@ pub fn check() -> ScenarioReport {
         properties,
         figures: Vec::new(),
         assumptions: assumptions(),
-        // It is another state diagram.
-        transitions_taken: Transitions::default(),
     }
 }
 

@@ -16,7 +16,6 @@ use crate::properties::{Claim, PropertyId};
 use crate::report::{PropertyReport, ScenarioReport};
 use crate::scenario::Size;
 use crate::sequence::{ChartPlace, ChartStep, Fate};
-use crate::transitions::Transitions;
 
 /// Checks a timed model. `watch` receives the progress now and then. Of the options, the limits on
 /// states and time and the number of threads count; there is no second opinion.
@@ -53,7 +52,6 @@ pub fn check(
             .collect(),
         figures: explored.longest.figures(timed, model.limits()),
         assumptions: assumptions(model),
-        transitions_taken: Transitions::default(),
         seconds: start.elapsed().as_secs_f64(),
     }
 }

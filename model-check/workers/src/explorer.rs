@@ -10,7 +10,6 @@ use crossguard_model_check::model::portable::{Fingerprints, PackedState, Packer,
 use crossguard_model_check::model::{Action, Model, ModelState};
 use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::report::CutOff;
-use crossguard_model_check::transitions::Transitions;
 use serde::{Deserialize, Serialize};
 
 use crate::table::{Fingerprint, Hint, Table};
@@ -90,8 +89,6 @@ pub(crate) struct Told {
     /// Of the judged properties: the first state that breaks it.
     pub(crate) broken: Vec<Option<(u32, Fingerprint)>>,
     pub(crate) cut_off: Option<CutOff>,
-    /// The transitions of the state diagram that were taken in this process.
-    pub(crate) transitions_taken: Transitions,
 }
 
 /// How many fingerprints a worker remembers of the states that it has sent last.
@@ -359,15 +356,12 @@ impl Explorer {
     /// What it has found until now.
     pub(crate) fn told(&self) -> Told {
         let judged = self.common.judged.iter();
-        let mut taken = self.common.model.transitions_taken();
-        taken.add(&self.told.transitions_taken);
         Told {
             premises: judged
                 .map(|property| self.common.model.premise_met(*property))
                 .zip(&self.told.premises)
                 .map(|(now, before)| now || *before)
                 .collect(),
-            transitions_taken: taken,
             table_bytes: self.table.bytes() as u64,
             ..self.told.clone()
         }

@@ -9,7 +9,6 @@ use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::report::{CutOff, PropertyReport, ScenarioReport};
 use crossguard_model_check::scenario::Size;
 use crossguard_model_check::sequence::ChartStep;
-use crossguard_model_check::transitions::Transitions;
 use serde::Serialize;
 
 use crate::dataflow::{Candidates, Outcome};
@@ -88,10 +87,6 @@ pub(crate) fn of(
          probability of at most {omission_probability:.0e}"
     );
     let properties = common.judged.iter().enumerate();
-    let mut transitions_taken = Transitions::default();
-    for told in told {
-        transitions_taken.add(&told.transitions_taken);
-    }
     let not_judged = scenario.properties.iter();
     let not_judged = not_judged.filter(|id| !common.judged.contains(id));
     WorkersReport {
@@ -112,7 +107,6 @@ pub(crate) fn of(
                 .collect(),
             figures: Vec::new(),
             assumptions: assumptions(scenario, compared),
-            transitions_taken,
         },
         processes,
         workers: common.workers,
