@@ -8,7 +8,6 @@ use std::time::Duration;
 
 use stateright::{Checker, Expectation, HasDiscoveries, Model as _, Property};
 
-use crate::confinement::LyingPart;
 use crate::exploration::ExplorationLimits;
 pub use crate::exploration::{CheckProgress, Options, Stop};
 use crate::fair::{LeadsTo, leads_to};
@@ -22,7 +21,7 @@ use crate::properties::{
 };
 use crate::report::{CutOff, PropertyReport, ScenarioReport};
 use crate::runs::Runs;
-use crate::scenario::{RobotSetup, Scenario, Size};
+use crate::scenario::{LyingPart, RobotSetup, Scenario, Size};
 use crate::sequence::{ChartPlace, ChartStep, Fate};
 
 /// The kit's own exploration, in a report.

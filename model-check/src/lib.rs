@@ -47,7 +47,6 @@
 
 mod canonical;
 pub mod check;
-pub mod confinement;
 pub mod crossing;
 mod exploration;
 pub mod fair;

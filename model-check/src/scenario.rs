@@ -15,9 +15,9 @@ use std::path::{Path, PathBuf};
 
 use crossguard_protocol::{Config, HelpRequest, StationId};
 
-use crate::confinement::LyingPart;
 use crate::properties::PropertyId;
 use crate::timed::Timed;
+pub use lies::LyingPart;
 pub(crate) use setup::PSEUDONYM_STEP;
 pub use setup::{Bounds, ChannelSetup, MAX_ROBOTS, RobotSetup, Size};
 

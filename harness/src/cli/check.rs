@@ -1,6 +1,5 @@
 //! `crossguard check`.
 
-mod confinement;
 mod replay;
 mod workers;
 
@@ -49,10 +48,6 @@ pub(super) struct Arguments {
     /// List the shipped scenarios and check nothing.
     #[arg(long)]
     list: bool,
-    /// Print who can do what by a lie in its own name, and for how many milliseconds at most with the settings by
-    /// default, and check nothing.
-    #[arg(long, conflicts_with_all = ["scenarios", "all", "large", "list"])]
-    confinement: bool,
     /// Threads to explore with; as many as there are processors by default.
     #[arg(long, value_name = "N", value_parser = threads)]
     threads: Option<NonZeroUsize>,
@@ -94,9 +89,6 @@ struct CheckReport {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
         return list();
-    }
-    if arguments.confinement {
-        return confinement::tell(arguments.json);
     }
     if let Some(file) = &arguments.replay {
         return replay::run(&arguments.scenarios, file);

@@ -12,13 +12,12 @@ use crossguard_protocol::{
 
 use super::{Action, Model, ModelState};
 use crate::canonical::GivenOut;
-use crate::confinement::LyingPart;
 use crate::history::History;
 use crate::memo::Memo;
 use crate::network::{Transmission, concerns};
 use crate::node::Node;
 use crate::properties::StepView;
-use crate::scenario::Scenario;
+use crate::scenario::{LyingPart, Scenario};
 use crate::steps::judge;
 use crate::utterances::Utterances;
 

@@ -1,6 +1,5 @@
 //! The effect of an action: the next state, and the step of the robot that takes one.
 
-
 use crossguard_protocol::{Phase, Robot, SessionId, Timer};
 
 use super::{Action, Delivery, Draft, Model, ModelState, RobotStep, Shared};

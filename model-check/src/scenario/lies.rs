@@ -1,7 +1,49 @@
-//! Whether a scenario fits insiders that lie; [`utterances`](crate::utterances) says what they do.
+//! Insiders that lie, by their parts, and whether a scenario fits them; [`utterances`](crate::utterances) says what they do.
+
+use crossguard_protocol::{Coordination, Farewell, Rmcm};
+use serde::{Deserialize, Serialize};
 
 use super::location::Wrong;
 use super::setup::RobotSetup;
+use crate::network::Message;
+
+/// Who lies, by its part in a session.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LyingPart {
+    /// A follower that its leader has confirmed.
+    Follower,
+    /// A robot that offers its help.
+    Helper,
+    /// A station that has no part in the session that it disturbs.
+    Bystander,
+    /// A leader.
+    Leader,
+}
+
+impl LyingPart {
+    /// Whether an insider in this part says such a thing. A bystander says everything but that it helps.
+    #[must_use]
+    pub const fn says(self, message: &Message) -> bool {
+        let is_to_leader = match message {
+            Message::Rmcm(Rmcm::Command(_)) => false,
+            Message::Rmcm(Rmcm::Answer(_)) => true,
+            Message::Ram(ram) => match ram.coordination {
+                Coordination::NeedHelp { .. } | Coordination::Leader { .. } => false,
+                Coordination::OfferHelp { .. } => {
+                    return matches!(self, Self::Follower | Self::Helper);
+                }
+                Coordination::Follower { .. } => true,
+                Coordination::None => !matches!(ram.farewell, Some(Farewell::Ended(..))),
+            },
+        };
+        match self {
+            Self::Follower | Self::Helper => is_to_leader,
+            Self::Leader => !is_to_leader,
+            Self::Bystander => true,
+        }
+    }
+}
 
 /// Whether the robots that lie fit the rest of the scenario.
 pub(super) fn check(robots: &[RobotSetup], others: [(&'static str, bool); 4]) -> Result<(), Wrong> {

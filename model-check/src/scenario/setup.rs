@@ -6,7 +6,7 @@ use std::hash::{Hash, Hasher};
 use crossguard_protocol::{Availability, Event, StationId, Urgency};
 use serde::{Deserialize, Serialize};
 
-use crate::confinement::LyingPart;
+use super::lies::LyingPart;
 
 /// How many robots a scenario may have.
 pub const MAX_ROBOTS: usize = 6;

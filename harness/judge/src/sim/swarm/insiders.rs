@@ -1,6 +1,6 @@
 //! What is drawn for a station that lies.
 
-use crossguard_model_check::confinement::LyingPart;
+use crossguard_model_check::scenario::LyingPart;
 use crossguard_protocol::StationId;
 use crossguard_robot::site::Place;
 use rand::Rng;
