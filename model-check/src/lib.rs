@@ -85,24 +85,6 @@ pub mod universe;
 pub mod utterances;
 pub mod walk;
 
-/// How many distinct states a scenario has, by the kit's own exploration alone. It says nothing about
-/// what must hold of them; [`check::check`] does.
-#[must_use]
-pub fn count_states(model: &model::Model) -> usize {
-    let options = exploration::Options {
-        threads: std::num::NonZeroUsize::MIN,
-        ..exploration::Options::default()
-    };
-    graph::Graph::build(
-        model,
-        graph::Keep::States,
-        &options,
-        &options.limits(),
-        &mut |_| (),
-    )
-    .states()
-}
-
 /// The Rust in the README compiles.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
