@@ -13,7 +13,7 @@ pub struct Transmission {
     pub message: u16,
 }
 
-/// A transmission in four bytes, or none. States are compared and hashed by the million.
+/// A transmission in four bytes with a tag that is not 0, or none. States are compared and hashed by the million.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) struct PackedTransmission(u32);
 
@@ -24,8 +24,17 @@ impl PackedTransmission {
         self.0 == 0
     }
 
-    pub(crate) const fn of(Transmission { from, to, message }: Transmission) -> Self {
-        Self(1 << 24 | (from as u32) << 20 | (to as u32) << 16 | message as u32)
+    pub(crate) const fn of(transmission: Transmission) -> Self {
+        Self::tagged(transmission, 1)
+    }
+
+    pub(crate) const fn tagged(Transmission { from, to, message }: Transmission, tag: u8) -> Self {
+        let [high, low] = message.to_be_bytes();
+        Self(u32::from_be_bytes([tag, from << 4 | to, high, low]))
+    }
+
+    pub(crate) const fn tag(self) -> u8 {
+        self.0.to_be_bytes()[0]
     }
 
     /// Sender and message.

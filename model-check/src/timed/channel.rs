@@ -5,37 +5,10 @@
 //! message that has not arrived at the end of its time never will.
 
 use crate::network::Transmission;
+use crate::transmission::PackedTransmission;
 
 /// How many messages may be under way at a time.
 const MAX_UNDER_WAY: usize = 20;
-
-/// A transmission with the ticks it has been under way, in four bytes, or none.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-struct PackedFlight(u32);
-
-impl PackedFlight {
-    const EMPTY: Self = Self(0);
-
-    /// Ticks are counted from 1 here, so that no message is all zeros.
-    fn of(transmission: Transmission, ticks: u8) -> Self {
-        let Transmission { from, to, message } = transmission;
-        let [high, low] = message.to_be_bytes();
-        Self(u32::from_be_bytes([ticks + 1, from << 4 | to, high, low]))
-    }
-
-    fn flight(self) -> Option<Flight> {
-        let [ticks, from_to, high, low] = self.0.to_be_bytes();
-        let transmission = Transmission {
-            from: from_to >> 4,
-            to: from_to & 0xf,
-            message: u16::from_be_bytes([high, low]),
-        };
-        Some(Flight {
-            transmission,
-            ticks: ticks.checked_sub(1)?,
-        })
-    }
-}
 
 /// A message under way to one receiver.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -46,16 +19,30 @@ pub struct Flight {
     pub ticks: u8,
 }
 
+impl Flight {
+    fn of(packed: PackedTransmission) -> Option<Self> {
+        Some(Self {
+            transmission: packed.transmission()?,
+            ticks: packed.tag() - 1,
+        })
+    }
+
+    /// Tags count ticks from 1, so that no message is all zeros.
+    const fn packed(self) -> PackedTransmission {
+        PackedTransmission::tagged(self.transmission, self.ticks + 1)
+    }
+}
+
 /// All messages under way, as a sorted set.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) struct TimedChannel([PackedFlight; MAX_UNDER_WAY]);
+pub(super) struct TimedChannel([PackedTransmission; MAX_UNDER_WAY]);
 
 impl TimedChannel {
-    pub(super) const EMPTY: Self = Self([PackedFlight::EMPTY; MAX_UNDER_WAY]);
+    pub(super) const EMPTY: Self = Self([PackedTransmission::EMPTY; MAX_UNDER_WAY]);
 
     /// Everything under way.
     pub(super) fn flights(&self) -> impl Iterator<Item = Flight> {
-        self.0.iter().filter_map(|slot| slot.flight())
+        self.0.iter().copied().filter_map(Flight::of)
     }
 
     /// Sends a message. One that is still under way from before is from now on the one sent now: both
@@ -64,76 +51,52 @@ impl TimedChannel {
     /// # Panics
     /// When more messages are under way than there is room for.
     pub(super) fn send(&mut self, transmission: Transmission) {
-        let is_same = |slot: &PackedFlight| {
-            slot.flight()
-                .is_some_and(|f| f.transmission == transmission)
-        };
+        let is_same = |slot: &PackedTransmission| slot.transmission() == Some(transmission);
         let place = (self.0.iter().position(is_same))
-            .or_else(|| self.0.iter().position(|slot| *slot == PackedFlight::EMPTY));
+            .or_else(|| self.0.iter().position(|slot| slot.is_empty()));
         let place = place.expect("room for what is sent within the longest delay");
-        self.0[place] = PackedFlight::of(transmission, 0);
+        self.0[place] = PackedTransmission::tagged(transmission, 1);
         self.0.sort_unstable();
     }
 
     /// Takes away a message that has arrived.
     pub(super) fn take(&mut self, flight: Flight) {
-        let arrived = PackedFlight::of(flight.transmission, flight.ticks);
-        self.retain(|slot| slot != arrived);
+        self.retain(|it| it != flight);
     }
 
     /// Takes away everything on its way to one robot, which is down.
     pub(super) fn forget_receiver(&mut self, to: u8) {
-        self.retain(|slot| {
-            slot.flight()
-                .is_some_and(|flight| flight.transmission.to != to)
-        });
+        self.retain(|it| it.transmission.to != to);
     }
 
     /// One tick passes. What has been under way for `ticks_max` is lost.
     pub(super) fn tick(&mut self, ticks_max: u8) {
-        for slot in &mut self.0 {
-            *slot = match slot.flight() {
-                Some(Flight {
-                    transmission,
-                    ticks,
-                }) if ticks < ticks_max => PackedFlight::of(transmission, ticks + 1),
-                _ => PackedFlight::EMPTY,
-            };
-        }
-        self.0.sort_unstable();
+        *self = self.each(|it| {
+            let ticks = it.ticks + 1;
+            (it.ticks < ticks_max).then_some(Flight { ticks, ..it })
+        });
     }
 
     /// The channel with every message replaced.
     pub(super) fn map(&self, mut replace: impl FnMut(u16) -> u16) -> Self {
-        let mut mapped = Self::EMPTY;
-        for (
-            slot,
-            Flight {
-                transmission,
-                ticks,
-            },
-        ) in mapped.0.iter_mut().zip(self.flights())
-        {
-            let message = replace(transmission.message);
-            *slot = PackedFlight::of(
-                Transmission {
-                    message,
-                    ..transmission
-                },
-                ticks,
-            );
-        }
-        mapped.0.sort_unstable();
-        mapped
+        self.each(|mut it| {
+            it.transmission.message = replace(it.transmission.message);
+            Some(it)
+        })
     }
 
-    fn retain(&mut self, keep: impl Fn(PackedFlight) -> bool) {
-        for slot in &mut self.0 {
-            if !keep(*slot) {
-                *slot = PackedFlight::EMPTY;
-            }
-        }
-        self.0.sort_unstable();
+    fn retain(&mut self, keep: impl Fn(Flight) -> bool) {
+        *self = self.each(|it| keep(it).then_some(it));
+    }
+
+    /// The channel with what becomes of each message under way.
+    fn each(&self, mut change: impl FnMut(Flight) -> Option<Flight>) -> Self {
+        let mut slots = self.0.map(|slot| {
+            let changed = Flight::of(slot).and_then(&mut change);
+            changed.map_or(PackedTransmission::EMPTY, Flight::packed)
+        });
+        slots.sort_unstable();
+        Self(slots)
     }
 }
 
