@@ -84,23 +84,15 @@ pub fn check(
         options,
     };
     ScenarioReport {
-        name: scenario.name.clone(),
-        summary: scenario.summary.clone(),
-        robots: names(scenario),
-        unique_states: size.unique_states,
         transitions: graph.transitions(),
-        depth: size.depth,
         engines: match second {
             Some(_) => vec![KIT, STATERIGHT],
             None => vec![KIT],
         },
-        exhaustive: cut_off.is_none(),
-        cut_off,
-        size_as_expected: scenario.is_expected(size).filter(|_| cut_off.is_none()),
         properties: findings.all(),
-        figures: Vec::new(),
         assumptions: assumed(scenario, options, size.unique_states),
         seconds: limits.elapsed().as_secs_f64(),
+        ..ScenarioReport::of_scenario(scenario, size, cut_off)
     }
 }
 
@@ -229,26 +221,28 @@ impl Findings<'_> {
         let claimed: Vec<_> = claimed.collect();
         let found = map_chunks(self.options.threads, &claimed, 1, |claimed| {
             let judge = |&(i, id, claim): &(usize, PropertyId, &Claim)| {
-                let rule = self.rule(i, id, claim);
+                // The search for a fair run that breaks the property notes its premise.
+                let (run, repeats_after) = self.counterexample(i, id, claim);
                 let is_met = self.model.premise_met(id);
-                let premise = PropertyReport::of_premise(id, claim, is_met, self.cut_off);
-                [Some(rule), premise]
+                PropertyReport::judged((id, claim), is_met, run, repeats_after, self.cut_off)
             };
-            claimed.iter().flat_map(judge).flatten().collect::<Vec<_>>()
+            claimed.iter().flat_map(judge).collect::<Vec<_>>()
         });
         found.into_iter().flatten().collect()
     }
 
-    fn rule(&self, i: usize, id: PropertyId, claim: &Claim) -> PropertyReport {
-        let (counterexample, repeats_after) = match claim.rule {
+    /// A run that breaks a property, and how many steps of it come before its cycle, if it has one.
+    fn counterexample(
+        &self,
+        i: usize,
+        id: PropertyId,
+        claim: &Claim,
+    ) -> (Option<Vec<ChartStep>>, Option<usize>) {
+        match claim.rule {
             Rule::Reset => (self.stuck(), None),
-            Rule::Live(rule) => match self.lasso(id, rule) {
-                Some((chart, repeats_after)) => (Some(chart), Some(repeats_after)),
-                None => (None, None),
-            },
+            Rule::Live(rule) => self.lasso(id, rule).unzip(),
             _ => (self.broken(i, id), None),
-        };
-        PropertyReport::of_rule(id, claim, counterexample, repeats_after, self.cut_off)
+        }
     }
 
     /// A shortest run that breaks a property of states or steps; stateright's where it alone found one.

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::check::names;
 use crate::properties::{Claim, PropertyId};
+use crate::scenario::{Scenario, Size};
 use crate::sequence::{Chart, ChartStep};
 use crate::timed::Figure;
 
@@ -88,44 +90,41 @@ pub struct PropertyReport {
 }
 
 impl PropertyReport {
-    /// What was found about a property: a run that breaks it, if it is broken, and how many of its steps come before
-    /// its cycle, if it has one.
+    /// What was found about a property or a premise, without a run.
     #[must_use]
-    pub fn of_rule(
-        id: PropertyId,
-        claim: &Claim,
-        counterexample: Option<Vec<ChartStep>>,
-        repeats_after: Option<usize>,
-        cut_off: Option<CutOff>,
-    ) -> Self {
+    pub fn plain(id: &str, kind: &str, verdict: CheckVerdict, statement: &str) -> Self {
         Self {
-            id: id.to_string(),
-            kind: claim.kind.name().to_owned(),
-            verdict: CheckVerdict::of_property(counterexample.is_some(), cut_off),
-            statement: claim.statement.to_owned(),
-            authentication: Some(id.authentication().to_string()),
-            counterexample: counterexample.unwrap_or_default(),
-            repeats_after,
-        }
-    }
-
-    /// What was found about the premise of a property; `None` where the property speaks about every state.
-    #[must_use]
-    pub fn of_premise(
-        id: PropertyId,
-        claim: &Claim,
-        is_met: bool,
-        cut_off: Option<CutOff>,
-    ) -> Option<Self> {
-        claim.premise.map(|premise| Self {
-            id: format!("{id}-premise"),
-            kind: "premise".to_owned(),
-            verdict: CheckVerdict::of_premise(is_met, cut_off),
-            statement: premise.to_owned(),
+            id: id.to_owned(),
+            kind: kind.to_owned(),
+            verdict,
+            statement: statement.to_owned(),
             authentication: None,
             counterexample: Vec::new(),
             repeats_after: None,
-        })
+        }
+    }
+
+    /// What was found about a property, and about its premise unless the property speaks about every state: a run that breaks
+    /// it, if it is broken, and how many of its steps come before its cycle, if it has one.
+    pub fn judged(
+        (id, claim): (PropertyId, &Claim),
+        is_met: bool,
+        counterexample: Option<Vec<ChartStep>>,
+        repeats_after: Option<usize>,
+        cut_off: Option<CutOff>,
+    ) -> impl Iterator<Item = Self> + use<> {
+        let verdict = CheckVerdict::of_property(counterexample.is_some(), cut_off);
+        let rule = Self {
+            authentication: Some(id.authentication().to_string()),
+            counterexample: counterexample.unwrap_or_default(),
+            repeats_after,
+            ..Self::plain(id.name(), claim.kind.name(), verdict, claim.statement)
+        };
+        let premise = claim.premise.map(|premise| {
+            let verdict = CheckVerdict::of_premise(is_met, cut_off);
+            Self::plain(&format!("{id}-premise"), "premise", verdict, premise)
+        });
+        [rule].into_iter().chain(premise)
     }
 }
 
@@ -166,6 +165,48 @@ impl CheckVerdict {
 }
 
 impl ScenarioReport {
+    /// A report that says how large a state space is, and nothing about it yet.
+    #[must_use]
+    pub fn of(
+        name: &str,
+        summary: &str,
+        robots: Vec<String>,
+        size: Size,
+        cut_off: Option<CutOff>,
+    ) -> Self {
+        Self {
+            name: name.to_owned(),
+            summary: summary.to_owned(),
+            robots,
+            unique_states: size.unique_states,
+            transitions: 0,
+            depth: size.depth,
+            seconds: 0.0,
+            engines: Vec::new(),
+            exhaustive: cut_off.is_none(),
+            cut_off,
+            size_as_expected: None,
+            properties: Vec::new(),
+            figures: Vec::new(),
+            assumptions: Vec::new(),
+        }
+    }
+
+    /// The same on a scenario, whose file may say the size.
+    #[must_use]
+    pub fn of_scenario(scenario: &Scenario, size: Size, cut_off: Option<CutOff>) -> Self {
+        Self {
+            size_as_expected: scenario.is_expected(size).filter(|_| cut_off.is_none()),
+            ..Self::of(
+                &scenario.name,
+                &scenario.summary,
+                names(scenario),
+                size,
+                cut_off,
+            )
+        }
+    }
+
     /// Whether something was found that is wrong: a property is broken, a premise is met nowhere, or
     /// the state space has another size than the scenario's file expects.
     #[must_use]

@@ -137,7 +137,7 @@ include!("../scenarios/list.rs");
 impl Scenario {
     /// Whether its state space is expected to be of this size; `None` where nothing is expected.
     #[must_use]
-    pub fn is_expected(&self, size: Size) -> Option<bool> {
+    pub(crate) fn is_expected(&self, size: Size) -> Option<bool> {
         self.expected.map(|expected| expected == size)
     }
 

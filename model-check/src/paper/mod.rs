@@ -57,6 +57,7 @@ pub use shown::{PaperRobotFrame, PaperRun, runs};
 pub use texts::{Text, on_the_road};
 
 use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
+use crate::scenario::Size;
 use model::{Cast, Inquiry, PaperAction, Question};
 use road::RoadProperty;
 use robot::PaperTask;
@@ -178,23 +179,21 @@ pub fn check() -> ScenarioReport {
         let kind = if property.is_without_end() { "L" } else { "S" };
         must_fail_report(property.text(), kind, &on_road)
     }));
-    ScenarioReport {
-        name: NAME.to_owned(),
-        summary: SUMMARY.to_owned(),
-        // Every cast is a beginning of this one.
-        robots: TEAMS.names.iter().map(|&name| name.to_owned()).collect(),
+    // Every cast is a beginning of this one.
+    let robots = TEAMS.names.iter().map(|&name| name.to_owned()).collect();
+    let size = Size {
         unique_states: sum(|e| e.unique_states),
-        transitions: sum(|e| e.transitions),
         depth: explored.iter().map(|e| e.depth).max().unwrap_or(0),
+    };
+    // stateright stops when it has found all there is to be found.
+    let cut_off = (is_p0_broken || is_wait_endless).then_some(CutOff::FoundBroken);
+    ScenarioReport {
+        transitions: sum(|e| e.transitions),
         seconds: start.elapsed().as_secs_f64(),
         engines: vec![crate::check::STATERIGHT],
-        exhaustive: !is_p0_broken && !is_wait_endless,
-        // stateright stops when it has found all there is to be found.
-        cut_off: (is_p0_broken || is_wait_endless).then_some(CutOff::FoundBroken),
-        size_as_expected: None,
         properties,
-        figures: Vec::new(),
         assumptions: assumptions(),
+        ..ScenarioReport::of(NAME, SUMMARY, robots, size, cut_off)
     }
 }
 
@@ -223,29 +222,20 @@ fn what_holds(
     is_wait_endless: bool,
     is_crossing_found: bool,
 ) -> Vec<PropertyReport> {
-    let report = |id: &str, kind: &str, verdict, statement: &str| PropertyReport {
-        id: id.to_owned(),
-        kind: kind.to_owned(),
-        verdict,
-        statement: statement.to_owned(),
-        authentication: None,
-        counterexample: Vec::new(),
-        repeats_after: None,
-    };
     vec![
-        report(
+        PropertyReport::plain(
             model::HOLDS,
             "S",
             CheckVerdict::of_property(is_p0_broken, None),
             "a follower starts only what its leader commanded it",
         ),
-        report(
+        PropertyReport::plain(
             model::PREMISE,
             "premise",
             CheckVerdict::of_premise(is_crossing_found, None),
             "a crossing of two maneuvers goes well, and all robots are idle again",
         ),
-        report(
+        PropertyReport::plain(
             model::CLOSED,
             "L",
             CheckVerdict::of_property(is_wait_endless, None),
@@ -256,14 +246,11 @@ fn what_holds(
 
 fn must_fail_report(text: Text, kind: &str, found: &[Counterexample]) -> PropertyReport {
     let counterexample = found.iter().find(|found| found.text.id == text.id);
+    let verdict = CheckVerdict::of_property(counterexample.is_some(), None);
     PropertyReport {
-        id: text.id.to_owned(),
-        kind: kind.to_owned(),
-        verdict: CheckVerdict::of_property(counterexample.is_some(), None),
-        statement: text.statement.to_owned(),
-        authentication: None,
         counterexample: counterexample.map_or_else(Vec::new, Counterexample::chart),
         repeats_after: counterexample.and_then(Counterexample::repeats_after),
+        ..PropertyReport::plain(text.id, kind, verdict, text.statement)
     }
 }
 

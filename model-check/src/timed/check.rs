@@ -9,10 +9,9 @@ use super::measure::Longest;
 use super::model::TimedModel;
 use super::section::{Looks, Rates};
 use super::state::{TimedAction, TimedCause, TimedState};
-use crate::check::{KIT, names};
+use crate::check::KIT;
 use crate::exploration::{CheckProgress, Options};
 use crate::network::Transmission;
-use crate::properties::{Claim, PropertyId};
 use crate::report::{PropertyReport, ScenarioReport};
 use crate::scenario::Size;
 use crate::sequence::{ChartPlace, ChartStep, Fate};
@@ -32,44 +31,23 @@ pub fn check(
         unique_states: explored.states(),
         depth: explored.depth,
     };
-    let exhaustive = explored.cut_off.is_none();
-    let properties = timed.properties.iter();
+    let cut_off = explored.cut_off;
+    let claimed = timed.properties.iter();
+    let claimed = claimed.filter_map(|&id| Some((id, id.timed()?)));
+    let judged = |(id, claim)| {
+        let path = explored.path_to_broken(id);
+        let run = path.map(|path| chart(model, &path));
+        PropertyReport::judged((id, claim), explored.premises.met(id), run, None, cut_off)
+    };
     ScenarioReport {
-        name: scenario.name.clone(),
-        summary: scenario.summary.clone(),
-        robots: names(scenario),
-        unique_states: size.unique_states,
         transitions: explored.transitions,
-        depth: size.depth,
         engines: vec![KIT],
-        exhaustive,
-        cut_off: explored.cut_off,
-        size_as_expected: scenario.is_expected(size).filter(|_| exhaustive),
-        properties: properties
-            .filter_map(|&id| Some((id, id.timed()?)))
-            .flat_map(|(id, claim)| judged(model, &explored, id, claim))
-            .flatten()
-            .collect(),
+        properties: claimed.flat_map(judged).collect(),
         figures: explored.longest.figures(timed, model.limits()),
         assumptions: assumptions(model),
         seconds: start.elapsed().as_secs_f64(),
+        ..ScenarioReport::of_scenario(scenario, size, cut_off)
     }
-}
-
-/// What was found about a property, and about its premise where it has one.
-fn judged(
-    model: &TimedModel,
-    explored: &Explored,
-    id: PropertyId,
-    claim: &Claim,
-) -> [Option<PropertyReport>; 2] {
-    let (met, cut_off) = (explored.premises.met(id), explored.cut_off);
-    let path = explored.path_to_broken(id);
-    let run = path.map(|path| chart(model, &path));
-    [
-        Some(PropertyReport::of_rule(id, claim, run, None, cut_off)),
-        PropertyReport::of_premise(id, claim, met, cut_off),
-    ]
 }
 
 /// A run as a chart: what happened at which time, and what the robots put out.

@@ -3,10 +3,9 @@
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use crossguard_model_check::check::{assumptions, collision_probability, names};
+use crossguard_model_check::check::{assumptions, collision_probability};
 use crossguard_model_check::model::portable::charted;
-use crossguard_model_check::properties::PropertyId;
-use crossguard_model_check::report::{CutOff, PropertyReport, ScenarioReport};
+use crossguard_model_check::report::{PropertyReport, ScenarioReport};
 use crossguard_model_check::scenario::Size;
 use crossguard_model_check::sequence::ChartStep;
 use serde::Serialize;
@@ -86,27 +85,24 @@ pub(crate) fn of(
         "states are compared by fingerprints of {FINGERPRINT_BITS} bits: any two of these states share one with a \
          probability of at most {omission_probability:.0e}"
     );
-    let properties = common.judged.iter().enumerate();
+    let claimed = common.judged.iter().enumerate();
+    let judged = claimed.filter_map(|(i, &id)| {
+        let run = outcome.ways[i].as_ref();
+        let run = run.map(|way| counterexample(common, way));
+        let is_met = told.iter().any(|told| told.premises[i]);
+        let claim = (id, id.untimed()?);
+        Some(PropertyReport::judged(claim, is_met, run, None, cut_off))
+    });
     let not_judged = scenario.properties.iter();
     let not_judged = not_judged.filter(|id| !common.judged.contains(id));
     WorkersReport {
         scenario: ScenarioReport {
-            name: scenario.name.clone(),
-            summary: scenario.summary.clone(),
-            robots: names(scenario),
-            unique_states: size.unique_states,
             transitions: whole(transitions),
-            depth: size.depth,
             seconds: begin.elapsed().as_secs_f64(),
             engines: vec!["crossguard-workers"],
-            exhaustive: cut_off.is_none(),
-            cut_off,
-            size_as_expected: scenario.is_expected(size).filter(|_| cut_off.is_none()),
-            properties: properties
-                .flat_map(|(i, id)| judged(common, outcome, i, *id, cut_off))
-                .collect(),
-            figures: Vec::new(),
+            properties: judged.flatten().collect(),
             assumptions: assumptions(scenario, compared),
+            ..ScenarioReport::of_scenario(scenario, size, cut_off)
         },
         processes,
         workers: common.workers,
@@ -120,26 +116,6 @@ pub(crate) fn of(
 
 fn whole(number: u64) -> usize {
     usize::try_from(number).unwrap_or(usize::MAX)
-}
-
-/// What was found about a property, and about its premise where it has one.
-fn judged(
-    common: &Common,
-    outcome: &Outcome,
-    i: usize,
-    id: PropertyId,
-    cut_off: Option<CutOff>,
-) -> Vec<PropertyReport> {
-    let Some(claim) = id.untimed() else {
-        return Vec::new();
-    };
-    let run = outcome.ways[i]
-        .as_ref()
-        .map(|way| counterexample(common, way));
-    let rule = PropertyReport::of_rule(id, claim, run, None, cut_off);
-    let is_met = outcome.told.iter().any(|told| told.premises[i]);
-    let premise = PropertyReport::of_premise(id, claim, is_met, cut_off);
-    [rule].into_iter().chain(premise).collect()
 }
 
 /// The shortest run along what may lie on it.
