@@ -301,20 +301,27 @@ impl Findings<'_> {
 
 pub(crate) fn chart(model: &Model, path: Vec<(ModelState, Option<Action>)>) -> Vec<ChartStep> {
     path.into_iter()
-        .filter_map(|(state, action)| {
-            let action = action?;
-            let (_, step) = model.successor(&state, action)?;
-            let outputs = step.map_or_else(Vec::new, |step| {
-                step.outputs().iter().map(ToString::to_string).collect()
-            });
-            let (place, action) = placed(model, action);
-            Some(ChartStep {
-                place,
-                action,
-                outputs,
-            })
-        })
+        .filter_map(|(state, action)| Some(chart_step(model, &state, action?)?.1))
         .collect()
+}
+
+/// The effect of an action, and the action in a chart with what the robot puts out; `None` where it is not possible.
+pub(crate) fn chart_step(
+    model: &Model,
+    state: &ModelState,
+    action: Action,
+) -> Option<(ModelState, ChartStep)> {
+    let (next, step) = model.successor(state, action)?;
+    let outputs = step.map_or_else(Vec::new, |step| {
+        step.outputs().iter().map(ToString::to_string).collect()
+    });
+    let (place, action) = placed(model, action);
+    let step = ChartStep {
+        place,
+        action,
+        outputs,
+    };
+    Some((next, step))
 }
 
 /// An action in words, with its place in a chart.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::check::{chart, placed};
+use crate::check::{chart, chart_step, placed};
 use crate::model::{Action, Model, ModelState};
 use crate::properties::{Claim, PropertyId};
 use crate::report::{PropertyReport, ScenarioReport};
@@ -103,7 +103,7 @@ impl Replay {
     pub fn follow(&self, model: &Model) -> Followed {
         let mut state = model.initial();
         for (i, step) in self.steps.iter().enumerate() {
-            let Some((_, next, outputs)) = take(model, &state, step) else {
+            let Some((next, outputs)) = take(model, &state, step) else {
                 return Followed::StoppedAt(i);
             };
             if outputs != step.outputs {
@@ -118,12 +118,12 @@ impl Replay {
     }
 }
 
-/// The effect of a step, with its outputs; `None` where it is not possible.
+/// The effect of a step, with the outputs that it has now; `None` where it is not possible.
 pub(crate) fn take(
     model: &Model,
     state: &ModelState,
     step: &ChartStep,
-) -> Option<(Action, ModelState, Vec<String>)> {
+) -> Option<(ModelState, Vec<String>)> {
     let mut actions = Vec::new();
     model.actions_in(state, &mut actions);
     let is_meant = |action: &Action| {
@@ -131,9 +131,6 @@ pub(crate) fn take(
         place == step.place && what == step.action
     };
     let action = actions.into_iter().find(is_meant)?;
-    let (next, taken) = model.successor(state, action)?;
-    let outputs = taken.map_or_else(Vec::new, |taken| {
-        taken.outputs().iter().map(ToString::to_string).collect()
-    });
-    Some((action, next, outputs))
+    let (next, step) = chart_step(model, state, action)?;
+    Some((next, step.outputs))
 }

@@ -7,7 +7,7 @@ use crossguard_protocol::{Availability, Role, State, StationId};
 use rustc_hash::FxHashSet;
 use serde::{Deserialize, Serialize};
 
-use crate::check::{names, placed};
+use crate::check::{chart_step, names};
 use crate::model::{Action, Model, ModelState};
 use crate::network::Transmission;
 use crate::node::Node;
@@ -146,8 +146,7 @@ impl Walk {
         let mut frames = vec![WalkFrame::of(&model, &state)];
         let mut stray = None;
         for (i, step) in steps.iter().enumerate() {
-            let taken = take(&model, &state, step);
-            let Some((_, next, outputs)) = taken else {
+            let Some((next, outputs)) = take(&model, &state, step) else {
                 let (step, puts_out) = (i, None);
                 stray = Some(Stray { step, puts_out });
                 break;
@@ -251,18 +250,7 @@ impl OnItsWay {
 fn possible(model: &Model, state: &ModelState) -> Vec<ChartStep> {
     let mut actions = Vec::new();
     model.actions_in(state, &mut actions);
-    let step = |action: Action| {
-        let (_, taken) = model.successor(state, action)?;
-        let outputs = taken.map_or_else(Vec::new, |taken| {
-            taken.outputs().iter().map(ToString::to_string).collect()
-        });
-        let (place, action) = placed(model, action);
-        Some(ChartStep {
-            place,
-            action,
-            outputs,
-        })
-    };
+    let step = |action| Some(chart_step(model, state, action)?.1);
     actions.into_iter().filter_map(step).collect()
 }
 
