@@ -10,30 +10,10 @@
 //!                       found: P0 to P14, W1 to W4, W7 texts
 //! ```
 //!
-//! What the text says, and the model does:
+//! The model does what the text says, which `doc/paper.md` tells by paragraph. Where the text is silent or can be read in two
+//! ways, the model does no more than the text says; the [page](page()) lists these points.
 //!
-//! - a request is answered by a RAM with `offerHelp` whose leader-follower container joins (II-D, III-A stage 2);
-//!   the requester takes the role of leader and confirms by a RAM (stage 3);
-//! - each RMCM addressed to a follower is acknowledged, then executed (stage 4);
-//! - a leader reads completion from position, motion state and progression in its follower's RAM (stage 4): the
-//!   follower stands where the task ends and says `completed`;
-//! - without a *command* for the safety timeout, the follower goes to a safe idle position, keeps its relation and
-//!   says so in RAM; the leader may reissue its command, or the follower asks for leave (III-A, reliability);
-//! - the release is a RAM with `helpStatus = None` (stage 5).
-//!
-//! Where the text is silent or can be read in two ways, the model does no more than the text says:
-//!
-//! - the container that joins has no field that the requester compares; it takes the first answer that it hears;
-//! - `helpStatus` stays `needHelp` and `offerHelp` until the release, since the text sets it at no other moment;
-//! - the helper stays in `Idle` until the roles are established: only the requester's transition is told;
-//! - RMCM are sent once; a leader counts `requestID`s from 0 in each association, and reissues a command with the
-//!   one that it had;
-//! - a leader that hears of the safe idle position is in `RoleEstablished` again, since commands are issued there;
-//! - an execution timeout is that of the robot that executes, and leads to the same fallback;
-//! - a follower that asks for leave is bound until its leader releases it;
-//! - no time limit is given for `HelpRequested`, for an offer, or for a leader's patience.
-//!
-//! A [`Reading`] that says more in one of these points is checked too, and the page tells what it changes.
+//! A [`Reading`] that says more in one of them is checked too, and the page tells what it changes.
 
 mod found;
 mod hazards;
