@@ -3,8 +3,8 @@
 use std::fmt;
 
 use crossguard_protocol::{
-    Config, Corridor, Identity, Input, ManeuverId, Millis, Output, Outputs, Phase, Renaming, Robot,
-    StationId, Timer,
+    Config, Corridor, Event, Identity, Input, ManeuverId, Millis, Output, Outputs, Phase, Renaming,
+    Robot, StationId, Timer,
 };
 
 use serde::{Deserialize, Serialize};
@@ -61,8 +61,6 @@ pub struct Persisted {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Actuation {
-    /// The maneuver that runs.
-    pub running: Option<ManeuverId>,
     /// Whether the pedestrian is let across.
     pub corridor_open: bool,
     /// Whether the pseudonym is held.
@@ -158,7 +156,7 @@ impl Node {
         };
         next.actuation.heard = heard;
         next.actuation.body = self.actuation.body.after(input, outputs);
-        next.actuation.finish(input, outputs);
+        next.actuation.road_clear(input, outputs);
         for output in outputs.iter() {
             next.actuation.follow(output);
         }
@@ -208,10 +206,9 @@ impl Node {
             }
             identity_locked = robot.identity() != Identity::Unlocked;
         }
-        self.actuation.running == running
+        self.actuation.running() == running
             && self.actuation.corridor_open == corridor_open
             && self.actuation.identity_locked == identity_locked
-            && self.actuation.body.running().map(|m| m.id) == running
     }
 
     /// The node without its durations: every armed timer has 1 ms left. Which timers are armed
@@ -250,10 +247,6 @@ impl fmt::Display for Node {
 
 impl Renamable for Node {
     fn renamed(&self, to: &mut impl Renaming) -> Self {
-        let running = self.actuation.running.map(|id| ManeuverId {
-            session: id.session.renamed(to),
-            ..id
-        });
         Self {
             robot: self.robot.as_ref().map(|robot| robot.renamed(to)),
             persisted: Persisted {
@@ -261,7 +254,6 @@ impl Renamable for Node {
                 ..self.persisted
             },
             actuation: Actuation {
-                running,
                 body: self.actuation.body.renamed(to),
                 heard: self.actuation.heard.renamed(to),
                 ..self.actuation
@@ -282,32 +274,23 @@ impl Renaming for ForgetDurations {
 }
 
 impl Actuation {
-    /// The application says itself that a maneuver is over.
-    fn finish(&mut self, input: Input, outputs: &Outputs) {
-        use crossguard_protocol::Event::{
-            ManeuverCompleted, ManeuverFailed, RoadClear, TaskCompleted,
-        };
-        if outputs.ignored().is_some() {
-            return;
-        }
-        if let Input::Local(RoadClear | TaskCompleted) = input {
-            self.road_unsure = false;
-        }
-        if let Input::Local(ManeuverCompleted(id) | ManeuverFailed(id)) = input
-            && self.running == Some(id)
+    /// The maneuver that runs.
+    #[must_use]
+    pub fn running(&self) -> Option<ManeuverId> {
+        self.body.running().map(|maneuver| maneuver.id)
+    }
+
+    /// The application says itself that the road is clear.
+    fn road_clear(&mut self, input: Input, outputs: &Outputs) {
+        if let Input::Local(Event::RoadClear | Event::TaskCompleted) = input
+            && outputs.ignored().is_none()
         {
-            self.running = None;
+            self.road_unsure = false;
         }
     }
 
     fn follow(&mut self, output: &Output) {
         match output {
-            Output::StartManeuver(maneuver) => self.running = Some(maneuver.id),
-            Output::StopManeuver(maneuver, _) | Output::FallBack(maneuver, _) => {
-                if self.running == Some(maneuver.id) {
-                    self.running = None;
-                }
-            }
             // Without time it shows go until an output closes it; pedestrians may look at any time.
             Output::CorridorOpened(_) => (self.corridor_open, self.road_unsure) = (true, true),
             // A sign that is told to show go for longer shows go, whatever it showed before.
@@ -315,7 +298,10 @@ impl Actuation {
             Output::CorridorClosed(_) => self.corridor_open = false,
             Output::LockIdentity => self.identity_locked = true,
             Output::UnlockIdentity => self.identity_locked = false,
-            Output::SendRam
+            Output::StartManeuver(_)
+            | Output::StopManeuver(..)
+            | Output::FallBack(..)
+            | Output::SendRam
             | Output::SendRmcm(_)
             | Output::RenewEpoch
             | Output::Notify(_)

@@ -35,6 +35,6 @@ fn holds(step: &StepView) -> bool {
 }
 
 fn premise(step: &StepView) -> bool {
-    let executes = step.before.actuation.running.is_some();
+    let executes = step.before.actuation.running().is_some();
     executes && step.sender().is_some_and(|sender| !follows(step, sender))
 }

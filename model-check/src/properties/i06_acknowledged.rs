@@ -72,7 +72,7 @@ fn holds(view: &View) -> bool {
     acknowledged(view).all(|(station, id)| accepted(station, id))
         && view.nodes().all(|node| {
             node.actuation
-                .running
+                .running()
                 .is_none_or(|id| accepted(node.persisted.station, id))
         })
 }

@@ -12,7 +12,7 @@ property! {
 
 fn holds(view: &View) -> bool {
     view.nodes().all(|node| {
-        node.actuation.running.is_none_or(|id| {
+        node.actuation.running().is_none_or(|id| {
             let command = view.history().command(node.persisted.station, id);
             command.is_none_or(|command| !command.fell_back)
         })

@@ -20,10 +20,10 @@ fn holds(view: &View) -> bool {
             Phase::Following(following) => following.executing().map(|maneuver| maneuver.id),
             _ => None,
         });
-        node.actuation.running == executing
+        node.actuation.running() == executing
     })
 }
 
 fn premise(view: &View) -> bool {
-    view.nodes().any(|node| node.actuation.running.is_some())
+    view.nodes().any(|node| node.actuation.running().is_some())
 }

@@ -12,7 +12,7 @@ property! {
             subjects: LivenessSubjects::Robots,
             from: has_lost_its_leader,
             to: |view, LivenessSubject { robot, .. }| {
-                view.node(robot).is_idle() && view.node(robot).actuation.running.is_none()
+                view.node(robot).is_idle() && view.node(robot).actuation.running().is_none()
             },
             needs_cooperation: false,
             broken_by_old_requests: false,
@@ -38,7 +38,7 @@ fn is_survived_in_time(step: &TimedStepView) -> bool {
         return true;
     };
     let limits = after.setup.limits;
-    let runs = after.nodes().any(|node| node.actuation.running.is_some());
+    let runs = after.nodes().any(|node| node.actuation.running().is_some());
     let follows = after.nodes().any(Node::is_following);
     let goes_on = runs && after.is_over(ticks, limits.stopped);
     let stays = follows && after.is_over(ticks, limits.left);
@@ -46,6 +46,6 @@ fn is_survived_in_time(step: &TimedStepView) -> bool {
 }
 
 fn crashes_while_executed(view: &TimedView) -> bool {
-    let runs = |node: &Node| node.actuation.running.is_some();
+    let runs = |node: &Node| node.actuation.running().is_some();
     view.watch == StopWatch::LeaderDown(0) && view.nodes().any(runs)
 }

@@ -94,6 +94,6 @@ pub(crate) fn has_fallback(step: &TimedStepView) -> bool {
 
 /// Whether a follower that executed falls back for lack of contact in its step.
 pub(crate) fn falls_back(before: &Node, after: &Node) -> bool {
-    let stops = before.actuation.running.is_some() && after.actuation.running.is_none();
+    let stops = before.actuation.running().is_some() && after.actuation.running().is_none();
     stops && after.has_lost_contact()
 }

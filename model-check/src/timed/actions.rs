@@ -123,7 +123,7 @@ impl TimedModel {
     /// it executes.
     fn failures(&self, state: &TimedState, actions: &mut Vec<TimedAction>) {
         for (i, node) in (0..).zip(self.nodes(state)) {
-            let (leads, running) = (self.timed.teams.leads(i), node.actuation.running);
+            let (leads, running) = (self.timed.teams.leads(i), node.actuation.running());
             if state.left.crashes > 0 && node.robot.is_some() && (leads || running.is_some()) {
                 actions.push(TimedAction::Crash(i));
             }

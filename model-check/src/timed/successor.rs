@@ -177,9 +177,9 @@ impl TimedModel {
                 }
             }
             StopWatch::LeaderDown(ticks) => {
-                if robots()
-                    .any(|(b, n)| b.actuation.running.is_some() && n.actuation.running.is_none())
-                {
+                if robots().any(|(b, n)| {
+                    b.actuation.running().is_some() && n.actuation.running().is_none()
+                }) {
                     longest.note(Measure::Stopped, ticks);
                 }
                 if robots().any(|(b, n)| b.is_following() && !n.is_following()) {

@@ -223,7 +223,7 @@ impl Times {
                     since_us: now_us,
                 };
                 self.running.push(running(Measure::Left));
-                if node.actuation.running.is_some() {
+                if node.actuation.running().is_some() {
                     self.running.push(running(Measure::Stopped));
                 }
             }
@@ -243,7 +243,7 @@ impl Times {
         let Some(maneuver) = nodes
             .clone()
             .nth(place)
-            .and_then(|node| node.actuation.running)
+            .and_then(|node| node.actuation.running())
         else {
             return;
         };
@@ -272,7 +272,7 @@ impl Times {
                 return true;
             }
             let is_over = match running.measure {
-                Measure::Stopped => node.actuation.running.is_none(),
+                Measure::Stopped => node.actuation.running().is_none(),
                 Measure::Left => !is_following(node, running.session),
                 Measure::CorridorClosed => !node.actuation.corridor_open,
                 _ => true,
