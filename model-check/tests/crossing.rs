@@ -124,6 +124,6 @@ fn a_street_that_is_cut_off_says_so() {
         let street = Street { hang: 2, ..PERSON };
         let found = explore(street, |_| (), &options, &mut |_| ());
         assert_eq!(found.cut_off, Some(cut_off));
-        assert!(found.states < 400_000, "{} states", found.states);
+        assert!(found.size.unique_states < 400_000, "{:?}", found.size);
     }
 }

@@ -26,8 +26,8 @@ use stateright::{Checker, Model as _};
 use crate::check::STATERIGHT;
 use crate::exploration::{CheckProgress, Options, Stop};
 use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
+use crate::scenario::Size;
 use crate::sequence::{ChartPlace, ChartStep};
-use crate::transitions::Transitions;
 
 use rules::Rules;
 use street::World;
@@ -175,48 +175,30 @@ impl Shipped {
                 ..reached
             });
         });
-        let mut properties = Vec::new();
-        for rule in self.rules {
+        let properties = self.rules.iter().flat_map(|rule| {
             let claim = rule.claim();
             let run = found.broken.iter().find(|(broken, _)| broken == rule);
             let steps = run.iter().flat_map(|(_, run)| run.iter());
-            let report = |id: &str, kind: &str, verdict, statement: &str| PropertyReport {
-                id: id.to_owned(),
-                kind: kind.to_owned(),
-                verdict,
-                statement: statement.to_owned(),
-                authentication: None,
-                counterexample: Vec::new(),
-                repeats_after: None,
-            };
             let verdict = CheckVerdict::of_property(run.is_some(), found.cut_off);
-            properties.push(PropertyReport {
-                counterexample: steps.map(|state| in_words(state)).collect(),
-                ..report(claim.id, "S", verdict, claim.statement)
-            });
-            let verdict = CheckVerdict::of_premise(found.met.contains(rule), found.cut_off);
-            properties.push(report(claim.premise_id, "premise", verdict, claim.premise));
-        }
+            let is_met = CheckVerdict::of_premise(found.met.contains(rule), found.cut_off);
+            [
+                PropertyReport {
+                    counterexample: steps.map(|state| in_words(state)).collect(),
+                    ..PropertyReport::plain(claim.id, "S", verdict, claim.statement)
+                },
+                PropertyReport::plain(claim.premise_id, "premise", is_met, claim.premise),
+            ]
+        });
+        let robots = ["leader", "follower"].map(str::to_owned).to_vec();
+        let is_whole = found.cut_off.is_none();
         ScenarioReport {
-            name: self.name.to_owned(),
-            summary: self.summary.to_owned(),
-            robots: ["leader", "follower"].map(str::to_owned).to_vec(),
-            unique_states: found.states,
             transitions: found.transitions,
-            depth: found.depth,
             seconds: found.time.as_secs_f64(),
             engines: vec![STATERIGHT],
-            exhaustive: found.cut_off.is_none(),
-            cut_off: found.cut_off,
-            size_as_expected: found
-                .cut_off
-                .is_none()
-                .then_some(found.states == self.states),
-            properties,
-            figures: Vec::new(),
+            size_as_expected: is_whole.then_some(found.size.unique_states == self.states),
+            properties: properties.collect(),
             assumptions: ASSUMPTIONS.map(str::to_owned).to_vec(),
-            // The machine's states are not those of the diagram.
-            transitions_taken: Transitions::default(),
+            ..ScenarioReport::of(self.name, self.summary, robots, found.size, found.cut_off)
         }
     }
 }
@@ -243,12 +225,10 @@ fn in_words(state: &str) -> ChartStep {
 /// What an exploration found.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// Distinct states.
-    pub states: usize,
+    /// Its states, and how far they are.
+    pub size: Size,
     /// Steps between them.
     pub transitions: usize,
-    /// Steps from the first to the farthest of them.
-    pub depth: usize,
     /// Why not every state was explored, where that is so.
     pub cut_off: Option<CutOff>,
     /// The rules that are broken, each with a shortest run, as states in words.
@@ -300,10 +280,12 @@ pub fn explore(
     };
     let is_met = |rule: &Rule| checker.discovery(rule.claim().premise_id).is_some();
     Found {
-        states: checker.unique_state_count(),
-        // stateright counts the initial state in both.
+        // stateright counts the initial state in depth and transitions.
+        size: Size {
+            unique_states: checker.unique_state_count(),
+            depth: checker.max_depth() - 1,
+        },
         transitions: checker.state_count() - 1,
-        depth: checker.max_depth() - 1,
         cut_off,
         broken: Rule::ALL.iter().filter_map(run).collect(),
         met: Rule::ALL.into_iter().filter(is_met).collect(),
