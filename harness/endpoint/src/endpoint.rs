@@ -13,7 +13,7 @@ mod turn;
 
 use crossguard_codec::{Identifiers, RobotState, Service, TaskParameters};
 use crossguard_protocol::{
-    Config, Event, Identity, Input, Outputs, Robot, StateMachine, StationId, TaskType, Timer,
+    Config, Event, Identity, Input, Outputs, Robot, StateMachine, StationId, TaskType,
 };
 
 pub use self::act::Act;
@@ -54,8 +54,6 @@ pub enum Stimulus<'a> {
     /// All road users that the robot's sensors have now. Places are metres to the east and to the
     /// north of the robot's reference position.
     Perceived(&'a [PerceivedVru]),
-    /// One timer runs out, whatever the time: for runs in which any armed timer may.
-    Timer(Timer),
     /// Nothing but that time has passed.
     Time,
 }
@@ -265,7 +263,6 @@ impl<P: StateMachine> Endpoint<P> {
                 turn.answer(Event::CommandManeuver { follower, task }, &outputs);
             }
             Stimulus::Perceived(people) => turn.perceive(moment.now_ms, people),
-            Stimulus::Timer(timer) => exchange.expire(&mut turn, moment, timer),
             Stimulus::Time => {}
         }
         self.others.tell_of_people(exchange, &mut turn, moment);

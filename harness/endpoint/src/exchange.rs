@@ -21,7 +21,7 @@ use crossguard_codec::{
 };
 use crossguard_protocol::{
     Config, Event, Input, Millis, Output, Outputs, Phase, Rmcm, Robot, StateMachine, StationId,
-    TaskType, Timer, UniqueNumber,
+    TaskType, UniqueNumber,
 };
 
 pub use self::entitled::NotEntitled;
@@ -100,11 +100,6 @@ impl<P: StateMachine> Exchange<P> {
             let elapsed = u32::try_from(elapsed).unwrap_or(u32::MAX);
             self.step(host, moment, Input::Elapsed(Millis(elapsed)), None);
         }
-    }
-
-    /// One timer runs out, whatever the time.
-    pub fn expire<H: Host>(&mut self, host: &mut H, moment: Moment, timer: Timer) {
-        self.step(host, moment, Input::Expired(timer), None);
     }
 
     /// Something happened in the robot. A maneuver is commanded without parameters.

@@ -44,7 +44,7 @@ use output::{Lines, Outputs};
 use typist::Typist;
 
 use super::interrupts::interrupts;
-use super::ranges::{any, group, number};
+use super::ranges::{any, group};
 use super::{Failure, destinations, print};
 
 /// How long the loop waits before it looks at the other things.
@@ -88,10 +88,7 @@ pub(super) struct Arguments {
     /// the right to open raw sockets.
     #[arg(long, value_name = "NAME", group = "link")]
     ethernet: Option<String>,
-    /// Probability with which the robot loses a datagram, from 0 to 1.
-    #[arg(long, default_value_t = 0.0, value_parser = number(0.0..=1.0))]
-    loss: f64,
-    /// More faults on the way to the robot, like burst=0.4x8,duplication=0.1,delay=5..50.
+    /// Faults on the way to the robot, like loss=0.2,burst=0.4x8,duplication=0.1,delay=5..50.
     #[arg(long, value_name = "LIST", default_value = "")]
     faults: Faults,
     /// Seed of the faults and of the robot's gait.
@@ -310,12 +307,8 @@ fn configured_link(arguments: &Arguments, file: &RobotFile) -> Link {
 
 /// The link, open, and where it is.
 fn open_link(arguments: &Arguments, link: Link) -> Result<(Halves, String), Failure> {
-    let faults = Faults {
-        loss: arguments.faults.loss.max(arguments.loss),
-        ..arguments.faults.clone()
-    };
     let address = link.to_string();
-    let link = WithFaults::new(Reopening(link), faults, arguments.seed).open();
+    let link = WithFaults::new(Reopening(link), arguments.faults.clone(), arguments.seed).open();
     Ok((link.map_err(Failure::input)?, address))
 }
 
