@@ -95,7 +95,7 @@ enum Command {
     Simulate(Box<simulate::Arguments>),
     /// Print what is on the channel, one line per message, live or from a pcap file.
     Sniff(sniff::Arguments),
-    /// Check and print the site of a crossing, and a plan on it.
+    /// Check the site of a crossing, and a plan on it.
     #[command(subcommand)]
     Site(site::Command),
     /// Convert messages between octets and JSON.
