@@ -4,15 +4,11 @@
 //! octets: the version of the bitmap, 1, and bits for the parts in the order of [`Part`]. A ticket
 //! without the bit of a part says nothing in that part, whatever ITS-AID it is for.
 //!
-//! A longer bitmap binds them, by what its third octet says; numbers have their most significant octet first:
-//!
-//! | third octet | then | the holder |
-//! |---|---|---|
-//! | 0 | a station id | goes by this id and by no other; without one, by the first four octets of its `HashedId8`, or of that of its mirror with n - s for s, whichever s is lower |
-//! | 1 | a place | leads and helps at this crossing alone |
-//! | 2 | a station id and a place | both |
+//! A longer bitmap names a station: its third octet is 0, and the station id follows, with its most significant octet
+//! first. The holder goes by this id and by no other. Without one it goes by the first four octets of its `HashedId8`, or
+//! of that of its mirror with n - s for s, whichever s is lower.
 
-use crossguard_protocol::{Coordination, Farewell, Place, Ram, Rmcm, StationId};
+use crossguard_protocol::{Coordination, Farewell, Ram, Rmcm, StationId};
 
 /// Version of the bitmap of service specific permissions.
 pub const SSP_VERSION: u8 = 1;
@@ -48,42 +44,12 @@ impl Part {
         [version, bits, 0, a, b, c, d]
     }
 
-    /// The bitmap that permits these parts at one place alone.
-    #[must_use]
-    pub fn bitmap_at(parts: &[Self], place: Place) -> [u8; 7] {
-        let [version, bits] = Self::bitmap(parts);
-        let [a, b, c, d] = place.0.to_be_bytes();
-        [version, bits, 1, a, b, c, d]
-    }
-
-    /// The bitmap that permits these parts to one station at one place alone.
-    #[must_use]
-    pub fn bitmap_naming_at(parts: &[Self], station: StationId, place: Place) -> [u8; 11] {
-        let [version, bits] = Self::bitmap(parts);
-        let mut bitmap = [0; 11];
-        bitmap[..3].copy_from_slice(&[version, bits, 2]);
-        bitmap[3..7].copy_from_slice(&station.0.to_be_bytes());
-        bitmap[7..].copy_from_slice(&place.0.to_be_bytes());
-        bitmap
-    }
-
     /// The station id that a bitmap names, if it names one.
     #[must_use]
     pub const fn named_in(bitmap: &[u8]) -> Option<StationId> {
         match bitmap {
-            [SSP_VERSION, _, 0, a, b, c, d] | [SSP_VERSION, _, 2, a, b, c, d, _, _, _, _] => {
+            [SSP_VERSION, _, 0, a, b, c, d] => {
                 Some(StationId(u32::from_be_bytes([*a, *b, *c, *d])))
-            }
-            _ => None,
-        }
-    }
-
-    /// The place that a bitmap is for, if it is for one.
-    #[must_use]
-    pub const fn place_in(bitmap: &[u8]) -> Option<Place> {
-        match bitmap {
-            [SSP_VERSION, _, 1, a, b, c, d] | [SSP_VERSION, _, 2, _, _, _, _, a, b, c, d] => {
-                Some(Place(u32::from_be_bytes([*a, *b, *c, *d])))
             }
             _ => None,
         }
@@ -139,18 +105,6 @@ mod tests {
         let naming = Part::bitmap_naming(&[Part::Help], StationId(0x0102_0304));
         assert_eq!(naming, [1, 0x40, 0, 1, 2, 3, 4]);
         assert_eq!(Part::named_in(&naming), Some(StationId(0x0102_0304)));
-        assert_eq!(Part::place_in(&naming), None);
-        let at = Part::bitmap_at(&[Part::Help], Place(0x0506_0708));
-        assert_eq!(at, [1, 0x40, 1, 5, 6, 7, 8]);
-        let both =
-            Part::bitmap_naming_at(&[Part::Help], StationId(0x0102_0304), Place(0x0506_0708));
-        assert_eq!(both, [1, 0x40, 2, 1, 2, 3, 4, 5, 6, 7, 8]);
-        assert_eq!(
-            (Part::named_in(&at), Part::named_in(&both)),
-            (None, Part::named_in(&naming))
-        );
-        assert_eq!(Part::place_in(&at), Some(Place(0x0506_0708)));
-        assert_eq!(Part::place_in(&both), Part::place_in(&at));
         for other in [
             &[1, 0x40][..],
             &[1, 0x40, 0, 1, 2, 3],

@@ -1,6 +1,6 @@
 //! What was in a packet, who vouches for it, and what it may say.
 
-use crossguard_protocol::{Place, StationId};
+use crossguard_protocol::StationId;
 
 use super::Headers;
 use crate::service::Service;
@@ -16,8 +16,6 @@ pub struct Permits {
     bits: Option<u16>,
     /// The station id that they are given to.
     station: Option<StationId>,
-    /// The place that they are given for.
-    place: Option<Place>,
 }
 
 impl Signer {
@@ -34,7 +32,6 @@ impl Permits {
     pub const EVERYTHING: Self = Self {
         bits: None,
         station: None,
-        place: None,
     };
 
     /// What these bits allow, the first being the most significant.
@@ -43,7 +40,6 @@ impl Permits {
         Self {
             bits: Some(bits),
             station: None,
-            place: None,
         }
     }
 
@@ -51,18 +47,6 @@ impl Permits {
     #[must_use]
     pub const fn only_as(self, station: Option<StationId>) -> Self {
         Self { station, ..self }
-    }
-
-    /// The same at this place alone, if there is one.
-    #[must_use]
-    pub const fn only_at(self, place: Option<Place>) -> Self {
-        Self { place, ..self }
-    }
-
-    /// Whether something may be said of what goes on at this place. One that is not known may be any.
-    #[must_use]
-    pub fn allows_at(self, place: Place) -> bool {
-        self.place.is_none_or(|permitted| permitted == place)
     }
 
     /// The station id that a sender with this ticket goes by.
@@ -111,14 +95,5 @@ mod tests {
         let allowed: Vec<_> = (0..32).filter(|bit| permits.allows(*bit)).collect();
         assert_eq!(allowed, [0, 1, 15]);
         assert!((0..32).all(|bit| Permits::EVERYTHING.allows(bit)));
-    }
-
-    #[test]
-    fn a_place_is_that_place_and_not_an_unknown_one() {
-        let permits = Permits::of_bits(0xc000).only_at(Some(Place(7)));
-        assert!(permits.allows_at(Place(7)));
-        assert!(!permits.allows_at(Place(8)));
-        assert!(!permits.allows_at(Place::UNKNOWN));
-        assert!(Permits::EVERYTHING.allows_at(Place::UNKNOWN));
     }
 }

@@ -168,13 +168,11 @@ pub fn origin(source: &LongPositionVector) -> Origin {
 
 /// What service specific permissions of the kit say.
 fn permits(ssp: &Ssp) -> Permits {
-    let (named, place) = match ssp {
-        Ssp::Bitmap(octets) => (Part::named_in(octets), Part::place_in(octets)),
-        Ssp::Default | Ssp::Opaque(_) => (None, None),
+    let named = match ssp {
+        Ssp::Bitmap(octets) => Part::named_in(octets),
+        Ssp::Default | Ssp::Opaque(_) => None,
     };
-    Permits::of_bits(ssp.bits(SSP_VERSION))
-        .only_as(named)
-        .only_at(place)
+    Permits::of_bits(ssp.bits(SSP_VERSION)).only_as(named)
 }
 
 const fn now(ego: &EgoPosition) -> Time64 {

@@ -221,7 +221,7 @@ impl<P: StateMachine> Exchange<P> {
                 let cause = Cause::Discarded("message of another port");
                 return host.dropped(cause, &detail, arrived.octets);
             }
-            let entitled = check_entitled(host, me, &self.identifiers, moment, indication, &heard);
+            let entitled = check_entitled(host, &self.identifiers, moment, indication, &heard);
             if let Err(why) = entitled {
                 return host.dropped(why.into(), &why, arrived.octets);
             }

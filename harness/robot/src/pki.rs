@@ -35,7 +35,7 @@ mod starts;
 pub use files::{certificates_in, folders_in, read_certificate, sync_folder, write_certificate};
 pub use revoked::{REVOKED_LIST, RevokedList, add_revoked};
 
-pub use permissions::{its_aids, robot_permissions, robot_permissions_at};
+pub use permissions::{its_aids, robot_permissions};
 pub use starts::{drawn_start, early_us};
 
 /// How long before its time a certificate begins to be valid, in seconds: clocks differ.

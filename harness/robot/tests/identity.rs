@@ -13,7 +13,7 @@ use crossguard_codec::{
 };
 use crossguard_endpoint::station::{Credentials, Mode, NAMES_MAX, Security};
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{Availability, Config, Event, Lease, Phase, Place, Robot, StationId};
+use crossguard_protocol::{Availability, Config, Event, Lease, Phase, Robot, StationId};
 use crossguard_robot::pki::{self, Holder, Pki, Term};
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::Site;
@@ -25,7 +25,6 @@ const FOLLOWER: StationId = StationId(2);
 const LIAR: StationId = StationId(3);
 
 const TAKEN: &str = "station id of another certificate";
-const ELSEWHERE: &str = "certificate for another place";
 const UNPINNED: &str = "another certificate than in the session";
 
 fn identifiers() -> Identifiers {
@@ -468,34 +467,4 @@ fn a_robot_goes_by_the_id_of_its_ticket_from_the_start() {
     }
     let off = Security::default();
     assert_eq!(off.station_id(&identifiers(), StationId(7)), StationId(7));
-}
-
-/// A request and an offer of somebody whose ticket is for another crossing.
-#[test]
-fn a_ticket_for_one_crossing_leads_and_helps_at_no_other() {
-    let place = Plan::crossing(Site::default()).request().place;
-    for (permitted, hears) in [(place, true), (Place(place.0 + 1), false)] {
-        let mut street = Street::new(&[LEADER]);
-        let parts = [Part::Lead, Part::Help];
-        let permissions =
-            pki::robot_permissions_at(&identifiers(), &parts, Some(FOLLOWER), Some(permitted));
-        let bound = security(&street.pki, ticket(&street.pki, permissions));
-        let helper = Endpoint::new(Robot::new(FOLLOWER, 1), Config::default(), identifiers(), 0);
-        street.robots.push(Some(helper.with_security(bound)));
-        street.heard.push(BTreeMap::new());
-        street.dropped.push(BTreeMap::new());
-        street.pass(1_500, &mut |_| {});
-        assert!(street.heard(0, FOLLOWER) > 0, "outside of a session");
-        let request = Plan::crossing(Site::default()).request();
-        street.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
-        street.pass(1_000, &mut |_| {});
-        assert_eq!(street.relies_on(FOLLOWER), hears);
-        assert_eq!(street.dropped(0, ELSEWHERE) > 0, !hears);
-        street.tell(0, Stimulus::Event(Event::LeaveRequested));
-        street.pass(5_000, &mut |_| {});
-        street.tell(1, Stimulus::Event(Event::PedestrianDetected(request)));
-        let dropped = street.dropped(0, ELSEWHERE);
-        street.pass(1_000, &mut |_| {});
-        assert_eq!(street.dropped(0, ELSEWHERE) > dropped, !hears);
-    }
 }

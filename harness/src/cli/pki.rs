@@ -103,9 +103,6 @@ pub(super) struct Pseudonyms {
     /// The parts that the robot may take in sessions.
     #[arg(long = "part", value_enum, default_values = ["lead", "help"])]
     parts: Vec<PartName>,
-    /// The only crossing where it may take them, as 'place' in robot files has it.
-    #[arg(long, value_name = "NUMBER", value_parser = whole::<u32>(1..=u32::MAX.into()))]
-    place: Option<u32>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -369,8 +366,7 @@ impl Pseudonyms {
             PartName::Help => Part::Help,
         };
         let parts: Vec<_> = self.parts.iter().map(part).collect();
-        let place = self.place.map(crossguard_protocol::Place);
-        pki::robot_permissions_at(&Identifiers::default(), &parts, named, place)
+        pki::robot_permissions(&Identifiers::default(), &parts, named)
     }
 }
 

@@ -8,7 +8,7 @@ use core::fmt::{self, Display, Formatter};
 
 use crossguard_codec::geonet::{Address, Indication, Permits};
 use crossguard_codec::{Heard, Identifiers, Part};
-use crossguard_protocol::{Coordination, Input, Phase, Place, Ram, Robot, StationId};
+use crossguard_protocol::{Input, StationId};
 
 use super::host::{Host, Moment};
 use crate::cause::Cause;
@@ -27,8 +27,6 @@ pub enum NotEntitled {
     Address(StationId),
     /// The certificate does not permit this part in a session.
     Part(Part),
-    /// The certificate is for another place than this.
-    Elsewhere(Place),
     /// The station has its part in the session under another certificate.
     Unpinned(StationId),
 }
@@ -47,7 +45,6 @@ impl Display for NotEntitled {
                 f,
                 "station {station} has its part in the session under another certificate"
             ),
-            Self::Elsewhere(place) => write!(f, "the certificate is not for {place}"),
             Self::Part(part) => write!(f, "the certificate does not permit to {}", part.name()),
         }
     }
@@ -59,7 +56,6 @@ impl From<NotEntitled> for Cause {
             NotEntitled::Namesake { .. } => "station id of another certificate",
             NotEntitled::Address(_) => "address of another station",
             NotEntitled::Part(_) => "beyond service permissions",
-            NotEntitled::Elsewhere(_) => "certificate for another place",
             NotEntitled::Unpinned(_) => "another certificate than in the session",
         })
     }
@@ -68,7 +64,6 @@ impl From<NotEntitled> for Cause {
 /// Whether a message may say what it says, in the name of its sender.
 pub(super) fn check_entitled<H: Host>(
     host: &mut H,
-    me: &Robot,
     identifiers: &Identifiers,
     moment: Moment,
     indication: &Indication<'_>,
@@ -77,15 +72,7 @@ pub(super) fn check_entitled<H: Host>(
     let permits = indication.permits;
     for input in heard.inputs.iter() {
         match input {
-            Input::Ram { ram, .. } => {
-                check_parts(permits, Part::of_ram(ram))?;
-                match place_of(ram, me) {
-                    Some(place) if !permits.allows_at(place) => {
-                        return Err(NotEntitled::Elsewhere(place));
-                    }
-                    _ => {}
-                }
-            }
+            Input::Ram { ram, .. } => check_parts(permits, Part::of_ram(ram))?,
             Input::Rmcm(rmcm) => check_parts(permits, [Part::of_rmcm(rmcm)])?,
             _ => {}
         }
@@ -105,23 +92,6 @@ pub(super) fn check_entitled<H: Host>(
         host.vouched(moment, is, (signer, address));
     }
     Ok(())
-}
-
-/// Where somebody leads, or would help the robot `me`. What it says to others is their business.
-fn place_of(ram: &Ram, me: &Robot) -> Option<Place> {
-    match ram.coordination {
-        Coordination::NeedHelp { request, .. } => Some(request.place),
-        Coordination::Leader { place, .. } => Some(place),
-        Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. } => {
-            match me.phase() {
-                _ if me.session() != Some(session) => None,
-                Phase::Requesting(own) => Some(own.request.place),
-                Phase::Leading(own) => Some(own.request.place),
-                Phase::Idle | Phase::Offering(_) | Phase::Following(_) => None,
-            }
-        }
-        Coordination::None => None,
-    }
 }
 
 fn check_parts(permits: Permits, parts: impl IntoIterator<Item = Part>) -> Result<(), NotEntitled> {

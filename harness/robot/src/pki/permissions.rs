@@ -2,7 +2,7 @@
 
 use crossguard_codec::security::{Permission, Ssp};
 use crossguard_codec::{Identifiers, Part, Service};
-use crossguard_protocol::{Place, StationId};
+use crossguard_protocol::StationId;
 
 /// The ITS-AIDs of all services that the kit knows.
 #[must_use]
@@ -27,22 +27,9 @@ pub fn robot_permissions(
     parts: &[Part],
     named: Option<StationId>,
 ) -> Vec<Permission> {
-    robot_permissions_at(identifiers, parts, named, None)
-}
-
-/// The same for sessions at this place alone, if there is one.
-#[must_use]
-pub fn robot_permissions_at(
-    identifiers: &Identifiers,
-    parts: &[Part],
-    named: Option<StationId>,
-    place: Option<Place>,
-) -> Vec<Permission> {
-    let parts = match (named, place) {
-        (None, None) => Part::bitmap(parts).to_vec(),
-        (Some(station), None) => Part::bitmap_naming(parts, station).to_vec(),
-        (None, Some(place)) => Part::bitmap_at(parts, place).to_vec(),
-        (Some(station), Some(place)) => Part::bitmap_naming_at(parts, station, place).to_vec(),
+    let parts = match named {
+        None => Part::bitmap(parts).to_vec(),
+        Some(station) => Part::bitmap_naming(parts, station).to_vec(),
     };
     let services: [(Service, &[u8]); 4] = [
         (Service::Ram, &parts),
