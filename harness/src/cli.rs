@@ -16,7 +16,6 @@ mod export;
 mod fsm;
 mod fuzz;
 mod interrupts;
-mod junit;
 mod listening;
 mod odds;
 mod pki;

@@ -24,7 +24,6 @@ use serde::Serialize;
 pub(super) use replay::read as read_replay;
 
 use super::interrupts::interrupts_that;
-use super::junit::{self, JunitArguments};
 use super::ranges::{at_least_one, threads, whole};
 use super::{Failure, destinations, print, print_json, shows_progress};
 
@@ -43,7 +42,7 @@ pub(super) struct Arguments {
     all: bool,
     /// Check the large ones of the shipped scenarios instead, with as many workers as there are processors unless --workers
     /// says otherwise. Takes two hours on two cores and 15 GB. States and steps are judged, and no runs.
-    #[arg(long, conflicts_with_all = ["scenarios", "all", "hosts", "threads", "replay", "junit"])]
+    #[arg(long, conflicts_with_all = ["scenarios", "all", "hosts", "threads", "replay"])]
     large: bool,
     /// List the shipped scenarios and check nothing.
     #[arg(long)]
@@ -74,8 +73,6 @@ pub(super) struct Arguments {
     replay: Option<PathBuf>,
     #[command(flatten)]
     workers: workers::WorkersArguments,
-    #[command(flatten)]
-    junit: JunitArguments,
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
@@ -110,7 +107,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .map(Subject::load)
         .collect::<Result<Vec<_>, _>>();
     let scenarios = scenarios.map_err(Failure::input)?;
-    arguments.junit.check()?;
     destinations::folders([&arguments.charts])?;
     let stop = Stop::default();
     let asked = stop.clone();
@@ -134,8 +130,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         report.scenarios.push(checked);
     }
     let is_all = report.scenarios.len() == wanted;
-    let suites = report.scenarios.iter().map(junit::scenario);
-    written = written.and(arguments.junit.write("check", suites));
     if arguments.json {
         print_json(&report)?;
     } else {

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use crossguard_codec::geonet::Envelope;
 use crossguard_conform::Terms;
-use crossguard_conform::campaign::{Campaign, Report, RuleVerdict, Verdict};
+use crossguard_conform::campaign::{Campaign, Report, Verdict};
 use crossguard_conform::case::{Case, Table};
 use crossguard_conform::live::{Events, Live};
 use crossguard_conform::rules::{RULES, Rule};
@@ -16,10 +16,8 @@ use crossguard_protocol::StationId;
 use crossguard_robot::robot_file::RobotFile;
 use crossguard_robot::transport::{Framing, Link, Transport as _};
 use indicatif::{ProgressBar, ProgressDrawTarget};
-use quick_junit::TestSuite;
 
 use super::interrupts::interrupts;
-use super::junit::{self, Ending, JunitArguments};
 use super::ranges::{address, whole};
 use super::{Failure, print, print_json, shows_progress};
 
@@ -74,8 +72,6 @@ pub(super) struct Arguments {
     list: bool,
     #[command(flatten)]
     security: super::security::SecurityArguments,
-    #[command(flatten)]
-    junit: JunitArguments,
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
@@ -102,18 +98,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
         return list(&rules, &campaign.cases());
     }
-    arguments.junit.check()?;
     let (link, mut table) = reach(arguments)?;
     let stop = interrupts();
     let halves = link.open().map_err(Failure::input)?;
     let mut robot = Live::new(halves, arguments.start.clone(), events(arguments), stop);
     let (report, cut_off) = play_all(arguments, campaign, &mut robot, &mut table)?;
     robot.end();
-    let mut suite = TestSuite::new("conform");
-    for rule in &report.rules {
-        junit::case(&mut suite, rule.rule, ending(rule));
-    }
-    let written = arguments.junit.write("conform", [suite]);
     if arguments.json {
         print_json(&report)?;
     } else {
@@ -122,7 +112,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             print("The tester was stopped before all cases were played.")?;
         }
     }
-    written?;
     if report.has_failed() {
         Err(Failure::Wrong)
     } else if cut_off || report.is_incomplete() {
@@ -284,26 +273,6 @@ fn show(report: &Report) -> Result<(), Failure> {
     print(format_args!(
         "{played} of {cases} cases were played to their end."
     ))
-}
-
-fn ending(rule: &RuleVerdict) -> Ending {
-    match rule.verdict {
-        Verdict::Pass => Ending::Well,
-        Verdict::Beyond => Ending::Skipped(rule.unjudged.unwrap_or_default().to_owned()),
-        Verdict::NotObserved => Ending::Incomplete("the rule was never met".to_owned()),
-        Verdict::Fail => {
-            let charts: Vec<_> = rule
-                .broken
-                .iter()
-                .map(|broken| {
-                    let (name, says, how) = (broken.statement, broken.says, &broken.how);
-                    let (situation, chart) = (&broken.situation, &broken.chart);
-                    format!("{name}: {says}\n{situation}: {how}\n{chart}")
-                })
-                .collect();
-            Ending::Wrong(rule.says.to_owned(), charts.join("\n"))
-        }
-    }
 }
 
 fn list(rules: &[&'static Rule], cases: &[Case]) -> Result<(), Failure> {

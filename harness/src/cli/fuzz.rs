@@ -10,11 +10,9 @@ use crossguard_robot::plan_file::PlanFile;
 use crossguard_robot::site_file::SiteFile;
 use crossguard_robot::transport::Faults;
 use indicatif::{ProgressBar, ProgressStyle};
-use quick_junit::TestSuite;
 use serde::Serialize;
 
 use super::interrupts::interrupts;
-use super::junit::{self, Ending, JunitArguments};
 use super::ranges::{any, number, whole};
 use super::{Failure, destinations, open_logs, print, print_json, report, shows_progress};
 
@@ -57,8 +55,6 @@ pub(super) struct Arguments {
     /// Write log, packets, sequence chart and report of failed seeds into this folder.
     #[arg(long, value_name = "DIR", default_value = "crossguard-fuzz")]
     out: PathBuf,
-    #[command(flatten)]
-    junit: JunitArguments,
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
@@ -87,7 +83,6 @@ struct FuzzReport<'a> {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     destinations::folder(&arguments.out)?;
-    arguments.junit.check()?;
     let sensors = sensors(arguments)?;
     let plan = planned(arguments)?;
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
@@ -114,8 +109,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
         kept = kept.and(files.map(|_| ()));
     }
-    let suite = suite(&fuzz, &totals, seconds);
-    kept = kept.and(arguments.junit.write("fuzz", [suite]));
     if arguments.json {
         let failures = totals.failures.iter();
         print_json(&FuzzReport {
@@ -190,28 +183,6 @@ fn planned(arguments: &Arguments) -> Result<Option<Planned>, Failure> {
         plan,
         arguments: said,
     }))
-}
-
-/// A case for each seed that failed, and one for the others.
-fn suite(fuzz: &Fuzz, totals: &Totals, seconds: Duration) -> TestSuite {
-    let mut suite = TestSuite::new("fuzz");
-    suite.set_time(seconds);
-    for failure in &totals.failures {
-        let (finding, again) = (&failure.finding, fuzz.reproduce(failure.seed));
-        let what = format!("{}: {}", finding.property, finding.statement);
-        let (robot, at_ms) = (&finding.robot, finding.at_ms);
-        let at_length = format!("broken by {robot} after {at_ms} ms; again: {again}");
-        let name = format!("seed {}", failure.seed);
-        junit::case(&mut suite, &name, Ending::Wrong(what, at_length));
-    }
-    let ending = if totals.seeds < fuzz.seeds && totals.violations == 0 {
-        Ending::Incomplete(format!("{} of {} seeds were run", totals.seeds, fuzz.seeds))
-    } else {
-        Ending::Well
-    };
-    let name = format!("the other seeds from {} on", fuzz.first);
-    junit::case(&mut suite, &name, ending);
-    suite
 }
 
 /// Runs the seeds, with a progress bar for people. Ctrl-C ends it with what is known.

@@ -5,10 +5,8 @@ use std::path::PathBuf;
 use crossguard_judge::timing::{Times, Timing};
 use crossguard_judge::validate::{self, Fault, Invalid, Validated};
 use crossguard_robot::trace::{Merged, Timed};
-use quick_junit::TestSuite;
 use serde::Serialize;
 
-use super::junit::{self, Ending, JunitArguments};
 use super::{Failure, open_logs, print, print_json};
 
 #[derive(clap::Args)]
@@ -17,8 +15,6 @@ pub(super) struct Arguments {
     /// The logs: of one robot or of several, from one machine or from several.
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
-    #[command(flatten)]
-    junit: JunitArguments,
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
@@ -55,11 +51,7 @@ struct ValidateReport {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    arguments.junit.check()?;
     let result = validate::all(open_logs(&arguments.logs)?);
-    let written = arguments
-        .junit
-        .write("validate", [suite(arguments, &result)]);
     if let Err(invalid) = &result
         && matches!(
             *invalid.fault,
@@ -75,26 +67,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         tell(&result)?;
     }
-    written?;
     verdict(&result)
-}
-
-/// The logs together are one case: what is wrong with one can be known from another.
-fn suite(arguments: &Arguments, result: &Result<Validated, Invalid>) -> TestSuite {
-    let logs = arguments.logs.iter().map(|path| path.display().to_string());
-    let ending = match result {
-        Ok(valid) if valid.missing > 0 => {
-            Ending::Incomplete(format!("{} records are missing", valid.missing))
-        }
-        Ok(_) => Ending::Well,
-        Err(invalid) => {
-            let cause = invalid.to_string();
-            Ending::Wrong(cause, "the first record that does not fit".to_owned())
-        }
-    };
-    let mut suite = TestSuite::new("validate");
-    junit::case(&mut suite, &logs.collect::<Vec<_>>().join(" "), ending);
-    suite
 }
 
 /// How a command ends that has validated logs.

@@ -90,14 +90,4 @@ fn every_step_passes_with_good_files_and_fails_with_a_bad_one() {
             assert_ne!(take(step, folder).status.code(), Some(0), "{step}");
         }
     }
-    // What is left is that of the bad files, as a CI system reads it.
-    for (file, part) in [
-        ("check.xml", "its premise is never met"),
-        ("check.xml", "failures=\"1\""),
-        ("fuzz.xml", "failures=\"0\""),
-        ("validate.xml", "failures=\"1\""),
-    ] {
-        let result = std::fs::read_to_string(folder.join("results").join(file)).unwrap();
-        assert!(result.contains(part), "{file}: {result}");
-    }
 }

@@ -23,12 +23,12 @@ pub(super) struct WorkersArguments {
     /// Explore with this number of workers, each with the states of its share of fingerprints: 15 bytes per state, and
     /// no graph of them. Properties that need the graph (L) are not judged, and named.
     #[arg(long, value_name = "N", value_parser = threads,
-        conflicts_with_all = ["all", "threads", "replay", "junit"])]
+        conflicts_with_all = ["all", "threads", "replay"])]
     workers: Option<NonZeroUsize>,
     /// The addresses of all processes of the check, one HOST:PORT a line, where it has several. Each runs the same
     /// command with another --process.
     #[arg(long, value_name = "FILE", requires = "process",
-        conflicts_with_all = ["all", "threads", "replay", "junit"])]
+        conflicts_with_all = ["all", "threads", "replay"])]
     hosts: Option<PathBuf>,
     /// The number of this process among --hosts, from 0.
     #[arg(long, value_name = "K", requires = "hosts")]
