@@ -148,7 +148,7 @@ pub fn text(tally: &Tally) -> String {
     page.text
 }
 
-/// The link, the security, and the clock.
+/// The link and the security.
 fn equipment(page: &mut Page, robot: (&str, &str), tally: &Tally) {
     if !tally.link.is_empty() {
         page.family(
@@ -158,22 +158,6 @@ fn equipment(page: &mut Page, robot: (&str, &str), tally: &Tally) {
         );
         let labels = [robot, ("link", &tally.link), ("security", tally.security)];
         page.value(&labels, 1);
-    }
-    if let Some(clock) = tally.clock_quality {
-        page.family(
-            "crossguard_clock_is_right",
-            "gauge",
-            "Whether it is known how wrong its wall clock may be.",
-        );
-        page.value(&[robot], u8::from(clock.error_ms.is_some()));
-        if let Some(error_ms) = clock.error_ms {
-            page.family(
-                "crossguard_clock_error_seconds",
-                "gauge",
-                "The largest error that its wall clock may have.",
-            );
-            page.value(&[robot], f64::from(error_ms) / 1e3);
-        }
     }
 }
 

@@ -34,14 +34,6 @@ pub enum Discarded {
         /// The ITS-AID in its envelope.
         its_aid: u32,
     },
-    /// It was sent longer ago than it lives, by its own time stamp.
-    #[error("it was sent {age_ms} ms ago by its time stamp, and lives for {lifetime_ms} ms")]
-    Outlived {
-        /// How old it is.
-        age_ms: u32,
-        /// How old it may be.
-        lifetime_ms: u32,
-    },
     /// The own station is not in its destination area, or does not know where it is.
     #[error("its destination area is elsewhere")]
     Elsewhere,
@@ -66,7 +58,6 @@ impl Discarded {
             Self::OwnPacket => "own packet",
             Self::UnknownPort(_) => "unknown port",
             Self::WrongPermission { .. } => "wrong permission for port",
-            Self::Outlived { .. } => "lifetime over",
             Self::Elsewhere => "destination area elsewhere",
             Self::Duplicate { .. } => "duplicate",
         }

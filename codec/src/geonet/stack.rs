@@ -73,8 +73,6 @@ pub struct Stack {
     envelope: Envelope,
     next_sequence_number: u16,
     duplicates: Duplicates,
-    /// How far from right the clock may be, in ms, where that is known.
-    clock_error_ms: Option<u32>,
 }
 
 impl Stack {
@@ -87,7 +85,6 @@ impl Stack {
             envelope,
             next_sequence_number: 0,
             duplicates: Duplicates::default(),
-            clock_error_ms: None,
         }
     }
 
@@ -120,13 +117,6 @@ impl Stack {
     pub const fn change_address(&mut self, address: Address, sequence_number: u16) {
         self.address = address;
         self.next_sequence_number = sequence_number;
-    }
-
-    /// The clock by which [`EgoPosition::timestamp_its`] is told is right to this many ms: packets that were sent
-    /// longer ago than they live, by their own time stamps, are discarded from now on. With `None`, as at first, none
-    /// is, since they may only seem to be old.
-    pub const fn keep_time(&mut self, clock_error_ms: Option<u32>) {
-        self.clock_error_ms = clock_error_ms;
     }
 
     /// Puts a message into a packet at the front of `packet`, and tells how long it is.
@@ -224,11 +214,9 @@ impl Stack {
         }
         let (basic, rest) = BasicHeader::decode(packet)?;
         let (own, identifiers) = (self.address, self.identifiers);
-        let clock_error_ms = self.clock_error_ms;
         let take_apart = |plain, its_aid| -> Result<Admitted<'a>, Discarded> {
             let (headers, message) = Headers::decode_behind(basic, plain)?;
             let service = admit(&identifiers, own, &headers, its_aid)?;
-            check_age(ego, &headers, clock_error_ms)?;
             check_area(ego, &headers)?;
             Ok(Admitted {
                 headers,
@@ -298,25 +286,6 @@ fn admit(
         }
         _ => Ok(service),
     }
-}
-
-/// Discards what outlived its lifetime, where the own clock is known to be right to `error_ms`.
-fn check_age(ego: &EgoPosition, headers: &Headers, error_ms: Option<u32>) -> Result<(), Discarded> {
-    let Some(error_ms) = error_ms else {
-        return Ok(());
-    };
-    #[expect(clippy::cast_possible_truncation, reason = "it is modulo 2^32")]
-    let age_ms = (ego.timestamp_its as u32).wrapping_sub(headers.source.timestamp);
-    let lifetime_ms = headers.lifetime.milliseconds();
-    // Beyond half the range it is a time stamp from the future.
-    let is_past = age_ms <= u32::MAX / 2;
-    if is_past && age_ms > lifetime_ms.saturating_add(error_ms) {
-        return Err(Discarded::Outlived {
-            age_ms,
-            lifetime_ms,
-        });
-    }
-    Ok(())
 }
 
 /// Whether the own station is where a packet is for.

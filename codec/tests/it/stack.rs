@@ -126,34 +126,6 @@ fn a_geo_broadcast_is_for_those_in_its_area() {
     }
 }
 
-/// Hazard: a packet that was held up somewhere, as by a router, speaks of a street as it was.
-#[test]
-fn what_was_sent_longer_ago_than_it_lives_is_discarded_by_a_clock_that_is_right() {
-    let packet = vector("G1");
-    let lifetime_ms = sixty_seconds().milliseconds();
-    let heard = |error_ms, later_ms: i64| {
-        let mut receiver = listener();
-        receiver.keep_time(error_ms);
-        let now = EgoPosition {
-            timestamp_its: ego().timestamp_its.saturating_add_signed(later_ms),
-            ..ego()
-        };
-        receiver.receive(&now, &packet).map(|it| it.service)
-    };
-    let age_ms = lifetime_ms + 21;
-    let outlived = Discarded::Outlived {
-        age_ms,
-        lifetime_ms,
-    };
-    assert_eq!(heard(Some(20), i64::from(age_ms)), Err(outlived));
-    assert_eq!(outlived.cause(), "lifetime over");
-    // The clock may be wrong by so much.
-    assert_eq!(heard(Some(20), i64::from(age_ms) - 1), Ok(Service::Cam));
-    // Of a clock that is not known to be right nothing follows, and a time stamp from the future is not old.
-    assert_eq!(heard(None, 3_600_000), Ok(Service::Cam));
-    assert_eq!(heard(Some(20), -3_600_000), Ok(Service::Cam));
-}
-
 #[test]
 fn what_is_not_for_the_station_is_discarded_by_name() {
     let mut octets = vector("G1");

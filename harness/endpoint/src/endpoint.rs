@@ -164,12 +164,6 @@ impl<P: StateMachine> Endpoint<P> {
         self.congestion_ms = congestion_ms;
     }
 
-    /// The wall clock is right to this many ms, or nothing is known of it: packets that outlived their lifetime by it are
-    /// dropped, or none are.
-    pub const fn keep_time(&mut self, error_ms: Option<u32>) {
-        self.exchange.stack_mut().keep_time(error_ms);
-    }
-
     /// The protocol state.
     #[must_use]
     pub fn robot(&self) -> &Robot {

@@ -369,7 +369,6 @@ impl Chart {
             | Entry::Zone(_)
             | Entry::Channel(_)
             | Entry::Clock(_)
-            | Entry::ClockQuality(_)
             | Entry::Stopped { .. } => Vec::new(),
         };
         (now, after)

@@ -367,8 +367,7 @@ impl LoggedRobots {
             | Entry::People(_)
             | Entry::Around(_)
             | Entry::Channel(_)
-            | Entry::Clock(_)
-            | Entry::ClockQuality(_) => Ok(None),
+            | Entry::Clock(_) => Ok(None),
             Entry::Step {
                 input,
                 outputs,

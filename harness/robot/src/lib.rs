@@ -51,5 +51,4 @@ pub mod street;
 pub mod tally;
 pub mod trace;
 pub mod transport;
-pub mod wall_clock;
 pub mod zone;

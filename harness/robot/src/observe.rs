@@ -125,7 +125,6 @@ pub fn entry(entry: &Entry, before: &mut State) {
             interval_ms = channel.interval_ms,
             "channel"
         ),
-        Entry::ClockQuality(clock) => info!(error_ms = ?clock.error_ms, "wall clock"),
         Entry::People(sight) => debug!(
             people = sight.people.len(),
             waiting = sight.waiting(),

@@ -58,7 +58,6 @@ use crate::observe;
 use crate::perception::{Newest, SensorFrame, seen_from};
 use crate::trace::{Entry, Record, recorded};
 use crate::transport::{Arrival, Halves, Sender};
-use crate::wall_clock::{ClockQuality, WallClock};
 
 /// How many datagrams may wait.
 const DATAGRAMS: usize = 256;
@@ -102,8 +101,6 @@ pub enum Order {
     LookedInVain,
     /// The battery is like this now.
     Battery(Battery),
-    /// The wall clock is like this, as whatever keeps it says.
-    Clock(ClockQuality),
     /// Show this to people, which RAM tell; without means, by those of the robot's configuration.
     Show(SignalsShown),
     /// Be there for this job.
@@ -192,7 +189,6 @@ impl Setup {
             keeper: Keeper::start(self.boot, memory),
             clock_state: None,
             channel: Monitored::default(),
-            wall_clock: WallClock::default(),
             newest: Newest::default(),
             observed: State::Idle,
             around: (Around::default(), began_us),
@@ -239,8 +235,6 @@ struct Loop {
     clock_state: Option<ClockState>,
     /// The radio channel, where the link measures it.
     channel: Monitored,
-    /// How right its wall clock is.
-    wall_clock: WallClock,
     /// Whom its sensors have, for RAM.
     newest: Newest,
     /// The newest state that observers were told.
@@ -301,8 +295,6 @@ impl Loop {
             self.renew_epoch();
             self.keep_time();
             self.control_congestion();
-            let news = self.wall_clock.check(self.now_ms());
-            self.judge_ages(news);
         }
         if let Some(time) = self.machine.endpoint().trusted_time() {
             self.keeper.keep_last(time.mark());
@@ -400,11 +392,6 @@ impl Loop {
                 self.machine.application_mut().set_battery(battery);
                 Stimulus::Time
             }
-            Order::Clock(quality) => {
-                let news = self.wall_clock.say(quality, self.now_ms());
-                self.judge_ages(news);
-                Stimulus::Time
-            }
             Order::Show(signals) => {
                 self.machine.application_mut().show(signals);
                 Stimulus::Time
@@ -446,14 +433,6 @@ impl Loop {
 
     fn now_ms(&self) -> u64 {
         self.clock.now_us() / 1_000
-    }
-
-    /// Judges the age of packets by a wall clock that is known to be right, and by no other.
-    fn judge_ages(&mut self, news: Option<ClockQuality>) {
-        if let Some(quality) = news {
-            self.machine.endpoint_mut().keep_time(quality.error_ms);
-            self.log(Entry::ClockQuality(quality));
-        }
     }
 
     /// Tells the robot of a boot counter that has been persisted meanwhile.

@@ -14,7 +14,6 @@ use crate::channel::ChannelState;
 use crate::clock::ClockState;
 use crate::sight::Sight;
 use crate::trace::{Entry, Record};
-use crate::wall_clock::ClockQuality;
 
 /// The newest known of a robot, and how often what happened, from its records as they come.
 #[derive(Clone, Debug, Default)]
@@ -45,8 +44,6 @@ pub struct Tally {
     pub boot: Option<u16>,
     /// Whether it trusts its clock, if it verifies what it hears.
     pub clock: Option<ClockState>,
-    /// Its wall clock, once somebody has said how it is.
-    pub clock_quality: Option<ClockQuality>,
     /// Where its link is, and whether packets are signed and verified; empty, if nobody has said so.
     pub link: String,
     /// The mode of security, likewise.
@@ -94,7 +91,6 @@ impl Tally {
                 self.state = Some(Robot::new(*station, epoch.unwrap_or(*boot)));
                 self.boot = epoch.map(|_| *boot);
                 self.clock = None;
-                self.clock_quality = None;
                 self.go_until = None;
             }
             Entry::Step { outputs, state, .. } => {
@@ -123,7 +119,6 @@ impl Tally {
             Entry::Zone(_) => {}
             Entry::Channel(channel) => self.channel = Some(*channel),
             Entry::Clock(clock) => self.clock = Some(*clock),
-            Entry::ClockQuality(clock) => self.clock_quality = Some(*clock),
             Entry::People(sight) => self.sight.clone_from(sight),
             Entry::Around(around) => self.around.clone_from(around),
             Entry::Stopped { counters } => {
@@ -191,16 +186,12 @@ impl Tally {
         self.clock.filter(|clock| !clock.is_trusted())
     }
 
-    /// Its link, its security, its clock and its channel, for a person who asks.
+    /// Its link, its security and its channel, for a person who asks.
     #[must_use]
     pub fn equipment(&self) -> String {
         let mut text = format!("link {}; security {}", self.link, self.security);
         let rejected = self.causes.total(|layer| layer == Layer::Security);
         let _ = write!(text, ", {rejected} rejected");
-        let _ = match self.clock_quality {
-            None => write!(text, "; clock: nobody says how right it is"),
-            Some(clock) => write!(text, "; {clock}"),
-        };
         let _ = match self.channel {
             None => write!(text, "; channel: nobody measures it"),
             Some(channel) => write!(text, "; {channel}"),
@@ -291,9 +282,6 @@ impl Tally {
         }
         if let Some(channel) = self.channel {
             let _ = write!(line, ", {channel}");
-        }
-        if let Some(clock) = self.clock_quality {
-            let _ = write!(line, ", {clock}");
         }
         if state.role() == Role::None {
             let _ = write!(line, ", {}", state.availability());

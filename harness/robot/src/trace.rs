@@ -22,7 +22,6 @@ use crate::around::Around;
 use crate::channel::ChannelState;
 use crate::clock::ClockState;
 use crate::sight::{Outline, Sight};
-use crate::wall_clock::ClockQuality;
 use crossguard_endpoint::Effect;
 use crossguard_endpoint::counters::{CauseName, Counts};
 use crossguard_endpoint::ras::generation::Trigger;
@@ -127,8 +126,6 @@ pub enum Entry {
     Channel(ChannelState),
     /// It trusts its clock from now on, or no longer. Of a robot that does not trust it nothing that is signed is heard.
     Clock(ClockState),
-    /// Its wall clock is like this from now on, as somebody says who keeps it.
-    ClockQuality(ClockQuality),
     /// It stopped in order.
     Stopped {
         /// How often each cause occurred.

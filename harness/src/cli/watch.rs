@@ -116,7 +116,7 @@ impl Watch {
         self.tally.with(|tally| tally.surroundings())
     }
 
-    /// Its link, its security, its clock and its channel.
+    /// Its link, its security and its channel.
     pub(super) fn equipment(&self) -> String {
         self.tally.with(|tally| tally.equipment())
     }

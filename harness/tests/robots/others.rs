@@ -4,10 +4,9 @@
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpStream, UdpSocket};
 use std::process::{Child, Stdio};
-use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use std::time::{Duration, Instant};
 
 use crossguard_codec::golden;
-use crossguard_codec::si::timestamp_its;
 use crossguard_testkit::command::*;
 use serde_json::Value;
 
@@ -39,17 +38,6 @@ fn packet(file: &'static str, name: &str, port: u16, station: u32) -> Vec<u8> {
     packet[8..10].copy_from_slice(&length.to_be_bytes());
     packet[16..20].copy_from_slice(&station.to_be_bytes());
     packet.extend(message);
-    packet
-}
-
-/// A CAM of another station that was sent so long ago, by its own time stamp. It lives for a minute.
-fn sent_ago(ago_s: u64) -> Vec<u8> {
-    let mut packet = packet(golden::ITS, "C2", 2_001, 100);
-    let sent = SystemTime::now() - Duration::from_secs(ago_s);
-    let unix_ms = sent.duration_since(UNIX_EPOCH).unwrap().as_millis();
-    let timestamp = timestamp_its(i64::try_from(unix_ms).unwrap());
-    // The low half of it stands behind the address of the source.
-    packet[20..24].copy_from_slice(&timestamp.to_be_bytes()[4..]);
     packet
 }
 
@@ -124,20 +112,8 @@ fn stations_of_others_are_in_status_metrics_and_log_and_what_outlived_its_lifeti
         std::thread::sleep(Duration::from_millis(200));
     }
     let scraped = robot.scrape();
-    // While nobody says how right the clock is, old packets are taken.
-    type_to(&mut robot.child, "status\nclock 20\nwait 0.1\nstatus\n");
-    let mut said: Vec<String> = Vec::new();
-    while !said.iter().any(|it| it.contains("clock right to 20 ms")) {
-        said.push(robot.lines.next().expect("it goes on"));
-    }
-    send(&sent_ago(120));
-    wait_until("a packet that outlived its lifetime", || {
-        let log = std::fs::read_to_string(&log).unwrap();
-        log.contains("lifetime over")
-    });
-    let later = robot.scrape();
-    type_to(&mut robot.child, "clock lost\nwait 0.3\nstatus\nquit\n");
-    said.extend(robot.lines);
+    type_to(&mut robot.child, "status\nquit\n");
+    let said: Vec<_> = robot.lines.collect();
     let said = said.join("\n");
     assert_eq!(
         wait_for(&mut robot.child, PATIENCE).code(),
@@ -152,12 +128,7 @@ fn stations_of_others_are_in_status_metrics_and_log_and_what_outlived_its_lifeti
         // A station, and what another one perceives; one by itself, and a cluster.
         (&said, "2 vehicles (nearest station 100 at 0.0 m, oldest "),
         (&said, "2 vulnerable road users (nearest "),
-        (
-            &said,
-            "; clock: nobody says how right it is; channel: nobody measures it",
-        ),
-        (&said, "; clock right to 20 ms;"),
-        (&said, "; clock not known to be right;"),
+        (&said, "; channel: nobody measures it"),
         (&scraped, "crossguard_stations_heard{robot=\"ARI\"} 4"),
         (
             &scraped,
@@ -167,7 +138,6 @@ fn stations_of_others_are_in_status_metrics_and_log_and_what_outlived_its_lifeti
             &scraped,
             "crossguard_around{robot=\"ARI\",kind=\"vulnerable road user\"} 2",
         ),
-        (&later, "crossguard_clock_error_seconds{robot=\"ARI\"} 0.02"),
     ] {
         assert!(text.contains(part), "'{part}' is not in:\n{text}");
     }
@@ -203,16 +173,7 @@ fn in_log(log: &str) {
         .into_iter()
         .map(|it| it["cause"].as_str().unwrap());
     let dropped: Vec<_> = dropped.collect();
-    let expected = [
-        vec!["message of the own station"; TIMES],
-        vec!["lifetime over"],
-    ]
-    .concat();
-    assert_eq!(dropped, expected);
-    let clocks = of("clockQuality")
-        .into_iter()
-        .map(|it| it["errorMs"].clone());
-    assert_eq!(clocks.collect::<Vec<_>>(), [20.into(), Value::Null]);
+    assert_eq!(dropped, ["message of the own station"; TIMES]);
 }
 
 #[test]

@@ -94,8 +94,7 @@ impl Clocks {
             | Entry::People(_)
             | Entry::Around(_)
             | Entry::Channel(_)
-            | Entry::Clock(_)
-            | Entry::ClockQuality(_) => {}
+            | Entry::Clock(_) => {}
         }
     }
 

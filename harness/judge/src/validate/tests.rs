@@ -127,7 +127,6 @@ fn altered(record: &Record, other_octets: &[u8]) -> Vec<Record> {
         | Entry::Around(_)
         | Entry::Channel(_)
         | Entry::Clock(_)
-        | Entry::ClockQuality(_)
         | Entry::Dropped { .. }
         | Entry::Unrecorded { .. }
         | Entry::Stopped { .. } => Vec::new(),

@@ -4,7 +4,6 @@ use std::time::Duration;
 
 use crate::runtime::Order;
 use crate::site::{Place, Site};
-use crate::wall_clock::{ClockQuality, ERROR_MAX_MS};
 use crossguard_codec::{Battery, PublicSignal, SignalMeans, SignalsShown, TaskParameters};
 use crossguard_endpoint::Stimulus;
 use crossguard_protocol::{
@@ -13,7 +12,7 @@ use crossguard_protocol::{
 
 use super::port::order_of;
 use super::words::{
-    CHARGING, INTERSECTION, Kind, LOST, MAP_PLACE, NONE, SEGMENT, event_of, job, map_place, means,
+    CHARGING, INTERSECTION, Kind, MAP_PLACE, NONE, SEGMENT, event_of, job, map_place, means,
     nothing, number, only, seconds, signal, state, surplus, task, unavailability, urgency, wrong,
 };
 use super::{Line, Misunderstood};
@@ -188,15 +187,8 @@ pub(super) const COMMANDS: &[Command] = &[
         &[&[Kind::Word(SEGMENT), Kind::Word(INTERSECTION), Kind::Word(NONE)]],
     ),
     Command::new(
-        "clock",
-        "how wrong the wall clock may be, as its receiver or NTP says; it holds for five minutes. While it is known, \
-         packets older than their lifetime are dropped",
-        clock,
-    )
-    .taking("MILLISECONDS | lost", &[&[Kind::Word(LOST)]]),
-    Command::new(
         "status",
-        "what the robot is doing, what it heard, who is around, and how link, security and clock are",
+        "what the robot is doing, what it heard, who is around, and how link, security and channel are",
         |words, _| nothing(words).map(|()| Line::Status),
     ),
     Command::new("wait", "before the next line", |words, _| {
@@ -259,28 +251,6 @@ fn help(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {
     let command = Command::named(name);
     let command = command.ok_or_else(|| Misunderstood::Command((*name).to_owned()))?;
     Ok(Line::Help(Some(command.name)))
-}
-
-fn clock(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {
-    let error_ms = match words {
-        [LOST] => None,
-        [word] => {
-            let error_ms = word
-                .parse()
-                .ok()
-                .filter(|error_ms| *error_ms <= ERROR_MAX_MS);
-            let wanted = || format!("'{LOST}', or an error from 0 to {ERROR_MAX_MS} ms");
-            Some(error_ms.ok_or_else(|| wrong(word, wanted()))?)
-        }
-        [] => {
-            return Err(Misunderstood::Missing {
-                command: "clock",
-                wanted: "its error in ms, or 'lost'",
-            });
-        }
-        [.., last] => return Err(surplus(last)),
-    };
-    Ok(Line::Order(Order::Clock(ClockQuality { error_ms })))
 }
 
 fn battery(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {

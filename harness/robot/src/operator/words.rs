@@ -37,7 +37,6 @@ pub(super) enum Kind {
 pub(super) const SEGMENT: &str = "segment";
 pub(super) const INTERSECTION: &str = "intersection";
 pub(super) const NONE: &str = "none";
-pub(super) const LOST: &str = "lost";
 pub(super) const CHARGING: &str = "charging";
 
 const STATES: [(&str, State); 4] = [
