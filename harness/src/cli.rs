@@ -39,7 +39,6 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use crossguard_robot::capture::Capture;
-use crossguard_robot::observe::to_standard_error;
 use crossguard_robot::perception::Feed;
 use crossguard_robot::trace::Log;
 use printable::{Printable, printable_json};
@@ -55,14 +54,9 @@ use printable::{Printable, printable_json};
         second Ctrl-C ends it at once, with 130."
 )]
 struct Arguments {
-    #[arg(short, long, action = clap::ArgAction::Count, global = true, help = VERBOSE)]
-    verbose: u8,
     #[command(subcommand)]
     command: Command,
 }
-
-const VERBOSE: &str = "Tell on standard error what robots do, and why they drop what they drop: -v for a \
-    little, -vv and -vvv for more. Without it, RUST_LOG says it in detail, like crossguard_robot=debug";
 
 #[derive(Subcommand)]
 enum Command {
@@ -146,10 +140,6 @@ pub fn command() -> clap::Command {
 pub fn main() -> ExitCode {
     let arguments = Arguments::from_arg_matches(&command().get_matches());
     let arguments = arguments.unwrap_or_else(|error| error.exit());
-    let _written = to_standard_error(
-        arguments.verbose,
-        &["crossguard_harness", "crossguard_robot"],
-    );
     let done = match arguments.command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),

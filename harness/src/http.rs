@@ -60,11 +60,8 @@ pub(crate) fn serve(
             // Each client that is served holds a clone.
             let clients = Arc::new(());
             for client in listener.incoming() {
-                let served =
-                    client.and_then(|client| attend(client, name, body_max, &answer, &clients));
-                if let Err(error) = served {
-                    tracing::debug!(%error, "a client of the {name} is not served");
-                }
+                // A client that is not served sees that the connection ends.
+                let _ = client.and_then(|client| attend(client, name, body_max, &answer, &clients));
             }
         })?;
     Ok(address)
@@ -86,9 +83,8 @@ where
     }
     let (answer, slot) = (Arc::clone(answer), Arc::clone(clients));
     let serve = move || {
-        if let Err(error) = converse(&client, body_max, &*answer) {
-            tracing::debug!(%error, "a client of the {name} went away");
-        }
+        // The client may have gone away.
+        let _ = converse(&client, body_max, &*answer);
         drop(slot);
     };
     let thread = std::thread::Builder::new().name(format!("{name} client"));

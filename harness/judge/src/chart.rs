@@ -356,6 +356,7 @@ impl Chart {
                 .iter()
                 .map(|(cause, count)| note(format!("! dropped, {cause}: {count} more")))
                 .collect(),
+            Entry::Hindered { why } => vec![note(format!("! {why}"))],
             Entry::Sent { octets, .. } => self.arrows_to_strangers(lane, octets),
             Entry::People(sight) => {
                 let text = changed(&mut self.lanes[lane].people, people(sight));

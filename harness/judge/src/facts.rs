@@ -355,7 +355,7 @@ impl Observer {
                 .iter()
                 .map(|(cause, count)| self.count(robot, cause, count))
                 .collect(),
-            Entry::Channel(_) | Entry::Clock(_) => Vec::new(),
+            Entry::Channel(_) | Entry::Clock(_) | Entry::Hindered { .. } => Vec::new(),
             Entry::Zone(outline) => vec![Fact::Zone(outline.clone())],
             Entry::People(sight) => vec![Fact::People(sight.clone())],
             Entry::Around(around) => vec![Fact::Around(around.clone())],

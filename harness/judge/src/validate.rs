@@ -367,7 +367,8 @@ impl LoggedRobots {
             | Entry::People(_)
             | Entry::Around(_)
             | Entry::Channel(_)
-            | Entry::Clock(_) => Ok(None),
+            | Entry::Clock(_)
+            | Entry::Hindered { .. } => Ok(None),
             Entry::Step {
                 input,
                 outputs,

@@ -58,6 +58,8 @@ pub struct Application {
     crossing: Box<Crossing>,
     /// What keeps people from crossing, as told last.
     hindrance: Option<Hindrance>,
+    /// The same, until it is logged.
+    untold_hindrance: Option<Hindrance>,
     said: Said,
     traits: Traits,
     availability: Availability,
@@ -86,6 +88,7 @@ impl Application {
             setup: Box::default(),
             crossing: Box::default(),
             hindrance: None,
+            untold_hindrance: None,
             said: Said::default(),
             traits: Traits::default(),
             availability: Availability::Available,
@@ -198,7 +201,9 @@ impl Application {
                 Output::Wait => self.act_by_body(BodyAct::Wait),
                 Output::GoOn => self.act_by_body(BodyAct::GoOn),
                 Output::Release => self.body.release(),
-                Output::Dropped(why) => self.trouble(Cause::FrameDropped(why.name()), "a frame"),
+                Output::Dropped(why) => {
+                    self.trouble(Cause::FrameDropped(why.name()), "a frame".to_owned());
+                }
                 Output::Hindered(why) => self.is_hindered(why),
             }
         }
@@ -223,8 +228,13 @@ impl Application {
     /// Tells a person once why nobody may cross any more.
     fn is_hindered(&mut self, why: Hindrance) {
         if self.hindrance.replace(why) != Some(why) {
-            tracing::warn!(?why, "the corridor is closed");
+            self.untold_hindrance = Some(why);
         }
+    }
+
+    /// What keeps people from crossing from now on, for the log.
+    pub(crate) const fn next_hindrance(&mut self) -> Option<Hindrance> {
+        self.untold_hindrance.take()
     }
 
     /// Takes in what the protocol knows after a step.
@@ -345,7 +355,7 @@ impl Application {
         let Err(error) = self.body.act(act) else {
             return;
         };
-        tracing::error!(%error, ?act, "a fault of the body");
+        self.trouble(Cause::BodyFault, error.to_string());
         let fault = Availability::Unavailable(Unavailability::LocalFault);
         self.wishes
             .push_front(Stimulus::Event(Event::AvailabilityChanged(fault)));

@@ -184,7 +184,7 @@ pub struct Pose {
 }
 
 /// What a body reports.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Report {
     /// It is at the place from which it guards.
     InPosition(ManeuverId),
@@ -198,10 +198,10 @@ pub enum Report {
     Here,
     /// It fell silent.
     Silent,
-    /// It has a fault.
-    Fault,
-    /// It said something that was not understood.
-    Garbled,
+    /// It has a fault: this.
+    Fault(String),
+    /// It said something that was not understood, for this reason.
+    Garbled(String),
 }
 
 /// How far a body is with its fallback.

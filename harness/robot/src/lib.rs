@@ -16,7 +16,7 @@
 //!   there; [`sight`] is what its log says of them, [`around`] what it says of other road users, and [`sign`]
 //!   what people at the road see.
 //! - [`site_file`] and [`plan_file`] are sites and plans as files, which demonstrations and robots read.
-//! - [`trace`] is the log, one JSON object per line; [`tally`] sums it up; [`observe`] hands it to `tracing`.
+//! - [`trace`] is the log, one JSON object per line; [`tally`] sums it up.
 //! - [`boot`] is the counter that makes session numbers unique over power failures, and what a robot that signs
 //!   remembers besides; [`clock`] is whether it trusts its clock.
 //! - [`operator`] reads what a person types, and serves the port by which other programs do; [`port`] has the sockets.
@@ -34,7 +34,6 @@ pub mod journal;
 pub mod lines;
 mod located;
 pub mod machine;
-pub mod observe;
 pub mod operator;
 pub mod perception;
 pub mod pki;

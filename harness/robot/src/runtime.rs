@@ -39,7 +39,7 @@ use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Security;
 use crossguard_endpoint::{Act, Effect, Endpoint, Stimulus};
-use crossguard_protocol::{Config, Event, Millis, Phase, Robot, State, StationId};
+use crossguard_protocol::{Config, Event, Millis, Phase, Robot, StationId};
 
 pub use self::clock::Clock;
 use self::clock::{moment_at, unix_us};
@@ -54,7 +54,6 @@ use crate::channel::Monitored;
 use crate::clock::ClockState;
 use crate::journal::Journal;
 use crate::machine::Machine;
-use crate::observe;
 use crate::perception::{Newest, SensorFrame, seen_from};
 use crate::trace::{Entry, Record, recorded};
 use crate::transport::{Arrival, Halves, Sender};
@@ -190,7 +189,6 @@ impl Setup {
             clock_state: None,
             channel: Monitored::default(),
             newest: Newest::default(),
-            observed: State::Idle,
             around: (Around::default(), began_us),
             sampler: Sampler::default(),
             stopping: false,
@@ -237,8 +235,6 @@ struct Loop {
     channel: Monitored,
     /// Whom its sensors have, for RAM.
     newest: Newest,
-    /// The newest state that observers were told.
-    observed: State,
     /// Who the log says is around, and since when.
     around: (Around, u64),
     /// What is dropped more often than the log takes.
@@ -251,13 +247,11 @@ impl Loop {
     /// The loop has panicked: nothing that it decided can be relied on, and nobody will tell the body anything more.
     fn halt_body(&mut self) {
         let halt = || self.machine.application_mut().stop();
-        if catch_unwind(AssertUnwindSafe(halt)).is_err() {
-            tracing::error!("the body cannot be halted");
-        }
+        // A body that cannot be halted has panicked, and the panic is told on standard error.
+        let _ = catch_unwind(AssertUnwindSafe(halt));
     }
 
     fn run(&mut self, inbox: &Inbox<Delivery>) {
-        let _span = tracing::info_span!("robot", name = self.name).entered();
         let since_us = self.clock.now_us().saturating_sub(self.began_us);
         let began_unix_us = unix_us().saturating_sub(since_us);
         let started = self.record_at(
@@ -442,7 +436,6 @@ impl Loop {
             Some(Ok(boot)) => self.handle(Stimulus::Event(Event::EpochRenewed(boot))),
             // The robot asks again with the next number that it gives out.
             Some(Err(error)) => {
-                tracing::error!(%error, "the boot counter is not renewed");
                 self.drop(Cause::EpochNotRenewed, error.to_string(), Vec::new());
             }
         }
@@ -457,7 +450,6 @@ impl Loop {
         if state.is_trusted()
             && let Some(error) = self.keeper.keep(time.mark())
         {
-            tracing::error!(%error, "the time is not kept");
             self.drop(Cause::TimeNotKept, error.to_string(), Vec::new());
         }
         if self.clock_state.map(ClockState::is_trusted) != Some(state.is_trusted()) {
@@ -496,7 +488,11 @@ impl Loop {
             self.carry_out(effect);
         }
         while let Some((cause, detail)) = self.machine.application_mut().next_trouble() {
-            self.drop(cause, detail.to_owned(), Vec::new());
+            self.drop(cause, detail, Vec::new());
+        }
+        if let Some(why) = self.machine.application_mut().next_hindrance() {
+            let why = why.to_string();
+            self.log(Entry::Hindered { why });
         }
         self.look_around(shown);
         if let Some(counters) = self.sampler.elapse(shown) {
@@ -564,7 +560,6 @@ impl Loop {
 
     fn put(&mut self, record: Record) {
         for lost in self.journal.put(record) {
-            tracing::error!(layer = %lost.layer(), cause = %lost.reason(), "dropped");
             self.machine.endpoint_mut().count(lost);
         }
     }
@@ -574,7 +569,6 @@ impl Loop {
     }
 
     fn record_at(&mut self, at_us: u64, entry: Entry) -> Record {
-        observe::entry(&entry, &mut self.observed);
         Record {
             at_us,
             robot: self.name.clone(),

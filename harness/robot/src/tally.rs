@@ -116,7 +116,7 @@ impl Tally {
                     self.causes.add(&cause, count);
                 }
             }
-            Entry::Zone(_) => {}
+            Entry::Zone(_) | Entry::Hindered { .. } => {}
             Entry::Channel(channel) => self.channel = Some(*channel),
             Entry::Clock(clock) => self.clock = Some(*clock),
             Entry::People(sight) => self.sight.clone_from(sight),

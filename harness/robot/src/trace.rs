@@ -126,6 +126,11 @@ pub enum Entry {
     Channel(ChannelState),
     /// It trusts its clock from now on, or no longer. Of a robot that does not trust it nothing that is signed is heard.
     Clock(ClockState),
+    /// An open corridor is closed, or stays closed, for this reason.
+    Hindered {
+        /// The reason, in words.
+        why: String,
+    },
     /// It stopped in order.
     Stopped {
         /// How often each cause occurred.

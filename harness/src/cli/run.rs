@@ -446,6 +446,7 @@ impl Console<'_> {
             {
                 texts.push(format!("dropped, {cause}: {detail}"));
             }
+            Entry::Hindered { why } => texts.push(format!("people may not cross: {why}")),
             // That it trusts its clock goes without saying, unless it did not.
             Entry::Clock(clock) if self.doubts_clock || !clock.is_trusted() => {
                 texts.push(clock.to_string());

@@ -1,5 +1,7 @@
 //! What the crossing machine takes in, and what it puts out.
 
+use core::fmt::{self, Display, Formatter};
+
 use crossguard_protocol::{
     Event, FallbackPolicy, List, MAX_FOLLOWERS, Maneuver, ManeuverId, Millis, Notice, StationId,
 };
@@ -163,6 +165,17 @@ pub enum Hindrance {
     NoSight,
     /// A vehicle can no longer stop comfortably: its key.
     Vehicle(u32),
+}
+
+impl Display for Hindrance {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::GuardElsewhere(station) => write!(f, "guard {station} is not at its place"),
+            Self::LeaderElsewhere => f.write_str("the leader is not at its place"),
+            Self::NoSight => f.write_str("sensors do not cover the carriageway"),
+            Self::Vehicle(_) => f.write_str("a vehicle can no longer stop comfortably"),
+        }
+    }
 }
 
 /// What the crossing machine puts out.

@@ -94,7 +94,8 @@ impl Clocks {
             | Entry::People(_)
             | Entry::Around(_)
             | Entry::Channel(_)
-            | Entry::Clock(_) => {}
+            | Entry::Clock(_)
+            | Entry::Hindered { .. } => {}
         }
     }
 

@@ -127,6 +127,7 @@ fn altered(record: &Record, other_octets: &[u8]) -> Vec<Record> {
         | Entry::Around(_)
         | Entry::Channel(_)
         | Entry::Clock(_)
+        | Entry::Hindered { .. }
         | Entry::Dropped { .. }
         | Entry::Unrecorded { .. }
         | Entry::Stopped { .. } => Vec::new(),

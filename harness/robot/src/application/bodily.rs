@@ -13,13 +13,13 @@ const TROUBLES: usize = 64;
 pub(super) struct Bodily {
     /// What its robot has to be unavailable for while the body is not there.
     missing: Option<Unavailability>,
-    troubles: Vec<(Cause, &'static str)>,
+    troubles: Vec<(Cause, String)>,
 }
 
 impl Application {
     /// Takes in what the body says besides how maneuvers go.
     pub(super) fn learn_of_body(&mut self, report: Report) {
-        let trouble = match report {
+        let (cause, what) = match report {
             Report::InPosition(_) | Report::Completed(_) => return self.feel_maneuver(report),
             Report::Failed(id) => return self.wish(Stimulus::Event(Event::ManeuverFailed(id))),
             // Nothing is wrong with a body that was not started yet, but its robot takes no part.
@@ -37,22 +37,20 @@ impl Application {
             Report::Silent => {
                 self.feel_maneuver(report);
                 self.bodily.missing = Some(Unavailability::EmergencyStop);
-                (
-                    Cause::BodySilent,
-                    "nothing was heard of the body: emergency stop",
-                )
+                let what = "nothing was heard of the body: emergency stop";
+                (Cause::BodySilent, what.to_owned())
             }
-            Report::Fault => {
+            Report::Fault(what) => {
                 self.wish_available(Availability::Unavailable(Unavailability::LocalFault));
-                (Cause::BodyFault, "the body says that it has a fault")
+                (Cause::BodyFault, what)
             }
-            Report::Garbled => (Cause::BodyGarbled, "a line of the body"),
+            Report::Garbled(why) => (Cause::BodyGarbled, why),
         };
-        self.trouble(trouble.0, trouble.1);
+        self.trouble(cause, what);
     }
 
     /// Something is to be counted.
-    pub(super) fn trouble(&mut self, cause: Cause, what: &'static str) {
+    pub(super) fn trouble(&mut self, cause: Cause, what: String) {
         if self.bodily.troubles.len() < TROUBLES {
             self.bodily.troubles.push((cause, what));
         }
@@ -76,7 +74,7 @@ impl Application {
     }
 
     /// The next thing that went wrong with the body, to be counted.
-    pub(crate) fn next_trouble(&mut self) -> Option<(Cause, &'static str)> {
+    pub(crate) fn next_trouble(&mut self) -> Option<(Cause, String)> {
         self.bodily.troubles.pop()
     }
 }

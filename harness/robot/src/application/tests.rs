@@ -67,6 +67,26 @@ fn a_body_that_does_not_take_a_stop_is_a_fault_that_is_told_at_once() {
     let fault = Availability::Unavailable(Unavailability::LocalFault);
     let told = Stimulus::Event(Event::AvailabilityChanged(fault));
     assert_eq!(application.next_wish(), Some(told));
+    let (cause, why) = application.next_trouble().unwrap();
+    assert_eq!(cause, Cause::BodyFault);
+    assert!(why.ends_with("the bus is down"), "{why}");
+}
+
+#[test]
+fn a_hindrance_is_told_once_until_go_is_shown_again() {
+    let mut application = Application::new(Box::new(Broken), None);
+    let hindered = Output::Hindered(Hindrance::NoSight);
+    let mut told = |output| {
+        let outputs: Outputs = [output].into_iter().collect();
+        application.carry_out(&outputs);
+        application.next_hindrance()
+    };
+    let go = Output::Go(Millis(100));
+    let once = Some(Hindrance::NoSight);
+    assert_eq!(
+        [hindered, hindered, go, hindered].map(&mut told),
+        [once, None, None, once]
+    );
 }
 
 /// A guard that reports from beside the road must not let anybody cross.

@@ -140,10 +140,8 @@ impl Ported {
 
     /// Nobody hears what is said here: the body will know by the silence.
     fn mention(&mut self, what: &ToBody) {
-        if self.presence == Presence::Here
-            && let Err(error) = self.say(what)
-        {
-            tracing::warn!(%error, "the body does not hear");
+        if self.presence == Presence::Here {
+            let _ = self.say(what);
         }
     }
 
@@ -170,8 +168,8 @@ impl Ported {
             Heard::Connected(number, stream) => {
                 (self.stream, self.silent_s) = (Some((number, stream)), 0.0);
                 let crossguard = VERSION;
-                let said = self.say(&ToBody::Hello { crossguard });
-                said.unwrap_or_else(|error| tracing::warn!(%error, "a body that is gone again"));
+                // One that is gone again is lost by that.
+                let _ = self.say(&ToBody::Hello { crossguard });
             }
             Heard::Line(number, line) if self.is_current(number) => self.read(&line),
             Heard::Closed(number) if self.is_current(number) => self.lose(),
@@ -187,13 +185,10 @@ impl Ported {
     fn read(&mut self, line: &str) {
         let line: FromBody = match serde_json::from_str(line) {
             Ok(line) => line,
-            Err(error) => {
-                tracing::warn!(%error, "a line of the body");
-                return self.reports.push_back(Report::Garbled);
-            }
+            Err(error) => return self.misunderstand(error.to_string()),
         };
         if self.presence != Presence::Here && !matches!(line, FromBody::Hello { .. }) {
-            return self.reports.push_back(Report::Garbled);
+            return self.misunderstand("said before its hello");
         }
         self.silent_s = 0.0;
         match line {
@@ -207,10 +202,9 @@ impl Ported {
             }
             FromBody::Hello { crossguard } => {
                 let why = format!("version {crossguard}: {VERSION} is spoken here");
-                tracing::warn!(why, "a body is refused");
+                self.misunderstand(why.clone());
                 // It is refused whether it hears that or not.
                 let _ = self.say(&ToBody::Refused { why });
-                self.reports.push_back(Report::Garbled);
                 self.lose();
             }
             FromBody::Pose {
@@ -221,7 +215,7 @@ impl Ported {
             } => {
                 let is_on_site = east_m.abs() <= METRES_MAX && north_m.abs() <= METRES_MAX;
                 if !is_on_site || !heading_deg.is_finite() || !speed_mps.is_finite() {
-                    return self.reports.push_back(Report::Garbled);
+                    return self.misunderstand("a pose that cannot be");
                 }
                 self.pose = Pose {
                     place: Place::new(east_m, north_m),
@@ -234,19 +228,21 @@ impl Ported {
             FromBody::Completed { id } => self.report(&id, Report::Completed),
             FromBody::Failed { id } => self.report(&id, Report::Failed),
             FromBody::FallenBack => self.finish_fallback(),
-            FromBody::Fault { text } => {
-                tracing::error!(text, "a fault of the body");
-                self.reports.push_back(Report::Fault);
-            }
+            FromBody::Fault { text } => self.reports.push_back(Report::Fault(text)),
             FromBody::Beat => {}
         }
     }
 
     /// Takes in what it says of a maneuver, if that is the current one.
     fn report(&mut self, id: &str, report: fn(crossguard_protocol::ManeuverId) -> Report) {
-        let current = self.maneuver.filter(|it| it.id.to_string() == id);
-        self.reports
-            .push_back(current.map_or(Report::Garbled, |maneuver| report(maneuver.id)));
+        match self.maneuver.filter(|it| it.id.to_string() == id) {
+            Some(maneuver) => self.reports.push_back(report(maneuver.id)),
+            None => self.misunderstand(format!("maneuver {id} is not the current one")),
+        }
+    }
+
+    fn misunderstand(&mut self, why: impl Into<String>) {
+        self.reports.push_back(Report::Garbled(why.into()));
     }
 }
 

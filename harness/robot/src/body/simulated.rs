@@ -48,7 +48,7 @@ pub struct Simulated {
     gait: ChaCha8Rng,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Motion {
     to: Place,
     speed_mps: f64,
@@ -111,7 +111,7 @@ impl Simulated {
     }
 
     fn fall_back(&mut self, policy: FallbackPolicy) {
-        let pace_mps = self.motion.map(|motion| motion.speed_mps);
+        let pace_mps = self.motion.as_ref().map(|motion| motion.speed_mps);
         let way = self.way.take();
         self.waits = false;
         let to = match policy {
@@ -145,7 +145,7 @@ impl Simulated {
     /// Where the body comes to a stand if it brakes now.
     fn where_it_can_stop(&self) -> Place {
         let way = self.speed_mps * self.speed_mps / (2.0 * ACCELERATION);
-        match self.motion {
+        match &self.motion {
             Some(motion) => self
                 .place
                 .towards(motion.to, way.min(self.place.distance(motion.to))),
@@ -160,7 +160,7 @@ impl Simulated {
     }
 
     fn advance_slice(&mut self, seconds: f64) -> Option<Report> {
-        let motion = self.motion?;
+        let motion = self.motion.clone()?;
         let way = self.place.distance(motion.to);
         // The speed from which the body can still stop at its target.
         let brake = (2.0 * ACCELERATION * way).sqrt();

@@ -5,7 +5,6 @@ use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::mpsc::{SyncSender, TrySendError};
 use std::time::Duration;
 
-use crossguard_endpoint::cause::Cause;
 
 use super::partners::Partners;
 use super::{DATAGRAMS, Delivery, OF_PARTNERS};
@@ -46,9 +45,7 @@ impl Waiting {
     /// There is no place for one more.
     fn drop_one(&self) {
         self.dropped.fetch_add(1, Ordering::Relaxed);
-        let before = self.dropped_in_all.fetch_add(1, Ordering::Relaxed);
-        let cause = Cause::InboxFull;
-        tracing::warn!(layer = %cause.layer(), cause = %cause.reason(), before, "dropped");
+        self.dropped_in_all.fetch_add(1, Ordering::Relaxed);
     }
 }
 

@@ -54,11 +54,9 @@ impl Loop {
     pub(super) fn revoke(&mut self, list: Read) {
         match list {
             Ok(revoked) => {
-                tracing::info!(certificates = revoked.len(), "revocation list read");
                 self.machine.endpoint_mut().set_revoked(revoked);
             }
             Err(error) => {
-                tracing::error!(%error, "the revocation list is not read");
                 self.drop(Cause::RevokedUnread, error.to_string(), Vec::new());
             }
         }

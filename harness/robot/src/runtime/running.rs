@@ -69,7 +69,6 @@ impl Running {
         // All of them are waited for.
         let ended: Vec<_> = self.threads.into_iter().map(JoinHandle::join).collect();
         if ended.iter().any(Result::is_err) {
-            tracing::error!("{Panicked}");
             return Err(Panicked);
         }
         Ok(())

@@ -145,7 +145,7 @@ fn a_body_of_the_version_without_wait_is_refused() {
     let (mut body, mut other) = open(folder.path());
     assert_eq!(report(&mut body), Some(Report::Absent));
     writeln!(other, "{{\"type\": \"hello\", \"crossguard\": 1}}").unwrap();
-    assert_eq!(report(&mut body), Some(Report::Garbled));
+    assert!(matches!(report(&mut body), Some(Report::Garbled(_))));
     let mut lines = BufReader::new(other);
     assert_eq!(heard(&mut lines)["type"], "hello");
     let refused = heard(&mut lines);
