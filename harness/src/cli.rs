@@ -29,7 +29,6 @@ mod simulate;
 mod site;
 mod sniff;
 mod studio;
-mod terminal;
 mod validate;
 mod watch;
 

@@ -1,5 +1,4 @@
-//! What a person types to a running robot, and what programs tell it by the [port]. One table of commands, `COMMANDS`, is what the parser, the help and the
-//! completion of words go by.
+//! What a person types to a running robot, and what programs tell it by the [port]. One table of commands, `COMMANDS`, is what the parser and the help go by.
 
 mod commands;
 pub mod port;
@@ -8,14 +7,13 @@ mod words;
 use std::borrow::Cow;
 use std::time::Duration;
 
-use crossguard_protocol::{HelpRequest, State, StationId};
+use crossguard_protocol::{HelpRequest, State};
 
 use crate::perception::{self, Observation};
 use crate::runtime::Order;
 use crate::site::Site;
 
 use commands::{COMMANDS, Command, Scope};
-use words::Kind;
 
 /// A line that was typed.
 #[derive(Clone, PartialEq, Debug)]
@@ -160,35 +158,6 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
         }
     }
     lines
-}
-
-/// What the last word of `text` can become: the byte at which it begins, and the words that begin like it. `text` is
-/// what stands before the cursor; `stations` were heard.
-#[must_use]
-pub fn complete(text: &str, stations: &[StationId]) -> (usize, Vec<String>) {
-    let start = text.rfind(char::is_whitespace).map_or(0, |at| {
-        at + text[at..].chars().next().map_or(0, char::len_utf8)
-    });
-    let (before, word) = text.split_at(start);
-    if text.trim_start().starts_with('{') || text.contains('#') {
-        return (start, Vec::new());
-    }
-    let mut before = before.split_whitespace();
-    let kinds = match before.next() {
-        None => &[Kind::Command][..],
-        Some(name) => Command::named(name).map_or(&[][..], |it| it.kinds_at(before.count())),
-    };
-    let mut names: Vec<String> = kinds
-        .iter()
-        .flat_map(|kind| match kind {
-            Kind::Command => COMMANDS.iter().map(|it| it.name.to_owned()).collect(),
-            Kind::Station => stations.iter().map(ToString::to_string).collect(),
-            kind => kind.names(),
-        })
-        .filter(|name| name.starts_with(word))
-        .collect();
-    names.dedup();
-    (start, names)
 }
 
 #[cfg(test)]

@@ -3,8 +3,6 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::terminal;
-
 /// Set when the process is told to stop, by SIGINT, SIGTERM or SIGHUP.
 pub(super) fn interrupts() -> Arc<AtomicBool> {
     interrupts_that(|| ())
@@ -17,7 +15,6 @@ pub(super) fn interrupts_that(tell: impl Fn() + Send + 'static) -> Arc<AtomicBoo
     // A second Ctrl-C should still end a process that does not stop by itself.
     let handler = move || {
         if set.swap(true, Ordering::Relaxed) {
-            terminal::restore();
             std::process::exit(130);
         }
         tell();

@@ -11,7 +11,7 @@
 //! The console never waits for anybody but the robot, so that it hears a signal at any time.
 
 mod output;
-mod typist;
+mod typed;
 
 use std::collections::{BTreeMap, VecDeque};
 use std::io::IsTerminal;
@@ -41,7 +41,7 @@ use crossguard_robot::runtime::{Order, Panicked, Running};
 use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Faults, Halves, Link, Reopening, Transport, WithFaults};
 use output::{Lines, Outputs};
-use typist::Typist;
+use typed::TYPED;
 
 use super::interrupts::interrupts;
 use super::ranges::{any, group};
@@ -49,9 +49,6 @@ use super::{Failure, destinations, print};
 
 /// How long the loop waits before it looks at the other things.
 const TICK: Duration = Duration::from_millis(20);
-
-/// How many typed lines are kept until it is their turn; the others stay in the pipe.
-const TYPED: usize = 64;
 
 /// Of how many stations the console knows what they show.
 const STATIONS: usize = 64;
@@ -213,18 +210,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     ));
     console.say(&longest_times(arguments, &file));
     console.say_ports();
-    // Before the terminal is changed, so that no signal leaves it so.
     let interrupted = interrupts();
-    let (screen, heard) = (console.watch.screen(), console.watch.tally());
-    let (typist, typed) = Typist::start(&screen, !arguments.json, heard);
-    let outcome = console.attend(&running, &outputs.records, &typed, &interrupted);
+    let outcome = console.attend(&running, &outputs.records, &typed::lines(), &interrupted);
     running.order(Order::Stop);
     let ended = running.wait();
     let served = operators.map_or(Ok(()), JoinHandle::join);
     let missing = console.missing;
     drop(console);
     let written = outputs.writings.finish(missing);
-    drop(typist);
     super::finish_capture(capture)?;
     outcome?;
     if let Err(panicked) = ended.and(served.map_err(|_| Panicked)) {

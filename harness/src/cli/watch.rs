@@ -20,7 +20,7 @@ const REPEAT: Duration = Duration::from_secs(1);
 /// How a running robot is shown.
 #[derive(clap::Args)]
 pub(super) struct WatchArguments {
-    /// Whether a status line is shown on standard error; by default where that is a terminal.
+    /// Whether a status line is shown on standard error; by default where that is a terminal, and nobody types on it.
     #[arg(long, value_enum, value_name = "WHEN", default_value = "auto")]
     status: When,
     /// Serve metrics for Prometheus at this address, or at this port of 127.0.0.1.
@@ -70,7 +70,8 @@ impl WatchArguments {
         };
         let is_terminal = std::io::stderr().is_terminal();
         let is_shown = match self.status {
-            When::Auto => is_terminal,
+            // It would be drawn over the line that is typed.
+            When::Auto => is_terminal && !std::io::stdin().is_terminal(),
             When::Always => true,
             When::Never => false,
         };
@@ -134,11 +135,6 @@ impl Watch {
     /// Where it is shown.
     pub(super) fn screen(&self) -> Screen {
         self.screen.clone()
-    }
-
-    /// What is counted, while it changes.
-    pub(super) fn tally(&self) -> Shared {
-        self.tally.clone()
     }
 }
 

@@ -12,7 +12,7 @@ use crossguard_protocol::{
 
 use super::port::order_of;
 use super::words::{
-    CHARGING, INTERSECTION, Kind, MAP_PLACE, NONE, SEGMENT, event_of, job, map_place, means,
+    CHARGING, INTERSECTION, MAP_PLACE, NONE, SEGMENT, event_names, event_of, job, map_place, means,
     nothing, number, only, seconds, signal, state, surplus, task, unavailability, urgency, wrong,
 };
 use super::{Line, Misunderstood};
@@ -31,21 +31,12 @@ pub(super) struct Command {
     pub(super) usage: &'static str,
     /// What it does, for people.
     pub(super) meaning: &'static str,
-    /// What its first words can be, one after the other.
-    words: &'static [&'static [Kind]],
-    /// What every further word can be.
-    further: &'static [Kind],
     pub(super) parse: fn(&[&str], &Scope<'_>) -> Result<Line, Misunderstood>,
 }
 
 impl Command {
     pub(super) fn named(name: &str) -> Option<&'static Self> {
         COMMANDS.iter().find(|it| it.name == name)
-    }
-
-    /// What the word after this many others can be.
-    pub(super) fn kinds_at(&self, others: usize) -> &'static [Kind] {
-        self.words.get(others).copied().unwrap_or(self.further)
     }
 
     const fn new(
@@ -57,26 +48,14 @@ impl Command {
             name,
             usage: "",
             meaning,
-            words: &[],
-            further: &[],
             parse,
         }
     }
 
-    const fn taking(self, usage: &'static str, words: &'static [&'static [Kind]]) -> Self {
-        Self {
-            usage,
-            words,
-            ..self
-        }
-    }
-
-    const fn and_further(self, further: &'static [Kind]) -> Self {
-        Self { further, ..self }
+    const fn taking(self, usage: &'static str) -> Self {
+        Self { usage, ..self }
     }
 }
-
-const ON_MAP: &[Kind] = &[Kind::Word(SEGMENT), Kind::Word(INTERSECTION)];
 
 pub(super) const COMMANDS: &[Command] = &[
     Command::new(
@@ -84,29 +63,21 @@ pub(super) const COMMANDS: &[Command] = &[
         "a pedestrian needs help; what the plan asks for by default, or else 1 follower for initialPos and move",
         detect,
     )
-    .taking("[FOLLOWERS] [low|medium|high|emergency] [TASK ...]", &[])
-    .and_further(&[Kind::Urgency, Kind::Task]),
+    .taking("[FOLLOWERS] [low|medium|high|emergency] [TASK ...]"),
     Command::new(
         "order",
         "have a follower do a maneuver, in metres and m/s, at this road segment or intersection of the map; \
          map_place or crossing of the configuration by default",
         order,
     )
-    .taking(
-        "STATION TASK [EAST NORTH [SPEED]] [segment|intersection [REGION:]NUMBER]",
-        &[&[Kind::Station], &[Kind::Task], ON_MAP, &[], ON_MAP, ON_MAP],
-    ),
+    .taking("STATION TASK [EAST NORTH [SPEED]] [segment|intersection [REGION:]NUMBER]"),
     Command::new(
         "show",
         "the signals to vehicles and to pedestrians that its RAM tells of: none, stop, go, caution; only an open corridor \
          shows go to pedestrians; the means are those of the configuration by default",
         show,
     )
-    .taking(
-        "VEHICLES [PEDESTRIANS] [gesture] [display] [lights] [speech]",
-        &[&[Kind::Signal], &[Kind::SignalToPedestrians, Kind::Means]],
-    )
-    .and_further(&[Kind::Means]),
+    .taking("VEHICLES [PEDESTRIANS] [gesture] [display] [lights] [speech]"),
     Command::new(
         "in-position",
         "the body is at the place from which it guards",
@@ -148,7 +119,7 @@ pub(super) const COMMANDS: &[Command] = &[
         |words, _| nothing(words).map(|()| Line::Order(Order::Clear)),
     ),
     Command::new("tell", "an event of the protocol that comes with nothing, by its name in JSON", told)
-        .taking("EVENT", &[&[Kind::Event]]),
+        .taking("EVENT"),
     Command::new("leave", "leave the session", |words, _| {
         event(words, Event::LeaveRequested)
     }),
@@ -161,7 +132,7 @@ pub(super) const COMMANDS: &[Command] = &[
             Ok(tell(Event::AvailabilityChanged(availability)))
         },
     )
-    .taking("REASON", &[&[Kind::Reason]]),
+    .taking("REASON"),
     Command::new("available", "take part again", |words, _| {
         event(words, Event::AvailabilityChanged(Availability::Available))
     }),
@@ -170,22 +141,19 @@ pub(super) const COMMANDS: &[Command] = &[
         "how full the battery is; below the limit of its robot file a robot is unavailable",
         battery,
     )
-    .taking("PERCENT [charging]", &[&[], &[Kind::Word(CHARGING)]]),
+    .taking("PERCENT [charging]"),
     Command::new(
         "job",
         "the job that its RAM says it is there for: none, traffic-guard, escort, patrol, delivery, maintenance, other",
         |words, _| Ok(Line::Order(Order::Job(job(only(words, "job", "a job")?)?))),
     )
-    .taking("ROLE", &[&[Kind::Job]]),
+    .taking("ROLE"),
     Command::new(
         "serve",
         "the road segment or intersection that its RAM says it serves, and that the commands of its plan name",
         serve,
     )
-    .taking(
-        "segment|intersection [REGION:]NUMBER | none",
-        &[&[Kind::Word(SEGMENT), Kind::Word(INTERSECTION), Kind::Word(NONE)]],
-    ),
+    .taking("segment|intersection [REGION:]NUMBER | none"),
     Command::new(
         "status",
         "what the robot is doing, what it heard, who is around, and how link, security and channel are",
@@ -194,15 +162,15 @@ pub(super) const COMMANDS: &[Command] = &[
     Command::new("wait", "before the next line", |words, _| {
         Ok(Line::Wait(seconds(only(words, "wait", "seconds")?)?))
     })
-    .taking("SECONDS", &[]),
+    .taking("SECONDS"),
     Command::new(
         "until",
         "wait for idle, help-requested, role-established or maneuver-executing",
         until,
     )
-    .taking("STATE [SECONDS]", &[&[Kind::State]]),
+    .taking("STATE [SECONDS]"),
     Command::new("help", "this, or what a command is for", help)
-        .taking("[COMMAND]", &[&[Kind::Command]]),
+        .taking("[COMMAND]"),
     Command::new("quit", "leave the session and stop", |words, _| {
         nothing(words).map(|()| Line::Quit)
     }),
@@ -222,7 +190,7 @@ fn event(words: &[&str], event: Event) -> Result<Line, Misunderstood> {
 fn told(words: &[&str], _: &Scope<'_>) -> Result<Line, Misunderstood> {
     let name = only(words, "tell", "an event")?;
     let event = event_of(name)
-        .ok_or_else(|| wrong(name, format!("one of {}", Kind::Event.names().join(", "))))?;
+        .ok_or_else(|| wrong(name, format!("one of {}", event_names().join(", "))))?;
     order_of(event)
         .map(Line::Order)
         .map_err(|why| wrong(name, why))

@@ -1,6 +1,6 @@
 use crossguard_codec::{MapPlace, PublicSignal, SignalMeans, SignalsShown, TaskParameters};
 use crossguard_endpoint::Stimulus;
-use crossguard_protocol::{Event, TaskNames, TaskSet, TaskType, Urgency};
+use crossguard_protocol::{Event, StationId, TaskNames, TaskSet, TaskType, Urgency};
 
 use super::*;
 use crate::site::Place;
@@ -170,79 +170,4 @@ fn the_help_has_every_command_in_80_columns() {
         assert!(all.contains(&help(Some(name))) && !help(Some(name)).is_empty());
     }
     assert!(all.lines().all(|line| line.len() <= WIDTH), "{all}");
-}
-
-/// What the last word of this text can become.
-fn completed(text: &str) -> String {
-    complete(text, &[StationId(2), StationId(31)]).1.join(" ")
-}
-
-#[test]
-fn words_are_completed_by_what_can_stand_there() {
-    for (text, words) in [
-        ("o", "order out-of-position open"),
-        ("  det", "detect"),
-        ("order ", "2 31"),
-        ("order 2 b", "block"),
-        ("order 2 block i", "intersection"),
-        ("order 2 block 1 8 0.4 s", "segment"),
-        ("detect 2 h", "high"),
-        ("detect high in", "initialPos"),
-        ("show stop g", "gesture"),
-        ("show g", "go"),
-        ("show stop none s", "speech"),
-        ("unavailable l", "low-battery local-fault"),
-        ("until r", "role-established"),
-        ("job t", "traffic-guard"),
-        ("battery 60 ", "charging"),
-        ("serve n", "none"),
-        ("help unt", "until"),
-        ("open ", ""),
-        ("job escort ", ""),
-        ("fly h", ""),
-        ("# o", ""),
-        ("{\"id", ""),
-    ] {
-        assert_eq!(completed(text), words, "{text}");
-    }
-    assert_eq!(complete("order 2 b", &[]).0, 8, "where the word begins");
-    assert_eq!(
-        complete("ä\u{3000}o", &[]).0,
-        5,
-        "also between characters of several bytes"
-    );
-}
-
-/// A name that completion offers and the parser does not know would be in two lists.
-#[test]
-fn whatever_completion_offers_is_understood() {
-    let mut offers = 0;
-    for command in COMMANDS {
-        let mut lines = vec![command.name.to_owned()];
-        for _ in 0..3 {
-            lines = lines
-                .iter()
-                .flat_map(|line| {
-                    let (_, words) = complete(&format!("{line} "), &[StationId(2)]);
-                    words.into_iter().map(move |word| format!("{line} {word}"))
-                })
-                .take(500)
-                .collect();
-            for line in &lines {
-                offers += 1;
-                let last = line.rsplit(' ').next().unwrap();
-                let is_refused = match parse(line, &Site::default()) {
-                    Err(Misunderstood::Word { word, .. } | Misunderstood::Surplus(word)) => {
-                        word == last
-                    }
-                    Err(Misunderstood::Command(_)) => true,
-                    _ => false,
-                };
-                // It begins what needs a number after it.
-                let begins = [words::SEGMENT, words::INTERSECTION].contains(&last);
-                assert!(!is_refused || begins, "{line}");
-            }
-        }
-    }
-    assert!(offers > 500);
 }

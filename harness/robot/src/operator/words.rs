@@ -3,36 +3,13 @@
 use std::borrow::Cow;
 use std::time::Duration;
 
-use crate::robot_file::{job_named, job_names};
+use crate::robot_file::job_named;
 use crossguard_codec::{JobRole, MapPlace, PublicSignal, SignalMeans};
 use crossguard_protocol::{
     Event, EventKind, State, TaskNames, TaskSet, TaskType, Unavailability, Urgency,
 };
 
 use super::Misunderstood;
-
-/// What a word can be, as far as there are names to choose from.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Kind {
-    /// The name of a command.
-    Command,
-    /// A station that was heard.
-    Station,
-    Task,
-    Urgency,
-    Reason,
-    /// An event that comes with nothing.
-    Event,
-    State,
-    Job,
-    /// A sign to vehicles.
-    Signal,
-    /// A sign to pedestrians. That they may go is for the corridor alone.
-    SignalToPedestrians,
-    Means,
-    /// This word.
-    Word(&'static str),
-}
 
 pub(super) const SEGMENT: &str = "segment";
 pub(super) const INTERSECTION: &str = "intersection";
@@ -83,39 +60,16 @@ fn name_of(reason: Unavailability) -> String {
     reason.to_string().replace(' ', "-")
 }
 
-impl Kind {
-    /// The names to choose from. Commands and stations are named elsewhere.
-    pub(super) fn names(self) -> Vec<String> {
-        let texts = |all: &[PublicSignal]| all.iter().map(ToString::to_string).collect();
-        match self {
-            Self::Command | Self::Station => Vec::new(),
-            Self::Task => tasks().map(|task| task.to_string()).collect(),
-            Self::Urgency => URGENCIES.iter().map(ToString::to_string).collect(),
-            Self::Reason => REASONS.into_iter().map(name_of).collect(),
-            Self::Event => EventKind::ALL
-                .iter()
-                .map(|kind| kind.name())
-                .filter(|name| event_of(name).is_some())
-                .map(str::to_owned)
-                .collect(),
-            Self::State => STATES.iter().map(|(name, _)| (*name).to_owned()).collect(),
-            Self::Job => job_names(),
-            Self::Signal => texts(&SIGNALS),
-            Self::SignalToPedestrians => {
-                let mut all = SIGNALS.to_vec();
-                all.retain(|signal| *signal != PublicSignal::Go);
-                texts(&all)
-            }
-            Self::Means => MEANS.iter().map(|(name, _)| (*name).to_owned()).collect(),
-            Self::Word(word) => vec![word.to_owned()],
-        }
-    }
-}
-
 /// An event that comes with nothing, and is not for the kit alone.
 pub(super) fn event_of(name: &str) -> Option<Event> {
     let event = EventKind::named(name).and_then(Event::bare);
     event.filter(|event| super::port::order_of(*event).is_ok())
+}
+
+/// Their names.
+pub(super) fn event_names() -> Vec<&'static str> {
+    let names = EventKind::ALL.iter().map(|kind| kind.name());
+    names.filter(|name| event_of(name).is_some()).collect()
 }
 
 pub(super) fn wrong(word: &str, wanted: impl Into<Cow<'static, str>>) -> Misunderstood {
