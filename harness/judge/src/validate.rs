@@ -74,8 +74,6 @@ pub struct Validated {
     pub robots: usize,
     /// How many records.
     pub records: usize,
-    /// How many records had a link to the record before, which fits: between those no piece is missing.
-    pub linked: usize,
     /// How many steps of the transition function.
     pub steps: usize,
     /// How many messages were sent.
@@ -166,7 +164,6 @@ pub fn all(logs: Vec<Log<'_>>) -> Result<Validated, Invalid> {
             let judged = cursor.clock.finish();
             judged.map_err(|broken| cursor.refused(Refusal::Clock(broken)))?;
             robots.end(cursor);
-            robots.validated.linked += cursor.records.linked();
         }
     }
     Ok(robots.finish(cursors.iter().map(|cursor| &cursor.clock)))
@@ -208,7 +205,6 @@ impl<'a> Cursor<'a> {
                 Unreadable::Line(cause) => Fault::Unreadable(cause),
                 Unreadable::Empty => Fault::Empty,
                 Unreadable::NotARecord(cause) => Fault::NotARecord(cause),
-                Unreadable::Unchained(cause) => Fault::Unchained(cause),
             };
             self.invalid(None, fault)
         })?;

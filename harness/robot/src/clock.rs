@@ -62,9 +62,9 @@ impl Display for ClockState {
 mod tests {
     use super::ClockState;
 
-    /// In a log, other fields stand beside it.
+    /// In a log, other fields may stand beside it: those of older versions have a link to the line before.
     #[test]
-    fn it_is_read_beside_the_link_of_its_line() {
+    fn it_is_read_beside_other_fields_of_its_line() {
         for state in [ClockState::Trusted, ClockState::Behind { ms: 4_000 }] {
             let mut fields = serde_json::to_value(state).unwrap();
             fields["link"] = "8ab20a3e3fff82c4".into();

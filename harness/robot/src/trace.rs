@@ -4,11 +4,9 @@
 //! every message. `validate` of `crossguard-judge` replays it; so a log proves that the robot did what the
 //! verified transition function does, or shows the first record that does not fit.
 
-mod chain;
 mod file;
 mod reader;
 
-pub use chain::Unchained;
 pub use file::{LogFile, LogLimits, open};
 pub use reader::{HELD_US, Log, LogError, Merged, Records, SAME_CLOCK_US, Timed, Unreadable};
 

@@ -196,7 +196,6 @@ def hostile_log(studio, folder):
         records.append({"atUs": last + number * 100, "robot": "ARI", "entry": "dropped", "layer": "syntax",
                         "cause": "malformed", "detail": detail, "octets": ""})
     for record in records:
-        record.pop("link", None)
         if record["robot"] == "ARI":
             record["robot"] = HOSTILE
     log = folder / "<b>hostile.jsonl"

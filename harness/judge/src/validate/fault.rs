@@ -6,7 +6,6 @@ use crossguard_protocol::{BrokenInequality, StationId};
 
 use crossguard_codec::Unheard;
 use crossguard_robot::lines::LineError;
-use crossguard_robot::trace::Unchained;
 
 /// What does not fit in a record. Each reads on after the robot's name.
 #[derive(Debug, thiserror::Error)]
@@ -20,9 +19,6 @@ pub enum Fault {
     /// The line is no record.
     #[error("is not a record: {0}")]
     NotARecord(serde_json::Error),
-    /// The line does not follow the line before it.
-    #[error(transparent)]
-    Unchained(Unchained),
     /// The robot runs with settings that break an inequality.
     #[error("was started although {0}")]
     Settings(BrokenInequality),

@@ -5,7 +5,6 @@ use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::mpsc::{SyncSender, TrySendError};
 use std::time::Duration;
 
-
 use super::partners::Partners;
 use super::{DATAGRAMS, Delivery, OF_PARTNERS};
 use crate::transport::{Arrival, Receiver};

@@ -1,25 +1,23 @@
-//! A log in files: linked line by line, never longer than it may be, and never written over an older one.
+//! A log in a file: never longer than it may be, and never written over an older one.
 //!
 //! ```text
-//!   FILE      the newest part of the newest run
-//!   FILE.1    the part before it, of the same run or of the run before
+//!   FILE      the newest run
+//!   FILE.1    the run before it
 //!   FILE.2    …
 //! ```
 
 use std::fs::File;
-use std::io::{self, BufReader, BufWriter, ErrorKind, Read, Write};
+use std::io::{self, BufReader, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use super::chain::{Chain, part_of};
 use super::{Log, Record};
-use crate::lines::{LineError, read_line};
 
 /// How much of the disk logs of one name may take.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct LogLimits {
-    /// The longest file, in octets; 256 MiB by default, some minutes of a robot that is always busy. A record more may
-    /// be in it.
-    pub part_octets: u64,
+    /// The longest file, in octets; 1 GiB by default, more than a quarter of an hour of a robot that is always busy. A
+    /// record more may be in it.
+    pub octets: u64,
     /// How many older files are kept beside the newest; 15 by default.
     pub older: u32,
 }
@@ -27,7 +25,7 @@ pub struct LogLimits {
 impl Default for LogLimits {
     fn default() -> Self {
         Self {
-            part_octets: 256 << 20,
+            octets: 1 << 30,
             older: 15,
         }
     }
@@ -36,13 +34,9 @@ impl Default for LogLimits {
 /// A log that is written.
 #[derive(Debug)]
 pub struct LogFile {
-    path: PathBuf,
-    limits: LogLimits,
     file: BufWriter<File>,
-    chain: Chain,
-    part: u32,
-    /// Octets in this part.
-    length: u64,
+    /// How many octets may still be written.
+    left: u64,
     line: Vec<u8>,
 }
 
@@ -61,12 +55,8 @@ impl LogFile {
             make_place(path, limits.older)?;
         }
         Ok(Self {
-            path: path.to_owned(),
-            limits,
             file: BufWriter::new(File::create(path)?),
-            chain: Chain::default(),
-            part: 1,
-            length: 0,
+            left: limits.octets,
             line: Vec::new(),
         })
     }
@@ -74,17 +64,16 @@ impl LogFile {
     /// Writes a record.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// When it cannot be written, or the file is as long as it may be.
     pub fn write(&mut self, record: &Record) -> io::Result<()> {
-        if self.length >= self.limits.part_octets {
-            self.begin_part()?;
+        if self.left == 0 {
+            let full = "the log is as long as it may be";
+            return Err(io::Error::new(ErrorKind::FileTooLarge, full));
         }
         self.line.clear();
-        serde_json::to_writer(&mut self.line, record)?;
-        let part = (self.length == 0).then_some(self.part);
-        self.chain.link(&mut self.line, part);
+        super::write(&mut self.line, record)?;
         self.file.write_all(&self.line)?;
-        self.length += self.line.len() as u64;
+        self.left = self.left.saturating_sub(self.line.len() as u64);
         Ok(())
     }
 
@@ -94,15 +83,6 @@ impl LogFile {
     /// When it cannot be written.
     pub fn flush(&mut self) -> io::Result<()> {
         self.file.flush()
-    }
-
-    fn begin_part(&mut self) -> io::Result<()> {
-        self.file.flush()?;
-        make_place(&self.path, self.limits.older)?;
-        self.file = BufWriter::new(File::create_new(&self.path)?);
-        self.part += 1;
-        self.length = 0;
-        Ok(())
     }
 }
 
@@ -128,32 +108,14 @@ fn make_place(path: &Path, kept: u32) -> io::Result<()> {
     Ok(())
 }
 
-/// Opens a log with all parts of its run.
+/// Opens a log.
 ///
 /// # Errors
-/// When a file cannot be read, or a part of the run is gone: which.
+/// When the file cannot be read.
 pub fn open(path: &Path) -> io::Result<Log<'static>> {
-    let mut newest = BufReader::new(File::open(path)?);
-    let first = read_line(&mut newest).map_err(|error| match error {
-        LineError::Io(error) => error,
-        error @ LineError::TooLong => io::Error::new(ErrorKind::InvalidData, error.to_string()),
-    })?;
-    let parts = part_of(&first).unwrap_or(1);
-    let mut lines: Box<dyn Read> = Box::new(io::Cursor::new(first).chain(newest));
-    for number in 1..parts {
-        let part = older(path, number);
-        let file = File::open(&part).map_err(|error| {
-            let (name, of) = (part.display(), parts - number);
-            io::Error::new(
-                error.kind(),
-                format!("{name}, with part {of} of the same run, cannot be read: {error}"),
-            )
-        })?;
-        lines = Box::new(file.chain(lines));
-    }
     Ok(Log {
         name: path.display().to_string(),
-        lines: Box::new(BufReader::new(lines)),
+        lines: Box::new(BufReader::new(File::open(path)?)),
     })
 }
 
@@ -164,7 +126,7 @@ mod tests {
     use crossguard_endpoint::counters::Counts;
 
     use super::*;
-    use crate::trace::{Entry, Records, Unchained, Unreadable};
+    use crate::trace::{Entry, Records, Unreadable};
 
     fn record(at_us: u64) -> Record {
         let counters = Counts::default();
@@ -210,51 +172,24 @@ mod tests {
     }
 
     #[test]
-    fn a_log_takes_no_more_of_the_disk_than_it_may() {
+    fn a_log_ends_before_it_takes_more_of_the_disk_than_it_may() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("r.jsonl");
         let limits = LogLimits {
-            part_octets: 2_000,
+            octets: 2_000,
             older: 3,
         };
-        write(&path, limits, 0..1_000);
-        let files = fs::read_dir(folder.path()).unwrap();
-        let lengths: Vec<_> = files
-            .map(|it| it.unwrap().metadata().unwrap().len())
-            .collect();
-        assert_eq!(lengths.len(), 4);
-        assert!(lengths.iter().all(|length| *length < 2_200), "{lengths:?}");
-        let gone = open(&path).err().unwrap().to_string();
-        assert!(gone.contains("r.jsonl.4, with part"), "{gone}");
-    }
-
-    #[test]
-    fn the_parts_of_a_run_are_read_as_one_log_and_a_missing_piece_is_noticed() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("r.jsonl");
-        let limits = LogLimits {
-            part_octets: 2_000,
-            older: 20,
-        };
-        // Of the run before, which is not read along.
-        write(&path, limits, 7_000..7_001);
-        write(&path, limits, 0..60);
-        assert!(older(&path, 3).exists());
-        assert!(times(&path).unwrap().into_iter().eq(0..60));
-        let second = fs::read_to_string(older(&path, 1)).unwrap();
-        let without: Vec<_> = second
-            .lines()
-            .skip(1)
-            .map(|line| format!("{line}\n"))
-            .collect();
-        fs::write(older(&path, 1), without.concat()).unwrap();
-        let found = times(&path);
-        assert!(
-            matches!(found, Err(Unreadable::Unchained(Unchained::Gap))),
-            "{found:?}"
+        let mut log = LogFile::create(&path, limits).unwrap();
+        let written = (0..1_000).take_while(|at_us| log.write(&record(*at_us)).is_ok());
+        let written = written.count() as u64;
+        assert_eq!(
+            log.write(&record(written)).unwrap_err().kind(),
+            ErrorKind::FileTooLarge
         );
-        fs::remove_file(older(&path, 1)).unwrap();
-        let gone = open(&path).err().unwrap();
-        assert_eq!(gone.kind(), ErrorKind::NotFound);
+        drop(log);
+        let length = fs::metadata(&path).unwrap().len();
+        assert!((2_000..2_200).contains(&length), "{length}");
+        // It is valid up to its end.
+        assert!(times(&path).unwrap().into_iter().eq(0..written));
     }
 }

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::io::BufRead;
 
-use super::chain::{Chain, Unchained};
 use super::{Entry, Record};
 use crate::lines::{LineError, read_line};
 
@@ -33,9 +32,6 @@ pub enum Unreadable {
     /// A line is no record.
     #[error("is not a record: {0}")]
     NotARecord(serde_json::Error),
-    /// A line does not follow the line before it.
-    #[error(transparent)]
-    Unchained(#[from] Unchained),
 }
 
 /// Which log cannot be read on, and where.
@@ -54,7 +50,6 @@ pub struct LogError {
 pub struct Records<'a> {
     log: Log<'a>,
     line: usize,
-    chain: Chain,
     /// When the log's clock showed 0, in µs since 1970, as far as is known.
     began_us: Option<i128>,
     at_us: u64,
@@ -67,10 +62,6 @@ impl<'a> Records<'a> {
         Self {
             log,
             line: 0,
-            chain: Chain {
-                last: None,
-                linked: 0,
-            },
             began_us: None,
             at_us: 0,
         }
@@ -86,12 +77,6 @@ impl<'a> Records<'a> {
     #[must_use]
     pub const fn line(&self) -> usize {
         self.line
-    }
-
-    /// How many records had a link to the record before, which fits.
-    #[must_use]
-    pub const fn linked(&self) -> usize {
-        self.chain.linked
     }
 
     /// Takes the next record; `None` at the end. A last line without an end that is no record was cut
@@ -113,7 +98,6 @@ impl<'a> Records<'a> {
             Err(_) if !text.ends_with(b"\n") && self.line > 1 => return Ok(None),
             Err(cause) => return Err(Unreadable::NotARecord(cause)),
         };
-        self.chain.follow(&text)?;
         self.follow_clock(&record);
         Ok(Some(record))
     }
