@@ -20,7 +20,7 @@ impl Application {
     /// Takes in what the body says besides how maneuvers go.
     pub(super) fn learn_of_body(&mut self, report: Report) {
         let (cause, what) = match report {
-            Report::InPosition(_) | Report::Completed(_) => return self.feel_maneuver(report),
+            Report::InPosition(_) | Report::Completed(_) => return self.feel_maneuver(&report),
             Report::Failed(id) => return self.wish(Stimulus::Event(Event::ManeuverFailed(id))),
             // Nothing is wrong with a body that was not started yet, but its robot takes no part.
             Report::Absent => {
@@ -35,7 +35,7 @@ impl Application {
                 return;
             }
             Report::Silent => {
-                self.feel_maneuver(report);
+                self.feel_maneuver(&report);
                 self.bodily.missing = Some(Unavailability::EmergencyStop);
                 let what = "nothing was heard of the body: emergency stop";
                 (Cause::BodySilent, what.to_owned())

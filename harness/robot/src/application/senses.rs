@@ -143,8 +143,8 @@ impl Application {
     }
 
     /// Takes in how the maneuver of the body goes.
-    pub(super) fn feel_maneuver(&mut self, report: Report) {
-        let report = match report {
+    pub(super) fn feel_maneuver(&mut self, report: &Report) {
+        let report = match *report {
             Report::InPosition(id) => BodyReport::InPosition(id),
             Report::Completed(id) => BodyReport::Completed(id),
             Report::Silent => BodyReport::Gone,
