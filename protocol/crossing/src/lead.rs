@@ -21,7 +21,7 @@ const OPENING_PERIOD: Millis = Millis(500);
 
 /// For how long after the first go of a session people step on the road. Who comes later is called for anew: a stream of
 /// people would keep the team, and vehicles, until its execution limit.
-const STEP_ON: Millis = Millis(20_000);
+const STEP_ON: Millis = Millis(10_000);
 
 /// For how long an escort goes on to its kerb after everybody is across.
 const ESCORT_ENDS: Millis = Millis(5_000);
