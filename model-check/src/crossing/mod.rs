@@ -110,7 +110,7 @@ pub const SHIPPED: [Shipped; 6] = {
             "a sensor misses a person who crosses in every other frame, or less often",
             PERSON,
             MET,
-            12_219,
+            39_333,
         ),
         of(
             "street-ids",
@@ -120,21 +120,21 @@ pub const SHIPPED: [Shipped; 6] = {
                 ..PERSON
             },
             MET,
-            53_169,
+            174_478,
         ),
         of(
             "street-hang",
             "the same with ids that stay, and the leader hangs for up to 1 s",
             Street { hang: 2, ..PERSON },
             MET,
-            415_714,
+            1_484_523,
         ),
         of(
             "street-blind",
             "the same, and the sensor delivers nothing for up to 1 s",
             Street { blind: 2, ..PERSON },
             MET,
-            185_598,
+            544_739,
         ),
         of(
             "street-drift",
@@ -144,7 +144,7 @@ pub const SHIPPED: [Shipped; 6] = {
                 ..PERSON
             },
             DRIFT,
-            111_408,
+            364_857,
         ),
         of(
             "street-vehicle",
@@ -154,7 +154,7 @@ pub const SHIPPED: [Shipped; 6] = {
                 ..PERSON
             },
             VEHICLE,
-            143_061,
+            499_106,
         ),
     ]
 };

@@ -6,7 +6,7 @@ use super::street::{Cell, State};
 
 /// The team is free at most so many ticks after everybody was off the road for good: the leader's patience, which ends a session
 /// whose guard does not come back, or go that nobody uses, and some seconds.
-pub(super) const END_MAX: u8 = 34;
+pub(super) const END_MAX: u8 = 54;
 
 /// A person who waits is detected within so many frames.
 pub(super) const DETECT_MAX: u8 = 6;
@@ -80,7 +80,7 @@ impl Rule {
             Self::P6 => RuleClaim {
                 id: "P6",
                 premise_id: "P6-premise",
-                statement: "the team is free within 17 s after everybody was off the road for good, seen on it before or out of sight",
+                statement: "the team is free within 27 s after everybody was off the road for good, seen on it before or out of sight",
                 premise: "somebody has crossed, and the team is free again",
             },
         }

@@ -21,7 +21,10 @@ const OPENING_PERIOD: Millis = Millis(500);
 
 /// For how long after the first go of a session people step on the road. Who comes later is called for anew: a stream of
 /// people would keep the team, and vehicles, until its execution limit.
-const STEP_ON: Millis = Millis(10_000);
+const STEP_ON: Millis = Millis(20_000);
+
+/// The same beside an escort, which waits for each of them.
+const STEP_ON_ESCORTED: Millis = Millis(10_000);
 
 /// For how long an escort goes on to its kerb after everybody is across.
 const ESCORT_ENDS: Millis = Millis(5_000);
@@ -531,7 +534,11 @@ impl Lead {
         let may_try = self.tried == Millis::ZERO;
         let goes_with_escort = plan.is_escort(self.stage, setup.escorts());
         if !view.has_opened {
-            self.opened = STEP_ON;
+            self.opened = if goes_with_escort {
+                STEP_ON_ESCORTED
+            } else {
+                STEP_ON
+            };
         }
         let is_full = self.opened == Millis::ZERO;
         if !view.everybody_is_across && !view.nobody_is_lost {

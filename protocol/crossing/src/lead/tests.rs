@@ -350,7 +350,7 @@ fn an_escort_waits_until_nothing_hinders() {
 /// Hazard: go is shown, and vehicles and guards wait, for as long as people come, or somebody stands at the kerb who does not
 /// mean to cross.
 #[test]
-fn ten_seconds_after_the_first_go_the_team_lets_nobody_on_the_road_and_ends_once_that_is_clear()
+fn twenty_seconds_after_the_first_go_the_team_lets_nobody_on_the_road_and_ends_once_that_is_clear()
 {
     for was_seen in [true, false] {
         let mut leader = Leader::of(blocking());
@@ -359,7 +359,7 @@ fn ten_seconds_after_the_first_go_the_team_lets_nobody_on_the_road_and_ends_once
         leader.pass(30_000);
         (leader.view.corridor, leader.view.has_opened) = (Corridor::Open, true);
         leader.view.was_seen = was_seen;
-        assert_eq!(words(&leader.pass(9_900)), [""; 0]);
+        assert_eq!(words(&leader.pass(19_900)), [""; 0]);
         assert_eq!(words(&leader.pass(100)), ["close"]);
         leader.view.corridor = Corridor::Clearing;
         leader.pass(500);
