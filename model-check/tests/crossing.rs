@@ -71,10 +71,15 @@ const WEAKENINGS: &[Weakening] = &[
         |setup| setup.waiting.dwell = Millis(10_000),
         Rule::P5,
     ),
-    // Nobody is ever known to be across.
+    // Nobody is ever known to be across, and the leader has patience.
     (
         PERSON,
-        |setup| setup.sensors.linger = Millis(60_000),
+        |setup| {
+            setup.sensors.linger = Millis(60_000);
+            if let Some(plan) = &mut setup.plan {
+                plan.patience = Millis(60_000);
+            }
+        },
         Rule::P6,
     ),
 ];

@@ -18,13 +18,15 @@ mod street;
 mod team;
 mod truth;
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use crossguard_crossing::Setup;
 use stateright::{Checker, Model as _};
 
 use crate::check::STATERIGHT;
-use crate::exploration::{CheckProgress, Options, Stop};
+use crate::exploration::{CheckProgress, Options};
 use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
 use crate::scenario::Size;
 use crate::sequence::{ChartPlace, ChartStep};
@@ -248,7 +250,7 @@ pub fn explore(
     watch: &mut dyn FnMut(CheckProgress),
 ) -> Found {
     let limits = options.limits();
-    let drain = Stop::default();
+    let drain = Arc::new(AtomicBool::new(false));
     let world = World {
         street,
         rules: Rules::new(change),
@@ -263,16 +265,18 @@ pub fn explore(
         let reached = is_full.then_some(CutOff::StateLimit);
         cut_off = cut_off.or(reached).or(limits.time_reached());
         if cut_off.is_some() {
-            drain.request();
+            drain.store(true, Ordering::Relaxed);
         }
         watch(CheckProgress {
             checked: states,
             explored: states,
-            depth: checker.max_depth() - 1,
+            depth: checker.max_depth().saturating_sub(1),
             ..CheckProgress::default()
         });
     }
     let checker = checker.join();
+    // Runs are found by going them again.
+    drain.store(false, Ordering::Relaxed);
     let run = |rule: &Rule| {
         let path = checker.discovery(rule.claim().id)?;
         let states = path.into_states().into_iter();
@@ -283,7 +287,7 @@ pub fn explore(
         // stateright counts the initial state in depth and transitions.
         size: Size {
             unique_states: checker.unique_state_count(),
-            depth: checker.max_depth() - 1,
+            depth: checker.max_depth().saturating_sub(1),
         },
         transitions: checker.state_count() - 1,
         cut_off,

@@ -190,8 +190,8 @@ impl Swarm {
     fn draws_of(&self, salt: u64, share: f64) -> Option<ChaCha8Rng> {
         let mut draws = ChaCha8Rng::seed_from_u64(self.seed ^ salt);
         // `random_bool` draws nothing for a share of 1.
-        let drawn: f64 = draws.random();
-        (drawn < share).then_some(draws)
+        let part: f64 = draws.random();
+        (part < share).then_some(draws)
     }
 
     /// The longest time that a message is under way, in milliseconds.
