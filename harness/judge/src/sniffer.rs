@@ -52,7 +52,11 @@ pub struct Sniffer {
     counters: Counters,
     signatures: Signatures,
     began_ms: Option<u64>,
+    newest_its: u64,
 }
+
+/// By how much packets of a capture may be out of order, in milliseconds: their times are those of several threads.
+const DISORDER_MS: u64 = 100;
 
 impl Sniffer {
     /// A sniffer for a channel with these identifiers.
@@ -90,6 +94,10 @@ impl Sniffer {
         #[expect(clippy::cast_precision_loss, reason = "centuries of milliseconds fit")]
         let at_s = now_ms.saturating_sub(began_ms) as f64 / 1e3;
         self.map.forget(now_ms);
+        // No signature is trusted by a clock that goes back.
+        let is_late = (1..=DISORDER_MS).contains(&self.newest_its.saturating_sub(now_its));
+        let now_its = if is_late { self.newest_its } else { now_its };
+        self.newest_its = now_its;
         let is_signed =
             BasicHeader::decode(packet).is_ok_and(|(basic, _)| basic.next == NextHeader::Secured);
         let mut seen = Seen {
