@@ -4,12 +4,10 @@
 //! about all runs afterwards. As a second opinion stateright explores the same model before that, so that its
 //! memory is free again. A check with both is exhaustive only when both have visited everything and agree.
 
-use std::time::Duration;
-
 use stateright::{Checker, Expectation, HasDiscoveries, Model as _, Property};
 
-use crate::exploration::ExplorationLimits;
 pub use crate::exploration::{CheckProgress, Options, Stop};
+use crate::exploration::{ExplorationLimits, by_stateright};
 use crate::fair::{LeadsTo, leads_to};
 use crate::fairness::Classifier;
 use crate::graph::{Graph, Keep};
@@ -96,8 +94,6 @@ pub fn check(
     }
 }
 
-/// Once `drain` is requested nothing happens any more in the model, and all threads end with what they have.
-/// stateright's own time limit is not used: it holds up threads that share work, for minutes.
 fn configure(model: &Model, options: &Options, drain: &Stop) -> stateright::CheckerBuilder<Model> {
     let model = model.clone().stopping_at(drain);
     let mut builder = model.checker().threads(options.threads.get());
@@ -140,15 +136,12 @@ impl SecondOpinion {
         watch: &mut dyn FnMut(usize),
     ) -> Self {
         let drain = Stop::default();
-        let checker = configure(model, options, &drain).spawn_bfs();
-        while !checker.is_done() {
-            std::thread::sleep(Duration::from_millis(20));
-            if limits.time_reached().is_some() {
-                drain.request();
-            }
-            watch(checker.unique_state_count());
-        }
-        Self::by(&checker.join(), model, options, limits)
+        let builder = configure(model, options, &drain);
+        let (checker, _) = by_stateright(builder, &drain, |states, _| {
+            watch(states);
+            limits.time_reached()
+        });
+        Self::by(&checker, model, options, limits)
     }
 
     fn by(

@@ -1,12 +1,12 @@
 //! What each rule is good for: a transition function without it breaks the property that the rule is
 //! there to keep.
 
-use crossguard_model_check::check::{Options, check};
+use crossguard_model_check::check::{Options, Stop, check};
 use crossguard_model_check::model::Model;
 use crossguard_model_check::node::Rules;
 use crossguard_model_check::properties::PropertyId::{self, *};
 use crossguard_model_check::replay::Replay;
-use crossguard_model_check::report::CheckVerdict;
+use crossguard_model_check::report::{CheckVerdict, CutOff};
 use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::*;
 use crossguard_testkit::rules::*;
@@ -167,6 +167,25 @@ weakenings! {
     fn a_follower_that_lies_speaks_for_the_others_where_one_counts_for_all("lying-follower: C2", CountsOneForAll, [C2]);
     #[test]
     fn a_corridor_rests_on_a_stranger_where_who_says_so_follows("lying-bystander", AdmitsWhoSaysThatItFollows, [C3]);
+}
+
+/// stateright goes a run again in order to tell it, also where it was told to stop.
+#[test]
+fn a_second_opinion_that_is_stopped_tells_what_it_has_found() {
+    let model = Model::with_rules(Scenario::load("pair").unwrap(), StartsRepeatedCommands);
+    let stop = Stop::default();
+    let options = Options {
+        stop: stop.clone(),
+        second_opinion: true,
+        ..Options::default()
+    };
+    let report = check(&model, &options, &mut |reached| {
+        if reached.checked > 200_000 {
+            stop.request();
+        }
+    });
+    assert_eq!(report.cut_off, Some(CutOff::Stopped));
+    assert_eq!(report.verdict("I4"), Some(CheckVerdict::Violated));
 }
 
 /// With a corridor, who is commanded away leaves people on the road alone as well.

@@ -18,15 +18,13 @@ mod street;
 mod team;
 mod truth;
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use crossguard_crossing::Setup;
 use stateright::{Checker, Model as _};
 
 use crate::check::STATERIGHT;
-use crate::exploration::{CheckProgress, Options};
+use crate::exploration::{CheckProgress, Options, Stop, by_stateright, steps};
 use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
 use crate::scenario::Size;
 use crate::sequence::{ChartPlace, ChartStep};
@@ -250,33 +248,24 @@ pub fn explore(
     watch: &mut dyn FnMut(CheckProgress),
 ) -> Found {
     let limits = options.limits();
-    let drain = Arc::new(AtomicBool::new(false));
+    let drain = Stop::default();
     let world = World {
         street,
         rules: Rules::new(change),
         drain: drain.clone(),
     };
-    let checker = world.checker().threads(options.threads.get()).spawn_bfs();
-    let mut cut_off = None;
-    while !checker.is_done() {
-        std::thread::sleep(Duration::from_millis(20));
-        let states = checker.unique_state_count();
-        let is_full = limits.states_reached(states);
-        let reached = is_full.then_some(CutOff::StateLimit);
-        cut_off = cut_off.or(reached).or(limits.time_reached());
-        if cut_off.is_some() {
-            drain.store(true, Ordering::Relaxed);
-        }
+    let builder = world.checker().threads(options.threads.get());
+    let (checker, cut_off) = by_stateright(builder, &drain, |states, depth| {
         watch(CheckProgress {
             checked: states,
             explored: states,
-            depth: checker.max_depth().saturating_sub(1),
+            depth,
             ..CheckProgress::default()
         });
-    }
-    let checker = checker.join();
-    // Runs are found by going them again.
-    drain.store(false, Ordering::Relaxed);
+        let is_full = limits.states_reached(states);
+        let is_full = is_full.then_some(CutOff::StateLimit);
+        is_full.or(limits.time_reached())
+    });
     let run = |rule: &Rule| {
         let path = checker.discovery(rule.claim().id)?;
         let states = path.into_states().into_iter();
@@ -284,11 +273,11 @@ pub fn explore(
     };
     let is_met = |rule: &Rule| checker.discovery(rule.claim().premise_id).is_some();
     Found {
-        // stateright counts the initial state in depth and transitions.
         size: Size {
             unique_states: checker.unique_state_count(),
-            depth: checker.max_depth().saturating_sub(1),
+            depth: steps(&checker),
         },
+        // stateright counts the initial state.
         transitions: checker.state_count() - 1,
         cut_off,
         broken: Rule::ALL.iter().filter_map(run).collect(),

@@ -1,12 +1,12 @@
 //! The street: people, a vehicle, the guard's body, the sign and the sensor, and what may happen to them in a tick.
 
 use std::fmt;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use crossguard_crossing::{Coverage, Frame, Input, Point, RoadUser, Sighting, Vehicle, Way};
 use crossguard_protocol::Millis;
 use stateright::Property;
+
+use crate::exploration::Stop;
 
 use super::Street;
 use super::rules::Rules;
@@ -193,8 +193,8 @@ enum Fault {
 pub(super) struct World {
     pub(super) street: Street,
     pub(super) rules: Rules,
-    /// While it is set nothing happens any more, and the exploration ends.
-    pub(super) drain: Arc<AtomicBool>,
+    /// While it is requested nothing happens any more, and the exploration ends.
+    pub(super) drain: Stop,
 }
 
 impl World {
@@ -409,7 +409,7 @@ impl stateright::Model for World {
     }
 
     fn actions(&self, state: &State, ticks: &mut Vec<Tick>) {
-        if self.drain.load(Ordering::Relaxed) {
+        if self.drain.is_requested() {
             return;
         }
         let faults = Self::faults(state);

@@ -36,6 +36,7 @@ pub use readings::{OtherReading, Reading};
 pub use shown::{PaperRobotFrame, PaperRun, runs};
 pub use texts::{Text, on_the_road};
 
+use crate::exploration::steps;
 use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
 use crate::scenario::Size;
 use model::{Cast, Inquiry, PaperAction, Question};
@@ -275,9 +276,9 @@ fn explore(cast: Cast) -> Exploration {
     let checker = question.checker().spawn_bfs().join();
     Exploration {
         unique_states: checker.unique_state_count(),
-        // stateright counts the initial state in both.
+        // stateright counts the initial state.
         transitions: checker.state_count() - 1,
-        depth: checker.max_depth() - 1,
+        depth: steps(&checker),
         is_p0_broken: checker.discovery(model::HOLDS).is_some(),
         is_wait_endless: checker.discovery(model::CLOSED).is_some(),
         is_crossing_found: checker.discovery(model::PREMISE).is_some(),
