@@ -201,9 +201,7 @@ impl Application {
                 Output::Wait => self.act_by_body(BodyAct::Wait),
                 Output::GoOn => self.act_by_body(BodyAct::GoOn),
                 Output::Release => self.body.release(),
-                Output::Dropped(why) => {
-                    self.trouble(Cause::FrameDropped(why.name()), "a frame".to_owned());
-                }
+                Output::Dropped(why) => self.trouble(Cause::FrameDropped(why.name()), "a frame"),
                 Output::Hindered(why) => self.is_hindered(why),
             }
         }

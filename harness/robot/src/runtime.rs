@@ -488,7 +488,7 @@ impl Loop {
             self.carry_out(effect);
         }
         while let Some((cause, detail)) = self.machine.application_mut().next_trouble() {
-            self.drop(cause, detail, Vec::new());
+            self.drop(cause, detail.into_owned(), Vec::new());
         }
         if let Some(why) = self.machine.application_mut().next_hindrance() {
             let why = why.to_string();

@@ -1,5 +1,7 @@
 //! What is wrong with a body that is another process: one that is silent is an emergency stop of its robot.
 
+use std::borrow::Cow;
+
 use crossguard_endpoint::cause::Cause;
 use crossguard_protocol::{Availability, Event, Unavailability};
 
@@ -13,13 +15,13 @@ const TROUBLES: usize = 64;
 pub(super) struct Bodily {
     /// What its robot has to be unavailable for while the body is not there.
     missing: Option<Unavailability>,
-    troubles: Vec<(Cause, String)>,
+    troubles: Vec<(Cause, Cow<'static, str>)>,
 }
 
 impl Application {
     /// Takes in what the body says besides how maneuvers go.
     pub(super) fn learn_of_body(&mut self, report: Report) {
-        let (cause, what) = match report {
+        let (cause, what): (_, Cow<'static, str>) = match report {
             Report::InPosition(_) | Report::Completed(_) => return self.feel_maneuver(&report),
             Report::Failed(id) => return self.wish(Stimulus::Event(Event::ManeuverFailed(id))),
             // Nothing is wrong with a body that was not started yet, but its robot takes no part.
@@ -38,21 +40,21 @@ impl Application {
                 self.feel_maneuver(&report);
                 self.bodily.missing = Some(Unavailability::EmergencyStop);
                 let what = "nothing was heard of the body: emergency stop";
-                (Cause::BodySilent, what.to_owned())
+                (Cause::BodySilent, what.into())
             }
             Report::Fault(what) => {
                 self.wish_available(Availability::Unavailable(Unavailability::LocalFault));
-                (Cause::BodyFault, what)
+                (Cause::BodyFault, what.into())
             }
-            Report::Garbled(why) => (Cause::BodyGarbled, why),
+            Report::Garbled(why) => (Cause::BodyGarbled, why.into()),
         };
         self.trouble(cause, what);
     }
 
     /// Something is to be counted.
-    pub(super) fn trouble(&mut self, cause: Cause, what: String) {
+    pub(super) fn trouble(&mut self, cause: Cause, what: impl Into<Cow<'static, str>>) {
         if self.bodily.troubles.len() < TROUBLES {
-            self.bodily.troubles.push((cause, what));
+            self.bodily.troubles.push((cause, what.into()));
         }
     }
 
@@ -74,7 +76,7 @@ impl Application {
     }
 
     /// The next thing that went wrong with the body, to be counted.
-    pub(crate) fn next_trouble(&mut self) -> Option<(Cause, String)> {
+    pub(crate) fn next_trouble(&mut self) -> Option<(Cause, Cow<'static, str>)> {
         self.bodily.troubles.pop()
     }
 }

@@ -160,29 +160,30 @@ impl Simulated {
     }
 
     fn advance_slice(&mut self, seconds: f64) -> Option<Report> {
-        let motion = self.motion.clone()?;
-        let way = self.place.distance(motion.to);
+        let &Motion { to, speed_mps, .. } = self.motion.as_ref()?;
+        let way = self.place.distance(to);
         // The speed from which the body can still stop at its target.
         let brake = (2.0 * ACCELERATION * way).sqrt();
         let speed = if self.waits {
             (self.speed_mps - ACCELERATION * seconds).max(0.0)
         } else {
-            (self.speed_mps + ACCELERATION * seconds).min(motion.speed_mps)
+            (self.speed_mps + ACCELERATION * seconds).min(speed_mps)
         };
         let speed = speed.min(brake);
         let step = speed * seconds;
         if way <= step.max(0.005) {
-            self.place = motion.to;
+            let arrived = self.motion.take()?;
+            self.place = to;
             self.stand_still();
             if self.fallback == Some(Fallback::UnderWay) {
                 self.fallback = Some(Fallback::Finished);
             }
-            return motion.report;
+            return arrived.report;
         }
-        self.heading_deg = self.place.bearing(motion.to);
+        self.heading_deg = self.place.bearing(to);
         self.acceleration_mps2 = (speed - self.speed_mps) / seconds;
         self.speed_mps = speed;
-        self.place = self.place.towards(motion.to, step);
+        self.place = self.place.towards(to, step);
         None
     }
 }
