@@ -449,6 +449,11 @@ impl Lead {
             .all(|it| it.presence.is_fresh(setup.position))
     }
 
+    /// Whether nobody is let on the road any more in this session.
+    const fn is_full(&self) -> bool {
+        self.opened.0 == 0
+    }
+
     fn begin_stage(
         &mut self,
         setup: &Setup,
@@ -511,8 +516,7 @@ impl Lead {
         }
         self.tried = OPENING_PERIOD;
         let is_free = self.hindrance(setup, plan, view).is_none();
-        let is_full = self.opened == Millis::ZERO;
-        if view.corridor != Corridor::Open && view.is_wanted && is_free && !is_full {
+        if view.corridor != Corridor::Open && view.is_wanted && is_free && !self.is_full() {
             out.tell(Event::OpenCorridor);
         }
     }
@@ -540,14 +544,13 @@ impl Lead {
                 STEP_ON
             };
         }
-        let is_full = self.opened == Millis::ZERO;
         if !view.everybody_is_across && !view.nobody_is_lost {
             self.ending = ESCORT_ENDS;
         }
         match view.corridor {
             Corridor::Open => {
                 // People who come when the escort is over there wait for its next way.
-                if is_full || is_over_there && (goes_with_escort || !view.is_wanted) {
+                if self.is_full() || is_over_there && (goes_with_escort || !view.is_wanted) {
                     out.tell(Event::CloseCorridor);
                 }
             }
@@ -563,7 +566,7 @@ impl Lead {
                     is_done || is_ended && (is_over_there || is_escorted && view.has_opened);
                 // For people who wait by then it calls anew.
                 let is_through =
-                    (is_escorted && view.has_crossed || is_full) && view.nobody_is_lost;
+                    (is_escorted && view.has_crossed || self.is_full()) && view.nobody_is_lost;
                 if is_done && !lets_cross || may_end && (view.everybody_is_across || is_through) {
                     out.tell(Event::TaskCompleted);
                 } else if self.patience == Millis::ZERO {
