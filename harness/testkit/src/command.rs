@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::Write;
+use std::os::unix::net::UnixStream;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -146,6 +147,23 @@ pub fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
         assert!(Instant::now() < deadline, "waited in vain: {what}");
         std::thread::sleep(Duration::from_millis(20));
     }
+}
+
+/// Waits until a file has this text.
+pub fn wait_until_in(file: impl AsRef<Path>, text: &str) {
+    let file = file.as_ref();
+    let has_it = || std::fs::read_to_string(file).is_ok_and(|it| it.contains(text));
+    wait_until(&format!("'{text}' in {}", file.display()), has_it);
+}
+
+/// Connects to a port of a robot, as soon as it is there.
+pub fn connect(socket: impl AsRef<Path>) -> UnixStream {
+    let mut stream = None;
+    wait_until("the port of a robot", || {
+        stream = UnixStream::connect(&socket).ok();
+        stream.is_some()
+    });
+    stream.unwrap()
 }
 
 /// A process that does not outlive its test.

@@ -124,10 +124,7 @@ fn cut_short(row: &Row) {
     let child = child.spawn().unwrap();
     wait_for_handler(&child);
     if row.command.starts_with("demo ") {
-        wait_until("a maneuver", || {
-            let log = std::fs::read_to_string(folder.path().join("log"));
-            log.is_ok_and(|log| log.contains("\"startManeuver\""))
-        });
+        wait_until_in(folder.path().join("log"), "\"startManeuver\"");
     }
     std::thread::sleep(Duration::from_millis(row.after_ms));
     signal(&child, row.signal);

@@ -267,9 +267,7 @@ fn a_second_demo_on_the_same_port_is_refused_and_the_first_goes_on() {
     let port = two_free_ports().to_string();
     let mut first = crossguard(&["demo", "--speed", "5", "--port", &port, "--json", "--log"]);
     let mut first = first.arg(&log).stdout(Stdio::piped()).spawn().unwrap();
-    wait_until("the first to start", || {
-        std::fs::read_to_string(&log).is_ok_and(|it| it.contains("\"started\""))
-    });
+    wait_until_in(&log, "\"started\"");
     let second = run(&["demo", "--port", &port]);
     assert_refused(
         &second,

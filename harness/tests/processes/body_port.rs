@@ -39,11 +39,7 @@ fn socket_of(file: &str) -> String {
 /// The example body at a place.
 fn body(file: &str, [east, north]: [f64; 2], faster: f64) -> Child {
     let socket = socket_of(file);
-    let deadline = Instant::now() + PATIENCE;
-    while !Path::new(&socket).exists() {
-        assert!(Instant::now() < deadline, "{socket} is not there");
-        std::thread::sleep(Duration::from_millis(20));
-    }
+    wait_until("the body port", || Path::new(&socket).exists());
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/body.py");
     Command::new("python3")
         .arg(source)
@@ -215,14 +211,7 @@ fn a_body_that_is_not_understood_is_counted_and_a_second_one_is_refused() {
     edit(&go2, &[("[body]", "[body]\nsilence_ms = 5000")]);
     let mut robot = start(&go2);
     let socket = socket_of(&go2);
-    let deadline = Instant::now() + PATIENCE;
-    let mut first = loop {
-        match UnixStream::connect(&socket) {
-            Ok(stream) => break stream,
-            Err(error) => assert!(Instant::now() < deadline, "{error}"),
-        }
-        std::thread::sleep(Duration::from_millis(20));
-    };
+    let mut first = connect(&socket);
     let mut said = BufReader::new(first.try_clone().unwrap());
     assert_eq!(hears(&mut said), json!({"type": "hello", "crossguard": 2}));
     for line in [

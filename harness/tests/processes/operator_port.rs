@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader, Write};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crossguard_testkit::command::*;
 use serde_json::Value;
@@ -13,14 +13,7 @@ const PATIENCE: Duration = Duration::from_mins(1);
 /// Connects to the operator port of a robot, as soon as it is there.
 fn connect(file: &str) -> BufReader<UnixStream> {
     let socket = Path::new(file).with_extension("sock");
-    let deadline = Instant::now() + PATIENCE;
-    loop {
-        match UnixStream::connect(&socket) {
-            Ok(stream) => return BufReader::new(stream),
-            Err(error) => assert!(Instant::now() < deadline, "{error}"),
-        }
-        std::thread::sleep(Duration::from_millis(20));
-    }
+    BufReader::new(crossguard_testkit::command::connect(socket))
 }
 
 /// Reads on until a line is like this.

@@ -99,9 +99,7 @@ fn what_a_robot_drops_is_told_with_its_cause_and_a_status_line_counts_it() {
     let log = street.path("log");
     let command = command.args(["--log", &log]);
     let mut robot = command.stderr(Stdio::piped()).spawn().unwrap();
-    wait_until("the robot to start", || {
-        std::fs::read_to_string(&log).is_ok_and(|it| it.contains("\"started\""))
-    });
+    wait_until_in(&log, "\"started\"");
     let stranger = UdpSocket::bind("127.0.0.1:0").unwrap();
     let text = std::fs::read_to_string(config).unwrap();
     let own = text.split("address = \"").nth(1).unwrap();
