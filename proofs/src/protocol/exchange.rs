@@ -36,12 +36,7 @@ struct Kept {
 
 fn any_watched(part: Part, stage: Role) -> Watched {
     let config = stage::config();
-    let peers = match stage {
-        Role::Requester => (0, 2),
-        Role::Leader => (1, 2),
-        Role::None | Role::Helper | Role::Follower => (0, 0),
-    };
-    let robot = any_valid(&config, stage, peers);
+    let robot = any_valid(&config, stage, stage::peers(stage));
     of(part, config, robot)
 }
 

@@ -4,14 +4,11 @@
 use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::{EventKind, Role};
 
-use super::stage::From;
-
-/// How many followers the leader has, at most: one that a message is about, and another.
-const FOLLOWERS: usize = 2;
+use super::stage::{From, peers};
 
 /// A RAM says nothing but its sender's part in a session, unless it says nothing but a farewell.
 pub(super) const FROM: From = From {
-    peers: (1, FOLLOWERS),
+    peers: peers(Role::Leader),
     farewells: false,
     ..From::stage(Role::Leader)
 };

@@ -4,14 +4,10 @@ use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::{all, ignores};
 use crossguard_protocol::{EndReason, EventKind, NoticeKind, OutputKind, Role, TimerKind};
 
-use super::stage::{From, becomes, steps_with_those_of_leaders};
-
-/// How many offers the requester has heard, at most: one of the station that a message is about, and
-/// another.
-const OFFERS: usize = 2;
+use super::stage::{From, becomes, peers, steps_with_those_of_leaders};
 
 pub(super) const FROM: From = From {
-    peers: (0, OFFERS),
+    peers: peers(Role::Requester),
     ..From::stage(Role::Requester)
 };
 

@@ -23,6 +23,18 @@ pub(super) fn config() -> Config {
     any_config()
 }
 
+/// How many offers or followers a robot in `stage` has, at least and at most. To a proof there are two: one that an input
+/// or a timer is about, and another. At random there are up to four, so that a rule that looks at the first two alone is
+/// noticed.
+pub(super) const fn peers(stage: Role) -> (usize, usize) {
+    const MOST: usize = if cfg!(kani) { 2 } else { 4 };
+    match stage {
+        Role::Requester => (0, MOST),
+        Role::Leader => (1, MOST),
+        Role::None | Role::Helper | Role::Follower => (0, 0),
+    }
+}
+
 /// Any valid state in `stage`, with this many offers or followers.
 pub(super) fn any_valid(config: &Config, stage: Role, peers: (usize, usize)) -> Robot {
     let robot = arbitrary::valid_robot(&mut Symbolic, config, stage, peers);

@@ -7,21 +7,12 @@
 use crossguard_protocol::laws::arbitrary;
 use crossguard_protocol::{Config, Robot, Role};
 
+use super::stage::peers;
 use crate::Symbolic;
 
 pub mod firing;
 pub mod running;
 pub mod settling;
-
-/// How many offers or followers there are, at least and at most: one that a timer is about, and
-/// another.
-const fn peers(stage: Role) -> (usize, usize) {
-    match stage {
-        Role::Requester => (0, 2),
-        Role::Leader => (1, 2),
-        _ => (0, 0),
-    }
-}
 
 /// A state that can occur within a step.
 pub(super) fn any_within_a_step(config: &Config, stage: Role) -> Robot {

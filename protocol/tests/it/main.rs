@@ -11,6 +11,7 @@ mod corridor_before_the_blocker_is_in_place;
 mod crossing;
 mod duty_outlives_its_session;
 mod ends_that_say_how;
+mod every_guard_counts;
 mod execution_limit;
 mod fallback;
 mod guard_that_leaves_its_position;
