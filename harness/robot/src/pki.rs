@@ -88,14 +88,27 @@ impl Term {
     }
 }
 
-fn issues(its_aids: &[u32], min_chain_length: i8) -> Vec<IssuePermission> {
+/// The terms of somebody who issues for these services, with chains of this many certificates below.
+fn issuing(
+    name: &str,
+    term: Term,
+    region: Option<Region>,
+    its_aids: &[u32],
+    min_chain_length: i8,
+) -> Terms {
     let these = its_aids.iter().map(|its_aid| (*its_aid, SspRange::All));
-    vec![IssuePermission {
-        subjects: Subjects::These(these.collect()),
-        min_chain_length,
-        chain_length_range: 0,
-        for_applications: true,
-    }]
+    Terms {
+        name: Some(name.to_owned()),
+        validity: term.validity(),
+        region,
+        permissions: Vec::new(),
+        issue_permissions: vec![IssuePermission {
+            subjects: Subjects::These(these.collect()),
+            min_chain_length,
+            chain_length_range: 0,
+            for_applications: true,
+        }],
+    }
 }
 
 /// A new root, which lets authorities issue pseudonyms for these services.
@@ -118,13 +131,7 @@ fn root_with(
     region: Option<Region>,
     its_aids: &[u32],
 ) -> Result<Holder, IssueError> {
-    let terms = Terms {
-        name: Some(name.to_owned()),
-        validity: term.validity(),
-        region,
-        permissions: Vec::new(),
-        issue_permissions: issues(its_aids, 2),
-    };
+    let terms = issuing(name, term, region, its_aids, 2);
     let certificate = issue::root(&key, &terms)?;
     Ok(Holder { certificate, key })
 }
@@ -152,13 +159,7 @@ fn authority_with(
     region: Option<Region>,
     its_aids: &[u32],
 ) -> Result<Holder, IssueError> {
-    let terms = Terms {
-        name: Some(name.to_owned()),
-        validity: term.validity(),
-        region,
-        permissions: Vec::new(),
-        issue_permissions: issues(its_aids, 1),
-    };
+    let terms = issuing(name, term, region, its_aids, 1);
     let certificate = issue::authority(&root.certificate, &root.key, key.public_key(), &terms)?;
     Ok(Holder { certificate, key })
 }
