@@ -1,6 +1,7 @@
-//! Datagrams off a UDP socket, each with the moment of its arrival.
+//! Datagrams off a socket, UDP or raw, each with the moment of its arrival.
 
-use std::net::{SocketAddr, UdpSocket};
+use std::net::SocketAddr;
+use std::os::fd::{AsFd, AsRawFd};
 use std::time::{Duration, Instant};
 
 use nix::errno::Errno;
@@ -13,16 +14,16 @@ use super::{DATAGRAM_MAX, Source};
 
 /// Takes datagrams off a socket.
 #[derive(Debug)]
-pub(super) struct Datagrams {
-    socket: UdpSocket,
+pub(super) struct Datagrams<S> {
+    socket: S,
     buffer: Box<[u8; DATAGRAM_MAX]>,
     attention: Attention,
     stamps: Stamps,
 }
 
-impl Datagrams {
+impl<S: AsFd + AsRawFd> Datagrams<S> {
     /// Those of this socket.
-    pub(super) fn of(socket: UdpSocket) -> Self {
+    pub(super) fn of(socket: S) -> Self {
         Self {
             stamps: Stamps::of(&socket),
             socket,
@@ -51,7 +52,7 @@ impl Datagrams {
                 let from = from.as_ref().map_or(Source::Unknown, source_of);
                 Ok(Some((from, &self.buffer[..length], at)))
             }
-            // A peer that is gone answers with ICMP, which shows up as a refused connection.
+            // A UDP peer that is gone answers with ICMP, which shows up as a refused connection.
             Err(Errno::EINTR | Errno::ECONNREFUSED | Errno::ECONNRESET) => Ok(None),
             Err(Errno::EAGAIN | Errno::ETIMEDOUT) => {
                 self.attention.saw_empty(called, may_wait, now);

@@ -3,10 +3,9 @@
 //! It takes the right to open such sockets (`CAP_NET_RAW`); within a network namespace of one's own
 //! everybody has it.
 
-use std::io::ErrorKind;
 use std::os::fd::{AsRawFd, OwnedFd};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crossguard_codec::geonet::ethernet;
 use crossguard_endpoint::station::listen::link_layer_of;
@@ -16,10 +15,8 @@ use nix::sys::socket::{
     AddressFamily, LinkAddr, MsgFlags, SockFlag, SockProtocol, SockType, bind, send, socket,
 };
 
-use super::attention::Attention;
-use super::readiness::wait_for;
-use super::stamps::{Stamped, Stamps};
-use super::{Arrival, DATAGRAM_MAX, Halves, LinkError, NotSent, Receiver, Sender, Source};
+use super::datagrams::Datagrams;
+use super::{Arrival, Halves, LinkError, NotSent, Receiver, Sender, Source};
 
 /// Opens a raw socket on an interface.
 ///
@@ -40,10 +37,7 @@ pub(super) fn open(interface: &str) -> Result<Halves, LinkError> {
     let socket = Arc::new(socket.map_err(failed)?);
     bind(socket.as_raw_fd(), &address).map_err(failed)?;
     let receiver = EthernetReceiver {
-        stamps: Stamps::of(&*socket),
-        socket: Arc::clone(&socket),
-        buffer: Box::new([0; DATAGRAM_MAX]),
-        attention: Attention::new(Instant::now()),
+        frames: Datagrams::of(Arc::clone(&socket)),
     };
     Ok(Halves {
         sender: Box::new(EthernetSender { socket }),
@@ -93,38 +87,17 @@ impl Sender for EthernetSender {
 }
 
 struct EthernetReceiver {
-    socket: Arc<OwnedFd>,
-    buffer: Box<[u8; DATAGRAM_MAX]>,
-    attention: Attention,
-    stamps: Stamps,
+    frames: Datagrams<Arc<OwnedFd>>,
 }
 
 impl Receiver for EthernetReceiver {
     fn receive(&mut self, at_most: Duration) -> std::io::Result<Option<Arrival>> {
-        let may_wait = self.attention.may_wait(at_most);
-        let called = Instant::now();
-        let (socket, flags) = (&*self.socket, MsgFlags::MSG_DONTWAIT);
-        let ready = wait_for(socket, may_wait);
-        let received = ready.and_then(|()| self.stamps.receive(socket, &mut *self.buffer, flags));
-        let now = Instant::now();
-        let Stamped { length, age, .. } = match received {
-            Ok(stamped) => stamped,
-            Err(errno) => {
-                let error = std::io::Error::from(errno);
-                return match error.kind() {
-                    ErrorKind::WouldBlock | ErrorKind::TimedOut => {
-                        self.attention.saw_empty(called, may_wait, now);
-                        Ok(None)
-                    }
-                    ErrorKind::Interrupted => Ok(None),
-                    _ => Err(error),
-                };
-            }
+        let Some((_, frame, at)) = self.frames.next(at_most)? else {
+            return Ok(None);
         };
-        let at = self.attention.took(may_wait, now, age);
         // What is not for the service is not looked at, and not worth a count.
         Ok(
-            ethernet::packet(&self.buffer[..length]).map(|(source, packet)| Arrival::Datagram {
+            ethernet::packet(frame).map(|(source, packet)| Arrival::Datagram {
                 from: Source::LinkLayer(source),
                 octets: packet.to_vec(),
                 at,

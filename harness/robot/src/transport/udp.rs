@@ -22,7 +22,7 @@ struct UdpSender {
 /// The receiving half of a link.
 #[derive(Debug)]
 struct UdpReceiver {
-    datagrams: Datagrams,
+    datagrams: Datagrams<UdpSocket>,
     framing: Framing,
 }
 

@@ -115,7 +115,7 @@ impl Sender for UnitSender {
 struct UnitReceiver {
     unit: SocketAddr,
     hello: UdpSocket,
-    datagrams: Datagrams,
+    datagrams: Datagrams<UdpSocket>,
     said_hello: Option<Instant>,
     /// When the unit was heard last, or its silence was told of.
     heard: Instant,
