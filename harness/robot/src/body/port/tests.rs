@@ -10,6 +10,9 @@ use crossguard_protocol::{
 
 use super::*;
 
+/// What a body says first.
+const HELLO: &str = r#"{"type": "hello", "crossguard": 2}"#;
+
 fn maneuver(task: TaskType) -> Maneuver {
     let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
     let leader = StationId(1);
@@ -19,8 +22,10 @@ fn maneuver(task: TaskType) -> Maneuver {
     Maneuver { id, task }
 }
 
-fn open(folder: &std::path::Path) -> (Ported, UnixStream) {
-    let path = folder.join("body.sock");
+/// A port that was without a body until one said this; its folder lasts as long as the test.
+fn open(hello: &str) -> (Ported, UnixStream, tempfile::TempDir) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("body.sock");
     let port = BodyPort {
         address: PortAddress::Unix(path.clone()),
         silence: Duration::from_millis(500),
@@ -28,8 +33,11 @@ fn open(folder: &std::path::Path) -> (Ported, UnixStream) {
     };
     let holding = TaskSet::of(&[TaskType::BLOCK]);
     let (build, site) = (Build::Quadruped, Site::default());
-    let body = Ported::open(build, site, Place::default(), port, holding).unwrap();
-    (body, UnixStream::connect(path).unwrap())
+    let mut body = Ported::open(build, site, Place::default(), port, holding).unwrap();
+    let mut other = UnixStream::connect(path).unwrap();
+    assert_eq!(report(&mut body), Some(Report::Absent));
+    writeln!(other, "{hello}").unwrap();
+    (body, other, folder)
 }
 
 /// What the body reports next, within a minute. No time passes by its clock.
@@ -53,9 +61,8 @@ fn heard(from: &mut impl BufRead) -> serde_json::Value {
 
 #[test]
 fn acts_go_out_as_lines_and_what_the_body_says_comes_in() {
-    let folder = tempfile::tempdir().unwrap();
-    let (mut body, mut other) = open(folder.path());
-    assert_eq!(report(&mut body), Some(Report::Absent));
+    let (mut body, mut other, _folder) =
+        open(r#"{"type": "hello", "crossguard": 2, "name": "later"}"#);
     let start = BodyAct::Start(
         maneuver(TaskType::BLOCK),
         TaskParameters {
@@ -64,11 +71,6 @@ fn acts_go_out_as_lines_and_what_the_body_says_comes_in() {
             ..TaskParameters::default()
         },
     );
-    writeln!(
-        other,
-        "{{\"type\": \"hello\", \"crossguard\": 2, \"name\": \"later\"}}"
-    )
-    .unwrap();
     assert_eq!(report(&mut body), Some(Report::Here));
     assert_eq!(body.act(start), Ok(()));
     let mut lines = BufReader::new(other.try_clone().unwrap());
@@ -97,10 +99,7 @@ fn acts_go_out_as_lines_and_what_the_body_says_comes_in() {
 
 #[test]
 fn a_body_that_says_nothing_is_silent_once_and_the_end_of_its_connection_is_silence() {
-    let folder = tempfile::tempdir().unwrap();
-    let (mut body, mut other) = open(folder.path());
-    assert_eq!(report(&mut body), Some(Report::Absent));
-    writeln!(other, "{{\"type\": \"hello\", \"crossguard\": 2}}").unwrap();
+    let (mut body, _other, folder) = open(HELLO);
     assert_eq!(report(&mut body), Some(Report::Here));
     // It hangs.
     assert_eq!(report_of_silence(&mut body), Some(Report::Silent));
@@ -110,7 +109,7 @@ fn a_body_that_says_nothing_is_silent_once_and_the_end_of_its_connection_is_sile
     let start = BodyAct::Start(maneuver(TaskType::MOVE), TaskParameters::default());
     assert!(body.act(start).is_err());
     let mut again = UnixStream::connect(folder.path().join("body.sock")).unwrap();
-    writeln!(again, "{{\"type\": \"hello\", \"crossguard\": 2}}").unwrap();
+    writeln!(again, "{HELLO}").unwrap();
     assert_eq!(report(&mut body), Some(Report::Here));
     drop(again);
     assert_eq!(report(&mut body), Some(Report::Silent));
@@ -118,10 +117,7 @@ fn a_body_that_says_nothing_is_silent_once_and_the_end_of_its_connection_is_sile
 
 #[test]
 fn a_body_is_told_to_wait_and_to_go_on_in_its_maneuver() {
-    let folder = tempfile::tempdir().unwrap();
-    let (mut body, mut other) = open(folder.path());
-    assert_eq!(report(&mut body), Some(Report::Absent));
-    writeln!(other, "{{\"type\": \"hello\", \"crossguard\": 2}}").unwrap();
+    let (mut body, mut other, _folder) = open(HELLO);
     assert_eq!(report(&mut body), Some(Report::Here));
     let escort = maneuver(TaskType::MOVE);
     let start = BodyAct::Start(escort, TaskParameters::default());
@@ -141,10 +137,7 @@ fn a_body_is_told_to_wait_and_to_go_on_in_its_maneuver() {
 
 #[test]
 fn a_body_of_the_version_without_wait_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let (mut body, mut other) = open(folder.path());
-    assert_eq!(report(&mut body), Some(Report::Absent));
-    writeln!(other, "{{\"type\": \"hello\", \"crossguard\": 1}}").unwrap();
+    let (mut body, other, _folder) = open(r#"{"type": "hello", "crossguard": 1}"#);
     assert!(matches!(report(&mut body), Some(Report::Garbled(_))));
     let mut lines = BufReader::new(other);
     assert_eq!(heard(&mut lines)["type"], "hello");
