@@ -14,7 +14,7 @@ struct Generated {
 }
 
 /// Sources first: what follows from other files comes after them.
-const GENERATED: [Generated; 12] = [
+const GENERATED: [Generated; 13] = [
     Generated {
         path: "protocol/src: words and named tasks, in other languages",
         by: "cargo test -p crossguard-protocol --test languages",
@@ -22,6 +22,10 @@ const GENERATED: [Generated; 12] = [
     Generated {
         path: "protocol/words.md",
         by: "cargo test -p crossguard-protocol --test words",
+    },
+    Generated {
+        path: "protocol/tests/scripts/",
+        by: "cargo test -p crossguard-protocol --test it interpreter",
     },
     Generated {
         path: "codec/src/asn1/generated.rs",

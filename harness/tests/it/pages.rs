@@ -260,7 +260,7 @@ fn the_index_of_rules_names_what_there_is() {
         let [script] = &quoted(script)[..] else {
             panic!("one script: {row}");
         };
-        assert!(text(format!("protocol/tests/it/{script}")).contains("#[test]"));
+        assert!(text(format!("protocol/tests/scripts/{script}")).contains("\n== "));
         named.extend(properties.split(", ").map(str::to_owned));
     }
     let verified = text("model-check/doc/verification.md".to_owned());

@@ -107,8 +107,11 @@ fn missing(kind: &str, what: &str, read: Read) -> Option<String> {
     (!is_there).then(|| format!("no {kind} {what}"))
 }
 
-/// Whether a file has a test of this name that is not ignored.
+/// Whether a file has a test of this name that is not ignored, or a script.
 fn runs(name: &str, file: &str) -> bool {
+    if file.contains(&format!("\n== {name}\n")) {
+        return true;
+    }
     let Some((above, _)) = file.split_once(&format!("fn {name}(")) else {
         return false;
     };

@@ -19,7 +19,7 @@ The paper *Multi-Robot Coordination in V2X Environments* (Arockiasamy, Vinel; ar
 describes four states, two messages and what robots do with them. `crossguard check paper-literal`
 checks a small model of that text (`model-check/src/paper`), and the check must fail. Each
 run below was found by stateright, is the shortest of its kind, and is the reason for a
-rule that the protocol of this kit adds. `protocol/tests/it/paper.rs` tells
+rule that the protocol of this kit adds. `protocol/tests/scripts/paper.txt` tells
 P1 to P14 to the protocol, which survives them. [The paper, paragraph by paragraph](paper.md) says where all the rest of it is.
 
 A hazard is one of three kinds, and names the paragraph that it comes from:
@@ -75,7 +75,7 @@ finished, no leave granted and no task done while somebody is on the road. W1 ha
 without time: a guard that has fallen back, finished or lost power, as long as no message has told its leader so. There
 is one crossing, so that W3 is about every two leaders.
 
-`protocol/tests/it/paper.rs` does not repeat these runs: the kit's own model has the same road (`model-check/src/road.rs`).
+`protocol/tests/scripts/paper.txt` does not repeat these runs: the kit's own model has the same road (`model-check/src/road.rs`).
 ";
 
 /// The documentation page: each counterexample as a sequence chart, where it comes from, what it means, what closes

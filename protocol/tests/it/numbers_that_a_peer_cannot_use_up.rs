@@ -1,5 +1,5 @@
-//! Hazard: a peer repeats messages until a robot has no numbers left. Numbers are spent by a robot's own
-//! decisions, and a new epoch gives it new ones without a restart.
+//! Hazard: a peer repeats messages until a robot has no numbers left. These tests spend thousands of numbers; the scripts of the
+//! same name have the others.
 
 use crossguard_protocol::*;
 
@@ -36,17 +36,6 @@ fn the_end_and_the_next_request_in_one_message_use_up_nothing() {
     }
 }
 
-#[test]
-fn a_number_that_was_confirmed_is_not_given_out_again() {
-    let mut street = Street::with_roles(&[ARI, GO2]);
-    let number = street[GO2].next_number();
-    street.tell(ARI, Event::LeaveRequested);
-    assert_eq!(street[GO2].next_number(), number);
-    street.pass(1_000);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
-    assert_ne!(street.offer_of(GO2), FIRST_OFFER);
-}
-
 fn spend(street: &mut Street, numbers: u16) {
     for _ in 0..numbers {
         street.tell(ARI, Event::PedestrianDetected(escort(1)));
@@ -80,28 +69,36 @@ fn half_of_the_numbers_ask_for_a_new_epoch_which_needs_no_restart() {
 }
 
 #[test]
-fn an_epoch_may_be_renewed_within_a_session() {
-    let mut street = Street::open(&[ARI, GO2], TaskType::MOVE);
-    let sessions = [street.session_of(ARI), street.session_of(GO2)];
-    for who in [ARI, GO2] {
-        assert_eq!(street.tell(who, Event::EpochRenewed(2)).ignored(), None);
+fn a_session_is_not_ended_for_one_that_cannot_be_opened() {
+    let mut street = Street::new(&[ARI, GO2]);
+    // All but one of the numbers of this boot.
+    for _ in 0..u16::MAX - 1 {
+        street.step(ARI, Input::Local(Event::PedestrianDetected(escort(1))));
+        street.step(ARI, Input::Local(Event::TaskCompleted));
+        street.forget();
     }
-    street.pass(10_000);
-    assert_eq!([street.session_of(ARI), street.session_of(GO2)], sessions);
-    assert!(street.shows_go(ARI));
-    street.tell(ARI, Event::TaskCompleted);
-    street.tell(ARI, Event::PedestrianDetected(escort(1)));
-    assert!(street.session_of(ARI).number > sessions[0].number);
-    assert_eq!(street.offer_of(GO2).0, UniqueNumber { boot: 2, count: 0 });
+    street.pass(1_000);
+    street.establish_roles(ARI, 1);
+    for _ in 0..RequestId::MAX_PER_SESSION {
+        street.tell(ARI, order(GO2, TaskType::BLOCK));
+        street.forget();
+    }
+    let ignored = street.tell(ARI, order(GO2, TaskType::BLOCK)).ignored();
+    assert_eq!(ignored, Some(Ignored::NumbersExhausted));
+    assert_eq!(street[ARI].role(), Role::Leader);
 }
 
 #[test]
-fn an_offer_of_an_earlier_epoch_that_ends_gives_back_nothing() {
-    let mut street = Street::asking(&[ARI, GO2], 1);
-    street.tell(GO2, Event::EpochRenewed(2));
-    street.tell(ARI, Event::LeaveRequested);
-    assert_eq!(
-        street[GO2].next_number(),
-        UniqueNumber { boot: 2, count: 0 }
-    );
+fn a_boot_whose_numbers_are_used_up_opens_no_session_and_makes_no_offer() {
+    let mut street = Street::new(&[ARI]);
+    let need_help = |count| need_help(SPOT, count, 0, escort(1));
+    for count in 0..u16::MAX {
+        assert_eq!(street.hears_ram(ARI, need_help(count)).ignored(), None);
+        street.tell(ARI, Event::LeaveRequested);
+        street.forget();
+    }
+    let exhausted = Some(Ignored::NumbersExhausted);
+    assert_eq!(street.hears_ram(ARI, need_help(0)).ignored(), exhausted);
+    let detected = street.tell(ARI, Event::PedestrianDetected(escort(1)));
+    assert_eq!(detected.ignored(), exhausted);
 }

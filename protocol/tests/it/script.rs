@@ -57,40 +57,12 @@ pub fn farewell(station: StationId, farewell: Farewell) -> Ram {
     }
 }
 
-/// The farewell of the leader of a session that ended in the middle.
-pub fn aborted(session: SessionId) -> Farewell {
-    Farewell::Ended(session.number, Ending::Aborted)
-}
-
-/// The farewell of a robot that left a session in which it made its first offer.
-pub fn left(session: SessionId) -> Farewell {
-    Farewell::Left(session, FIRST_OFFER)
-}
-
 /// A RAM of `station` that asks for help in its session of this count.
 pub fn need_help(station: StationId, count: u16, heartbeat: u16, request: HelpRequest) -> Ram {
     let coordination = Coordination::NeedHelp {
         number: SessionNumber(UniqueNumber { boot: 1, count }),
         heartbeat: Heartbeat(heartbeat),
         request,
-    };
-    ram(station, coordination)
-}
-
-/// A RAM of `station` that offers, with the default `t_safety`.
-pub fn offer(
-    station: StationId,
-    session: SessionId,
-    offer: OfferNumber,
-    tasks: &[TaskType],
-    echo: u16,
-) -> Ram {
-    let coordination = Coordination::OfferHelp {
-        session,
-        offer,
-        capabilities: TaskSet::of(tasks),
-        echo: Heartbeat(echo),
-        t_safety: Settings::default().t_safety,
     };
     ram(station, coordination)
 }
@@ -105,22 +77,19 @@ pub fn follower(station: StationId, session: SessionId, echo: u16) -> Ram {
     ram(station, coordination)
 }
 
-/// A RAM of a leader at the crossing.
-pub fn leader(session: SessionId, heartbeat: u16, followers: Followers) -> Ram {
-    let coordination = Coordination::Leader {
-        number: session.number,
-        heartbeat: Heartbeat(heartbeat),
-        followers,
-        urgency: Urgency::Medium,
-        place: CROSSING,
-        yields: false,
-    };
-    ram(session.leader, coordination)
-}
-
 /// The command of a leader to do `task`.
 pub fn order(follower: StationId, task: TaskType) -> Event {
     Event::CommandManeuver { follower, task }
+}
+
+/// What came of one input.
+pub struct Step {
+    /// Milliseconds since the beginning.
+    pub now: u32,
+    pub who: StationId,
+    /// The RAM after it.
+    pub ram: Ram,
+    pub outputs: Outputs,
 }
 
 /// Robots, and a radio channel that loses what the script wants lost.
@@ -137,6 +106,10 @@ pub struct Street {
     now: u32,
     /// Robots that hang, and since when.
     hung: BTreeMap<StationId, u32>,
+    /// The steps since an interpreter last took them.
+    pub trace: Vec<Step>,
+    /// The RMCM that each robot sent last.
+    rmcm: BTreeMap<StationId, Rmcm>,
     /// What the signs show: until when *go*. A sign ends by itself, whatever its robot does.
     go_until: BTreeMap<StationId, u32>,
 }
@@ -157,15 +130,10 @@ impl Street {
             heard: Vec::new(),
             now: 0,
             hung: BTreeMap::new(),
+            trace: Vec::new(),
+            rmcm: BTreeMap::new(),
             go_until: BTreeMap::new(),
         }
-    }
-
-    /// A street on which the first robot has asked for help of so many.
-    pub fn asking(stations: &[StationId], followers: u8) -> Self {
-        let mut street = Self::new(stations);
-        street.tell(stations[0], Event::PedestrianDetected(escort(followers)));
-        street
     }
 
     /// A street on which the first robot leads all others, and all have taken their roles.
@@ -263,8 +231,17 @@ impl Street {
                 }
                 _ => {}
             }
+            if let Output::SendRmcm(rmcm) = output {
+                self.rmcm.insert(who, rmcm);
+            }
             self.heard.push((who, output));
         }
+        self.trace.push(Step {
+            now: self.now,
+            who,
+            ram: self[who].ram(),
+            outputs,
+        });
         outputs
     }
 
@@ -306,11 +283,6 @@ impl Street {
                 distance: NEAR,
             },
         )
-    }
-
-    /// `who` hears `rmcm`, perhaps one from long ago.
-    pub fn hears_rmcm(&mut self, who: StationId, rmcm: Rmcm) -> Outputs {
-        self.step(who, Input::Rmcm(rmcm))
     }
 
     /// Time passes for all robots alike, each told at the moment when a timer is due.
@@ -359,6 +331,15 @@ impl Street {
             .is_some_and(|until| self.now < *until)
     }
 
+    /// The signs that have ended by themselves since somebody asked, and when.
+    pub fn ended_signs(&mut self) -> Vec<(StationId, u32)> {
+        let now = self.now;
+        let ended = self.go_until.iter().filter(|(_, until)| **until <= now);
+        let ended: Vec<_> = ended.map(|(who, until)| (*who, *until)).collect();
+        self.go_until.retain(|_, until| *until > now);
+        ended
+    }
+
     /// From now on `to` hears nothing of `from`.
     pub fn cut(&mut self, from: StationId, to: StationId) {
         self.cut.insert((from, to));
@@ -386,13 +367,6 @@ impl Street {
         self.robots.remove(&who);
     }
 
-    /// Everything that `who` has put out since the script last asked, and forgets it.
-    pub fn outputs_of(&mut self, who: StationId) -> Vec<Output> {
-        let (of_who, others) = self.heard.drain(..).partition(|&(id, _)| id == who);
-        self.heard = others;
-        of_who.into_iter().map(|(_, output)| output).collect()
-    }
-
     /// Forgets what was put out so far.
     pub fn forget(&mut self) {
         self.heard.clear();
@@ -403,17 +377,9 @@ impl Street {
         self.heard.contains(&(who, output))
     }
 
-    /// Whether the application of `who` was told this, likewise.
-    pub fn was_told(&self, who: StationId, notice: Notice) -> bool {
-        self.has_put_out(who, Output::Notify(notice))
-    }
-
-    pub fn roles<const N: usize>(&self, of: [StationId; N]) -> [Role; N] {
-        of.map(|who| self[who].role())
-    }
-
-    pub fn states<const N: usize>(&self, of: [StationId; N]) -> [State; N] {
-        of.map(|who| self[who].state())
+    /// The RMCM that `who` sent last.
+    pub fn last_rmcm(&self, who: StationId) -> Option<Rmcm> {
+        self.rmcm.get(&who).copied()
     }
 
     /// How often `who` has put out something of this kind.
@@ -441,13 +407,6 @@ impl Street {
     /// The maneuver that it executes.
     pub fn executes(&self, who: StationId) -> Maneuver {
         self.following(who).executing().expect("a maneuver")
-    }
-
-    pub fn requesting(&self, who: StationId) -> &Requesting {
-        let Phase::Requesting(requesting) = self[who].phase() else {
-            panic!("{who} asks for no help")
-        };
-        requesting
     }
 
     /// What the corridor of `who` is.
@@ -488,32 +447,4 @@ impl std::ops::Index<StationId> for Street {
 #[track_caller]
 pub fn assert_ignored(outputs: &Outputs, why: Ignored) {
     assert_eq!(outputs.ignored(), Some(why));
-}
-
-pub fn falls_back(output: &Output) -> bool {
-    matches!(output, Output::FallBack(..))
-}
-
-pub fn stops(output: &Output) -> bool {
-    matches!(output, Output::StopManeuver(..))
-}
-
-pub fn opens(output: &Output) -> bool {
-    matches!(output, Output::CorridorOpened(_))
-}
-
-pub fn closes(output: &Output) -> bool {
-    matches!(output, Output::CorridorClosed(_))
-}
-
-pub fn starts(output: &Output) -> bool {
-    matches!(output, Output::StartManeuver(_))
-}
-
-pub fn sends_rmcm(output: &Output) -> bool {
-    matches!(output, Output::SendRmcm(_))
-}
-
-pub fn sends_ram(output: &Output) -> bool {
-    matches!(output, Output::SendRam)
 }
