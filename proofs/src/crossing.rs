@@ -13,7 +13,6 @@ const PARTS: usize = 3;
 harnesses! {
     /// Any sensors, any valid state of a source with 32 parts, any time.
     #[unwind(34)]
-    #[solver(cadical)]
     fn a_source_stays_valid_as_time_passes() {
         let passes = occupancy::stays_valid(&mut Symbolic, Change::Elapsed);
         kani::cover!(passes, "time passes");
@@ -21,7 +20,6 @@ harnesses! {
 
     /// As above, any empty frame.
     #[unwind(34)]
-    #[solver(cadical)]
     fn a_source_stays_valid_by_an_empty_frame() {
         let is_taken_in = occupancy::stays_valid(&mut Symbolic, Change::Empty);
         kani::cover!(is_taken_in, "taken in");
@@ -29,7 +27,6 @@ harnesses! {
 
     /// As above, any frame with somebody on the road.
     #[unwind(34)]
-    #[solver(cadical)]
     fn a_source_stays_valid_by_a_person() {
         let is_taken_in = occupancy::stays_valid(&mut Symbolic, Change::Occupied);
         kani::cover!(is_taken_in, "taken in");
@@ -37,7 +34,6 @@ harnesses! {
 
     /// Any two valid states of which one has no more evidence than the other.
     #[unwind(34)]
-    #[solver(cadical)]
     fn with_less_evidence_no_part_is_clearer() {
         let is_clear = occupancy::less_is_no_clearer(&mut Symbolic);
         kani::cover!(is_clear, "clear");
@@ -45,7 +41,6 @@ harnesses! {
 
     /// As above, of three parts, any time.
     #[unwind(34)]
-    #[solver(cadical)]
     fn less_evidence_stays_less_as_time_passes() {
         let passes = occupancy::less_stays_less(&mut Symbolic, Change::Elapsed, PARTS);
         kani::cover!(passes, "time passes");
@@ -53,7 +48,6 @@ harnesses! {
 
     /// As above, any empty frame.
     #[unwind(34)]
-    #[solver(cadical)]
     fn less_evidence_stays_less_by_an_empty_frame() {
         let counts = occupancy::less_stays_less(&mut Symbolic, Change::Empty, PARTS);
         kani::cover!(counts, "it counts");
@@ -61,7 +55,6 @@ harnesses! {
 
     /// As above, any frame with somebody on the road.
     #[unwind(34)]
-    #[solver(cadical)]
     fn less_evidence_stays_less_by_a_person() {
         let counts = occupancy::less_stays_less(&mut Symbolic, Change::Occupied, PARTS);
         kani::cover!(counts, "taken in");
@@ -69,7 +62,6 @@ harnesses! {
 
     /// Any valid state, any empty frame that covers everything.
     #[unwind(34)]
-    #[solver(cadical)]
     fn an_empty_frame_is_evidence() {
         let counts = occupancy::a_frame_is_evidence(&mut Symbolic);
         kani::cover!(counts, "it counts");
@@ -77,7 +69,6 @@ harnesses! {
 
     /// As above, at once or at any time later.
     #[unwind(34)]
-    #[solver(cadical)]
     fn a_late_frame_is_less_evidence() {
         let counts = occupancy::late_is_less(&mut Symbolic);
         kani::cover!(counts, "it counts although it is late");
@@ -85,7 +76,6 @@ harnesses! {
 
     /// Any valid state, any empty frame.
     #[unwind(34)]
-    #[solver(cadical)]
     fn a_frame_that_is_dropped_is_no_evidence() {
         let is_dropped = occupancy::the_rest_is_none(&mut Symbolic, Change::Empty);
         kani::cover!(is_dropped, "dropped");
@@ -93,7 +83,6 @@ harnesses! {
 
     /// Any valid state, any frame with somebody on the road.
     #[unwind(34)]
-    #[solver(cadical)]
     fn a_person_is_no_evidence() {
         let is_taken_in = occupancy::the_rest_is_none(&mut Symbolic, Change::Occupied);
         kani::cover!(is_taken_in, "taken in");
@@ -101,7 +90,6 @@ harnesses! {
 
     /// Any valid state, any time.
     #[unwind(34)]
-    #[solver(cadical)]
     fn time_is_no_evidence() {
         let passes = occupancy::the_rest_is_none(&mut Symbolic, Change::Elapsed);
         kani::cover!(passes, "time passes");
@@ -109,7 +97,6 @@ harnesses! {
 
     /// Any valid state, any frame.
     #[unwind(34)]
-    #[solver(cadical)]
     fn a_frame_counts_once() {
         let counts = occupancy::twice_is_once(&mut Symbolic);
         kani::cover!(counts, "it counts");
@@ -117,7 +104,6 @@ harnesses! {
 
     /// Any rules, any valid presence, any position, any time.
     #[unwind(2)]
-    #[solver(cadical)]
     fn presence_stays_valid() {
         let is_there = position::stays_valid(&mut Symbolic);
         kani::cover!(is_there, "there");
@@ -125,7 +111,6 @@ harnesses! {
 
     /// As above, any two of which one is no more than the other.
     #[unwind(2)]
-    #[solver(cadical)]
     fn less_presence_stays_less() {
         let is_there = position::less_stays_less(&mut Symbolic);
         kani::cover!(is_there, "there");
@@ -133,7 +118,6 @@ harnesses! {
 
     /// As above, any two positions of which one is worse.
     #[unwind(2)]
-    #[solver(cadical)]
     fn a_worse_position_is_less_presence() {
         let is_there = position::worse_is_less(&mut Symbolic);
         kani::cover!(is_there, "there by the better one");

@@ -19,8 +19,8 @@ impl Harness {
     }
 }
 
-/// Declares the harnesses of a module: functions with the bound of their loops, their solver and
-/// perhaps a function that takes the place of another one, or with the reason why they are not proved.
+/// Declares the harnesses of a module: functions with the bound of their loops and perhaps a
+/// function that takes the place of another one, or with the reason why they are not proved.
 ///
 /// Under Kani each is a `#[kani::proof]`, or left out if it is not proved; otherwise it is a function,
 /// and the module has a table of them.
@@ -29,7 +29,6 @@ macro_rules! harnesses {
         $(#[doc = $doc:expr])*
         $(
             #[unwind($unwind:literal)]
-            #[solver($solver:ident)]
             $(#[stub($($stub:tt)*)])*
         )?
         $(#[random_only($reason:literal)])?
@@ -40,7 +39,7 @@ macro_rules! harnesses {
             $(
                 #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::proof)]
                 #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::unwind($unwind))]
-                #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::solver($solver))]
+                #[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::solver(cadical))]
                 $(#[cfg_attr(all(kani, not(feature = "stand-in")), ::kani::stub($($stub)*))])*
             )?
             $(

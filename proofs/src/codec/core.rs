@@ -127,7 +127,6 @@ macro_rules! containers {
             $(
                 #[doc = concat!("All values of `", stringify!($value), "`.")]
                 #[unwind($value_unwind)]
-                #[solver(cadical)]
                 #[stub(crossguard_codec::core::Reader::skip_additions, crate::codec::core::never)]
                 fn $back() {
                     super::values::<$value, { crossguard_codec::core::max_octets::<$value>() }>($class);
@@ -136,7 +135,6 @@ macro_rules! containers {
             $(
                 #[doc = concat!("Any octets that are to be a `", stringify!($coded), "`.")]
                 #[unwind($coded_unwind)]
-                #[solver(cadical)]
                 #[stub(crossguard_codec::core::Reader::skip_additions, crate::codec::core::no_additions)]
                 fn $canonical() {
                     super::octets::<$coded, { crossguard_codec::core::max_octets::<$coded>() }>();
@@ -145,7 +143,6 @@ macro_rules! containers {
             $($(
                 #[doc = concat!("All values of `", stringify!($whole), "`, cut anywhere.")]
                 #[unwind($whole_unwind)]
-                #[solver(cadical)]
                 #[stub(crossguard_codec::core::Reader::skip_additions, crate::codec::core::never)]
                 fn $cut() {
                     super::cuts::<$whole, { crossguard_codec::core::max_octets::<$whole>() }>();

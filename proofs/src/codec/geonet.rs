@@ -96,7 +96,6 @@ fn any_headers_come_back(transport: Transport) {
 harnesses! {
     /// Any octets, up to the length of the longest headers and two more.
     #[unwind(64)]
-    #[solver(cadical)]
     fn decoding_is_total() {
         let length = usize::from(kani::any::<u8>()) % (PACKET + 1);
         let octets: [u8; PACKET] = any_octets(0x50, length.saturating_sub(40));
@@ -107,7 +106,6 @@ harnesses! {
 
     /// Any packet of single-hop broadcast with two octets of payload.
     #[unwind(64)]
-    #[solver(cadical)]
     fn single_hop_is_canonical() {
         any_packet::<46>(0x50);
     }
@@ -115,21 +113,18 @@ harnesses! {
     /// Any packet of geo-broadcast to a circle with two octets of payload. To another shape only the header
     /// type is another one.
     #[unwind(64)]
-    #[solver(cadical)]
     fn geo_broadcast_is_canonical() {
         any_packet::<PACKET>(0x40);
     }
 
     /// Any headers of single-hop broadcast.
     #[unwind(64)]
-    #[solver(cadical)]
     fn single_hop_comes_back() {
         any_headers_come_back(Transport::SingleHop { media: kani::any() });
     }
 
     /// Any headers of geo-broadcast to a circle. To another shape only the header type is another one.
     #[unwind(64)]
-    #[solver(cadical)]
     fn geo_broadcast_comes_back() {
         let area = Area {
             shape: Shape::Circle,

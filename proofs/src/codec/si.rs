@@ -11,7 +11,6 @@ use crate::kani;
 harnesses! {
     /// All quantities.
     #[unwind(2)]
-    #[solver(cadical)]
     fn state_of_charge_is_total() {
         let quantity = kani::any::<f64>();
         laws::scales_are_total(&si::STATE_OF_CHARGE.scale, quantity);
@@ -23,7 +22,6 @@ harnesses! {
 
     /// All quantities.
     #[unwind(2)]
-    #[solver(cadical)]
     fn speed_is_total() {
         let quantity = kani::any::<f64>();
         laws::scales_are_total(&si::SPEED.scale, quantity);
@@ -35,7 +33,6 @@ harnesses! {
 
     /// All quantities.
     #[unwind(2)]
-    #[solver(cadical)]
     fn latitude_is_total() {
         let quantity = kani::any::<f64>();
         laws::scales_are_total(&si::LATITUDE.scale, quantity);
@@ -46,7 +43,6 @@ harnesses! {
 
     /// All half widths.
     #[unwind(16)]
-    #[solver(cadical)]
     fn altitude_confidence_is_the_smallest_that_fits() {
         let half_width = kani::any::<f64>();
         laws::classes_are_the_smallest_that_fit(&si::ALTITUDE_CONFIDENCE, half_width);
@@ -57,7 +53,6 @@ harnesses! {
 
     /// All half widths.
     #[unwind(9)]
-    #[solver(cadical)]
     fn yaw_rate_confidence_is_the_smallest_that_fits() {
         let half_width = kani::any::<f64>();
         laws::classes_are_the_smallest_that_fit(&si::YAW_RATE_CONFIDENCE, half_width);
@@ -67,7 +62,6 @@ harnesses! {
 
     /// All counts of steps, of scales of 8, 16 and 32 bits.
     #[unwind(2)]
-    #[solver(cadical)]
     fn counts_saturate() {
         let steps = kani::any();
         laws::counts_saturate(&si::STATE_OF_CHARGE.scale, steps);

@@ -8,7 +8,6 @@ use crate::kani;
 harnesses! {
     /// All pairs of instants.
     #[unwind(6)]
-    #[solver(cadical)]
     fn time_stamps_keep_their_instant() {
         let (earlier, later): (i64, i64) = (kani::any(), kani::any());
         laws::time_stamps_keep_their_instant(earlier, later);
@@ -18,7 +17,6 @@ harnesses! {
 
     /// All time stamps, those within leap seconds included.
     #[unwind(6)]
-    #[solver(cadical)]
     fn instants_keep_their_time_stamp() {
         let stamp = kani::any();
         laws::instants_keep_their_time_stamp(stamp);
@@ -27,7 +25,6 @@ harnesses! {
 
     /// All instants of reception of the time scale but its first minute, and all ages.
     #[unwind(2)]
-    #[solver(cadical)]
     fn generation_times_are_rebuilt() {
         let (now, bits): (u64, u16) = (kani::any(), kani::any());
         let now = now % (si::TIMESTAMP_ITS_MAX + 1);

@@ -26,7 +26,6 @@ fn any_view(part: u32) {
 harnesses! {
     /// Any answer.
     #[unwind(6)]
-    #[solver(cadical)]
     fn answers_keep_the_view() {
         let answer: Answer = arbitrary::answer(&mut Symbolic);
         let status = ExecutionStatus {
@@ -41,7 +40,6 @@ harnesses! {
 
     /// Any command, without parameters.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_command_keeps_the_view() {
         let command: Command = arbitrary::command(&mut Symbolic);
         laws::commands_keep_the_view(&[(command, TaskParameters::default())]);
@@ -52,14 +50,12 @@ harnesses! {
 
     /// A RAM without a part in a session, with any farewell.
     #[unwind(6)]
-    #[solver(cadical)]
     fn farewells_keep_the_view() {
         any_view(0);
     }
 
     /// A RAM that asks for help.
     #[unwind(6)]
-    #[solver(cadical)]
     #[random_only("Kani was stopped unfinished, after two to seven minutes on a busy machine.")]
     fn requests_keep_the_view() {
         any_view(1);
@@ -67,14 +63,12 @@ harnesses! {
 
     /// A RAM that offers help.
     #[unwind(6)]
-    #[solver(cadical)]
     fn offers_keep_the_view() {
         any_view(2);
     }
 
     /// A RAM of a leader.
     #[unwind(6)]
-    #[solver(cadical)]
     #[random_only("Kani was stopped unfinished, after two to seven minutes on a busy machine.")]
     fn leaders_keep_the_view() {
         any_view(3);
@@ -82,14 +76,12 @@ harnesses! {
 
     /// A RAM of a follower.
     #[unwind(6)]
-    #[solver(cadical)]
     fn followers_keep_the_view() {
         any_view(4);
     }
 
     /// Any status and any part in a session, in a RAM that is otherwise the lowest one.
     #[unwind(18)]
-    #[solver(cadical)]
     fn hearing_a_ram_is_total() {
         let mut ram = RAM::LOWEST;
         ram.header.station_id = Uper::arbitrary(&mut Symbolic);
@@ -107,7 +99,6 @@ harnesses! {
 
     /// Any answer in an RMCM that is otherwise the lowest one.
     #[unwind(6)]
-    #[solver(cadical)]
     fn hearing_an_answer_is_total() {
         let mut rmcm = RMCM::LOWEST;
         rmcm.header.station_id = Uper::arbitrary(&mut Symbolic);

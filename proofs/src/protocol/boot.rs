@@ -10,7 +10,6 @@ use crate::kani;
 harnesses! {
     /// Every station id and boot counter.
     #[unwind(17)]
-    #[solver(cadical)]
     fn boots_into_a_valid_state() {
         let config = any_config();
         steps::boots_into_a_valid_state(&config, StationId(kani::any()), kani::any());

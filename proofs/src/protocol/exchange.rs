@@ -112,22 +112,18 @@ impl Kept {
 macro_rules! steps {
     ($part:ident; $(
         $(#[doc = $doc:literal])*
-        $name:ident($stage:ident, $kind:expr $(, $laws:ident)?) |$kept:ident| { $($mark:literal: $came:expr),+ $(,)? }
+        $name:ident($stage:ident, $kind:expr $(, $laws:ident)?) |$kept:ident| $marks:tt
     )+) => {
         harnesses! { $(
             $(#[doc = $doc])*
             #[unwind(6)]
-            #[solver(cadical)]
             fn $name() {
                 let laws = stage::laws_of!(Laws::All $(, Laws::$laws)?);
                 let $kept = &match $kind {
                     Kind::Fires(timer) => any_firing(Part::$part, Role::$stage, timer, laws),
                     kind => any_step(Part::$part, Role::$stage, kind, laws),
                 };
-                $(
-                    let came: bool = $came;
-                    kani::cover!(came, $mark);
-                )+
+                stage::marks!($marks);
             }
         )+ }
     };

@@ -20,6 +20,24 @@ steps_with_those_of_leaders! { FROM, all;
         changes_its_identity(Kind::Local(EventKind::IdentityChanged));
         hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered));
     }
+    @each |step| {
+        "reports": !step.is_ignored(),
+        "ignored": step.is_ignored(),
+    } {
+        completes_a_maneuver(Kind::Local(EventKind::ManeuverCompleted));
+        fails_a_maneuver(Kind::Local(EventKind::ManeuverFailed));
+        reaches_its_position(Kind::Local(EventKind::InPosition));
+        leaves_its_position(Kind::Local(EventKind::OutOfPosition));
+    }
+    @each |step| {
+        "stops as the crossing is completed": step.said.has(OutputKind::StopManeuver),
+        "falls back as the session is aborted": step.said.has(OutputKind::FallBack),
+        "names a session as over": step.said.has(OutputKind::SendRam),
+        "ignored": step.is_ignored(),
+    } {
+        hears_an_offer(Kind::RamOfferHelp);
+        hears_a_follower(Kind::RamFollower);
+    }
 
     /// A RAM of a leader: the state stays valid.
     stays_valid_as_it_hears_a_leader(Kind::RamLeader, keeps_the_state_valid) |step| {
@@ -51,22 +69,6 @@ steps_with_those_of_leaders! { FROM, all;
         "ignored": step.is_ignored(),
     }
 
-    /// A RAM that offers help.
-    hears_an_offer(Kind::RamOfferHelp) |step| {
-        "stops as the crossing is completed": step.said.has(OutputKind::StopManeuver),
-        "falls back as the session is aborted": step.said.has(OutputKind::FallBack),
-        "names a session as over": step.said.has(OutputKind::SendRam),
-        "ignored": step.is_ignored(),
-    }
-
-    /// A RAM of a follower.
-    hears_a_follower(Kind::RamFollower) |step| {
-        "stops as the crossing is completed": step.said.has(OutputKind::StopManeuver),
-        "falls back as the session is aborted": step.said.has(OutputKind::FallBack),
-        "names a session as over": step.said.has(OutputKind::SendRam),
-        "ignored": step.is_ignored(),
-    }
-
     /// A command.
     hears_a_command(Kind::Command) |step| {
         "supersedes": step.said.has(OutputKind::StartManeuver) && step.said.has(OutputKind::StopManeuver),
@@ -74,18 +76,6 @@ steps_with_those_of_leaders! { FROM, all;
         "takes its duty up": step.before.duty().is_some() && step.after.duty().is_none(),
         "answers again": step.said.answered.is_some() && step.before == step.after,
         "rejects": step.said.answered.is_some() && !step.said.has(OutputKind::StartManeuver) && step.before != step.after,
-        "ignored": step.is_ignored(),
-    }
-
-    /// The body has completed a maneuver.
-    completes_a_maneuver(Kind::Local(EventKind::ManeuverCompleted)) |step| {
-        "reports": !step.is_ignored(),
-        "ignored": step.is_ignored(),
-    }
-
-    /// The body has failed at a maneuver.
-    fails_a_maneuver(Kind::Local(EventKind::ManeuverFailed)) |step| {
-        "reports": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }
 
@@ -107,18 +97,6 @@ steps_with_those_of_leaders! { FROM, all;
     fires_a_timer(Kind::Expired) |step| {
         "falls back": step.said.has(OutputKind::FallBack),
         "leaves": becomes(step, Role::None),
-        "ignored": step.is_ignored(),
-    }
-
-    /// The body holds its place.
-    reaches_its_position(Kind::Local(EventKind::InPosition)) |step| {
-        "reports": !step.is_ignored(),
-        "ignored": step.is_ignored(),
-    }
-
-    /// The body has left its place.
-    leaves_its_position(Kind::Local(EventKind::OutOfPosition)) |step| {
-        "reports": !step.is_ignored(),
         "ignored": step.is_ignored(),
     }
 

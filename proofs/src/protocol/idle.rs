@@ -22,28 +22,18 @@ steps_with_those_of_leaders! { FROM, all;
         sees_a_person(Kind::Local(EventKind::PersonOnRoad));
         hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered));
     }
+    @each |step| {
+        "names a session as over": step.said.has(OutputKind::SendRam),
+        "ignored": step.is_ignored(),
+    } {
+        hears_an_offer(Kind::RamOfferHelp);
+        hears_a_leader(Kind::RamLeader);
+        hears_a_follower(Kind::RamFollower);
+    }
 
     /// A RAM that asks for help.
     hears_a_request(Kind::RamNeedHelp) |step| {
         "offers": becomes(step, Role::Helper),
-        "ignored": step.is_ignored(),
-    }
-
-    /// A RAM that offers help.
-    hears_an_offer(Kind::RamOfferHelp) |step| {
-        "names a session as over": step.said.has(OutputKind::SendRam),
-        "ignored": step.is_ignored(),
-    }
-
-    /// A RAM of a leader.
-    hears_a_leader(Kind::RamLeader) |step| {
-        "names a session as over": step.said.has(OutputKind::SendRam),
-        "ignored": step.is_ignored(),
-    }
-
-    /// A RAM of a follower.
-    hears_a_follower(Kind::RamFollower) |step| {
-        "names a session as over": step.said.has(OutputKind::SendRam),
         "ignored": step.is_ignored(),
     }
 

@@ -12,7 +12,6 @@ use crate::kani;
 harnesses! {
     /// Whatever a requester ignores.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_requester_goes_on() {
         let step = requesting::FROM.any_ignored([&requesting::IGNORED, &OF_LEADERS], of_an_ignored_input);
         kani::cover!(step.is_ignored(), "ignored");
@@ -20,7 +19,6 @@ harnesses! {
 
     /// Whatever a leader ignores.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_leader_goes_on() {
         let step = leading::FROM.any_ignored([&leading::IGNORED, &[]], of_an_ignored_input);
         kani::cover!(step.is_ignored(), "ignored");

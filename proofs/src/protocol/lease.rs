@@ -21,7 +21,6 @@ fn any_time() -> u32 {
 harnesses! {
     /// All timers and clocks up to 8 s, with the default drift.
     #[unwind(24)]
-    #[solver(cadical)]
     fn the_lease_ends_before_safety() {
         let settings = Settings {
             t_lease: Millis(any_time()),
@@ -39,7 +38,6 @@ harnesses! {
 
     /// All timers and clocks up to 8 s, with the default drift.
     #[unwind(24)]
-    #[solver(cadical)]
     fn an_offer_lapses_before_its_reservation() {
         let settings = Settings {
             t_offer: Millis(any_time()),
@@ -55,7 +53,6 @@ harnesses! {
 
     /// All leaders with the default configuration, all heartbeats, up to a second at once.
     #[unwind(6)]
-    #[solver(cadical)]
     fn heartbeats_age_as_time_passes() {
         let config = Config::default();
         let robot = any_valid(&config, Role::Leader, (1, 1));
@@ -68,7 +65,6 @@ harnesses! {
 
     /// All leaders with the default configuration, up to a second at once.
     #[unwind(6)]
-    #[solver(cadical)]
     fn time_leaves_leases_covered() {
         let config = Config::default();
         let robot = any_valid(&config, Role::Leader, (1, 1));

@@ -13,7 +13,6 @@ fn any_list() -> Numbers {
 harnesses! {
     /// All lists.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_list_holds_what_it_was_made_of() {
         let length = usize::from(kani::any::<u8>() % 5);
         laws::holds_what_it_was_made_of(kani::any(), length);
@@ -23,7 +22,6 @@ harnesses! {
 
     /// All lists and items.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_push_appends() {
         let (list, item) = (any_list(), kani::any());
         laws::pushes_to_the_end(list, item);
@@ -33,7 +31,6 @@ harnesses! {
 
     /// All lists and items.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_removal_closes_the_gap() {
         let (list, item) = (any_list(), kani::any());
         laws::removes_the_first(list, item);
@@ -43,7 +40,6 @@ harnesses! {
 
     /// All sorted lists and items.
     #[unwind(8)]
-    #[solver(cadical)]
     fn a_ranked_insertion_keeps_the_best() {
         let (list, item) = (any_list(), kani::any());
         laws::inserts_by_rank(list, item);
@@ -53,7 +49,6 @@ harnesses! {
 
     /// All slots.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_list_is_dense_without_gaps() {
         let slots = kani::any::<[u8; 4]>().map(|slot| (slot % 2 == 1).then_some(slot));
         laws::tells_of_gaps(slots);

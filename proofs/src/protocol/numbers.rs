@@ -9,7 +9,6 @@ use crate::kani;
 harnesses! {
     /// All pairs of request numbers.
     #[unwind(1)]
-    #[solver(cadical)]
     fn requests_are_in_one_order() {
         let (a, b) = (RequestId(kani::any()), RequestId(kani::any()));
         laws::requests_are_in_one_order(a, b);
@@ -20,7 +19,6 @@ harnesses! {
 
     /// All triples of request numbers of one session.
     #[unwind(6)]
-    #[solver(cadical)]
     fn requests_of_a_session_are_transitive() {
         let [first, a, b, c] = kani::any::<[u8; 4]>().map(RequestId);
         laws::requests_of_a_session_are_transitive(first, a, b, c);
@@ -30,7 +28,6 @@ harnesses! {
 
     /// All pairs of heartbeats, and all distances.
     #[unwind(1)]
-    #[solver(cadical)]
     fn heartbeats_are_in_one_order() {
         let (a, b) = (Heartbeat(kani::any()), Heartbeat(kani::any()));
         laws::heartbeats_are_in_one_order(a, b);
@@ -43,7 +40,6 @@ harnesses! {
 
     /// All triples of heartbeats of one session.
     #[unwind(6)]
-    #[solver(cadical)]
     fn heartbeats_of_a_session_are_transitive() {
         let [first, a, b, c] = kani::any::<[u16; 4]>().map(Heartbeat);
         laws::heartbeats_of_a_session_are_transitive(first, a, b, c);
@@ -52,7 +48,6 @@ harnesses! {
 
     /// All pairs of unique numbers.
     #[unwind(1)]
-    #[solver(cadical)]
     fn unique_numbers_survive_the_wire() {
         let [boot, count, other_boot, other_count] = kani::any::<[u16; 4]>();
         let a = UniqueNumber { boot, count };

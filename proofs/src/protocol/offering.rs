@@ -23,6 +23,21 @@ steps_with_those_of_leaders! { FROM, all;
         clears_the_road(Kind::Local(EventKind::RoadClear));
         hears_that_all_have_answered(Kind::Local(EventKind::AllAnswered));
     }
+    @each |step| {
+        "the session ended": becomes(step, Role::None),
+        "names a session as over": step.said.has(OutputKind::SendRam),
+        "ignored": step.is_ignored(),
+    } {
+        hears_an_offer(Kind::RamOfferHelp);
+        hears_a_follower(Kind::RamFollower);
+    }
+    @each |step| {
+        "withdraws": becomes(step, Role::None),
+        "ignored": step.is_ignored(),
+    } {
+        changes_its_availability(Kind::Local(EventKind::AvailabilityChanged));
+        fires_a_timer(Kind::Expired);
+    }
 
     /// A RAM of a leader.
     hears_a_leader(Kind::RamLeader) |step| {
@@ -44,35 +59,9 @@ steps_with_those_of_leaders! { FROM, all;
         "ignored": step.is_ignored(),
     }
 
-    /// A RAM that offers help.
-    hears_an_offer(Kind::RamOfferHelp) |step| {
-        "the session ended": becomes(step, Role::None),
-        "names a session as over": step.said.has(OutputKind::SendRam),
-        "ignored": step.is_ignored(),
-    }
-
-    /// A RAM of a follower.
-    hears_a_follower(Kind::RamFollower) |step| {
-        "the session ended": becomes(step, Role::None),
-        "names a session as over": step.said.has(OutputKind::SendRam),
-        "ignored": step.is_ignored(),
-    }
-
     /// The robot is to leave.
     leaves(Kind::Local(EventKind::LeaveRequested)) |step| {
         "leaves": becomes(step, Role::None),
-    }
-
-    /// The robot becomes available or unavailable.
-    changes_its_availability(Kind::Local(EventKind::AvailabilityChanged)) |step| {
-        "withdraws": becomes(step, Role::None),
-        "ignored": step.is_ignored(),
-    }
-
-    /// The expiry of any timer.
-    fires_a_timer(Kind::Expired) |step| {
-        "withdraws": becomes(step, Role::None),
-        "ignored": step.is_ignored(),
     }
 
     /// A larger boot counter has been persisted.

@@ -38,6 +38,12 @@ steps_with_those_of_leaders! { FROM, all, ignores;
         leaves_its_position(IGNORED[8], ignores);
         sees_a_person(IGNORED[9], ignores);
     }
+    @each |step| { "ends its session": becomes(step, Role::None) } {
+        completes_the_task(Kind::Local(EventKind::TaskCompleted));
+        leaves(Kind::Local(EventKind::LeaveRequested));
+        gives_up(Kind::Fires(TimerKind::Help));
+        must_unlock(Kind::Fires(TimerKind::IdentityLock));
+    }
 
     /// A RAM that asks for help as well.
     hears_a_request(Kind::RamNeedHelp) |step| {
@@ -74,16 +80,6 @@ steps_with_those_of_leaders! { FROM, all, ignores;
         "ignored": step.is_ignored(),
     }
 
-    /// The task is completed.
-    completes_the_task(Kind::Local(EventKind::TaskCompleted)) |step| {
-        "ends its session": becomes(step, Role::None),
-    }
-
-    /// The robot is to leave.
-    leaves(Kind::Local(EventKind::LeaveRequested)) |step| {
-        "ends its session": becomes(step, Role::None),
-    }
-
     /// The robot becomes available or unavailable.
     changes_its_availability(Kind::Local(EventKind::AvailabilityChanged)) |step| {
         "ends its session": becomes(step, Role::None),
@@ -94,16 +90,6 @@ steps_with_those_of_leaders! { FROM, all, ignores;
     selects(Kind::Fires(TimerKind::Selection)) |step| {
         "establishes the roles": becomes(step, Role::Leader),
         "goes on": becomes(step, Role::Requester),
-    }
-
-    /// `T_help`.
-    gives_up(Kind::Fires(TimerKind::Help)) |step| {
-        "ends its session": becomes(step, Role::None),
-    }
-
-    /// `T_lock`.
-    must_unlock(Kind::Fires(TimerKind::IdentityLock)) |step| {
-        "ends its session": becomes(step, Role::None),
     }
 
     /// The next RAM.

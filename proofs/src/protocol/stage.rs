@@ -116,45 +116,49 @@ macro_rules! laws_of {
     };
 }
 
+/// Marks what must be able to come of a step.
+macro_rules! marks {
+    ({ $($mark:literal: $came:expr),+ $(,)? }) => {
+        // No branch in a mark: each branch of it would be a mark of its own to Kani.
+        $(
+            let came: bool = $came;
+            $crate::kani::cover!(came, $mark);
+        )+
+    };
+}
+
 /// Declares the harnesses of a stage: the laws of one step from any valid state of it, with any input of
 /// one kind (to a proof each is a case of its own), and what must be able to come of it. Where all laws together are much
-/// to prove, a harness has some of them, and another the rest. Those that have the same marks stand in front, as a list.
+/// to prove, a harness has some of them, and another the rest. Those that have the same marks stand in front, as lists.
 macro_rules! steps {
     ($from:expr, $laws:expr;
-        $(@each |$any:ident| { $same:literal: $comes:expr } {
+        $(@each |$any:ident| $same:tt {
             $($each:ident($of:expr $(, $law:expr)?);)+
-        })?
+        })*
         $(
             $(#[doc = $doc:literal])*
             $(#[random_only($reason:literal)])?
-            $name:ident($kind:expr $(, $own:expr)?) |$step:ident| { $($mark:literal: $came:expr),+ $(,)? }
+            $name:ident($kind:expr $(, $own:expr)?) |$step:ident| $marks:tt
         )*
     ) => {
         $crate::harness::harnesses! {
             $($(
                 #[doc = concat!("Any input of `", stringify!($of), "`.")]
                 #[unwind(6)]
-                #[solver(cadical)]
                 fn $each() {
                     let laws = $crate::protocol::stage::laws_of!($laws $(, $law)?);
                     let $any = &$from.any_step($of, laws);
-                    let came: bool = $comes;
-                    $crate::kani::cover!(came, $same);
+                    $crate::protocol::stage::marks!($same);
                 }
-            )+)?
+            )+)*
             $(
                 $(#[doc = $doc])*
                 #[unwind(6)]
-                #[solver(cadical)]
                 $(#[random_only($reason)])?
                 fn $name() {
                     let laws = $crate::protocol::stage::laws_of!($laws $(, $own)?);
                     let $step = &$from.any_step($kind, laws);
-                    // No branch in a mark: each branch of it would be a mark of its own to Kani.
-                    $(
-                        let came: bool = $came;
-                        $crate::kani::cover!(came, $mark);
-                    )+
+                    $crate::protocol::stage::marks!($marks);
                 }
             )*
         }
@@ -208,4 +212,4 @@ macro_rules! steps_of_leaders {
     };
 }
 
-pub(super) use {laws_of, steps, steps_of_leaders, steps_with_those_of_leaders};
+pub(super) use {laws_of, marks, steps, steps_of_leaders, steps_with_those_of_leaders};

@@ -30,7 +30,6 @@ macro_rules! each_stage {
         $crate::harness::harnesses! { $(
             #[doc = concat!("A robot with the role *", stringify!($role), "*.")]
             #[unwind(6)]
-            #[solver(cadical)]
             fn $name() {
                 $harness(Role::$role);
             }

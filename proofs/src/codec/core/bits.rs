@@ -8,7 +8,6 @@ use crate::kani;
 harnesses! {
     /// Any number of up to 32 bits at any bit of an octet, between up to 7 and up to 8 bits.
     #[unwind(5)]
-    #[solver(cadical)]
     fn bits_are_read_as_written() {
         let before = (kani::any(), kani::any::<u32>() % 8);
         let number: (u32, u32) = (kani::any(), kani::any());
@@ -20,7 +19,6 @@ harnesses! {
 
     /// Any count of bits up to 32, at any position of up to nine octets, and behind them.
     #[unwind(2)]
-    #[solver(cadical)]
     fn reading_stops_at_the_end() {
         let octets: [u8; 9] = kani::any();
         let length = usize::from(kani::any::<u8>()) % 10;
@@ -33,7 +31,6 @@ harnesses! {
 
     /// Any octets, up to twelve bits in front, any count of bits up to 32.
     #[unwind(10)]
-    #[solver(cadical)]
     fn what_is_ahead_decides() {
         let octets: [u8; 9] = kani::any();
         let before = usize::from(kani::any::<u8>()) % 13;
@@ -43,7 +40,6 @@ harnesses! {
 
     /// All bounds of at most 32 bits, and all bits.
     #[unwind(2)]
-    #[solver(cadical)]
     fn integers_keep_their_bounds() {
         let min = i64::from(kani::any::<i32>());
         let largest = kani::any::<u32>() >> (kani::any::<u32>() % 32);
@@ -55,7 +51,6 @@ harnesses! {
 
     /// Up to six octets.
     #[unwind(5)]
-    #[solver(cadical)]
     fn skipping_additions_is_total() {
         let mut octets: [u8; 6] = kani::any();
         let length = usize::from(kani::any::<u8>()) % 7;

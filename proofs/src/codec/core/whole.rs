@@ -32,7 +32,6 @@ macro_rules! stays_inside {
         harnesses! { $(
             #[doc = concat!("Any octets that are to be a `", stringify!($type), "`.")]
             #[unwind($unwind)]
-            #[solver(cadical)]
             #[stub(crossguard_codec::core::Reader::bits, crate::codec::core::any_bits)]
             #[stub(crossguard_codec::core::Reader::skip_additions, crate::codec::core::any_skip)]
             $(#[random_only($reason)])?

@@ -1,8 +1,7 @@
 //! A robot that is the follower of the exchange.
 
 use super::{
-    EventKind, Kind, Laws, Part, Phase, Role, TimerKind, any_firing, any_step, harnesses, kani,
-    stage,
+    EventKind, Kind, Laws, Part, Phase, Role, TimerKind, any_firing, any_step, harnesses, stage,
 };
 
 steps! { Follower;

@@ -103,105 +103,90 @@ fn reboots(part: Part, stage: Role) {
 harnesses! {
     /// What others do leaves a requesting leader as it is.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_requester_is_left_so() {
         others_leave_it_so(Part::Leader, Role::Requester);
     }
 
     /// What others do leaves a leader as it is.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_leader_is_left_so() {
         others_leave_it_so(Part::Leader, Role::Leader);
     }
 
     /// What others do leaves a follower as it is.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_follower_is_left_so() {
         others_leave_it_so(Part::Follower, Role::Follower);
     }
 
     /// A request stays true.
     #[unwind(6)]
-    #[solver(cadical)]
     fn what_a_requester_says_stays_true() {
         stays_true(1);
     }
 
     /// An offer stays true.
     #[unwind(6)]
-    #[solver(cadical)]
     fn what_a_helper_says_stays_true() {
         stays_true(2);
     }
 
     /// A list of followers stays true.
     #[unwind(6)]
-    #[solver(cadical)]
     fn what_a_leader_says_stays_true() {
         stays_true(3);
     }
 
     /// A report and an answer stay true.
     #[unwind(6)]
-    #[solver(cadical)]
     fn what_a_follower_says_stays_true() {
         stays_true(4);
     }
 
     /// A robot that leads or follows elsewhere makes nothing known.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_bystander_leads() {
         bystands(Role::Leader);
     }
 
     /// A robot that follows elsewhere makes nothing known.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_bystander_follows() {
         bystands(Role::Follower);
     }
 
     /// A robot that asks for help makes nothing known.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_bystander_asks() {
         bystands(Role::Requester);
     }
 
     /// A helper of another session makes nothing known.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_bystander_helps() {
         bystands(Role::Helper);
     }
 
     /// A robot without a part makes nothing known.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_bystander_idles() {
         bystands(Role::None);
     }
 
     /// A leader loses power and boots.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_leader_reboots() {
         reboots(Part::Leader, Role::Leader);
     }
 
     /// A follower loses power and boots.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_follower_reboots() {
         reboots(Part::Follower, Role::Follower);
     }
 
     /// A robot takes another station id, which may be that of the leader or the follower.
     #[unwind(6)]
-    #[solver(cadical)]
     fn a_station_is_taken() {
         let kind = Kind::Local(EventKind::IdentityChanged);
         let kept = any_step(Part::Bystander, Role::None, kind, Laws::All);

@@ -18,6 +18,11 @@ steps_of_leaders! { FROM, of_part_and_numbers;
         reaches_its_position(IGNORED[6], ignores);
         hears_that_all_have_answered(IGNORED[7], ignores);
     }
+    @each |step| { "ends its session": becomes(step, Role::None) } {
+        completes_the_task(Kind::Local(EventKind::TaskCompleted));
+        leaves(Kind::Local(EventKind::LeaveRequested));
+        must_unlock(Kind::Fires(TimerKind::IdentityLock));
+    }
 
     /// A RAM of a follower.
     hears_a_follower(Kind::RamFollower) |step| {
@@ -62,16 +67,6 @@ steps_of_leaders! { FROM, of_part_and_numbers;
         "ignored": step.is_ignored(),
     }
 
-    /// The task is completed.
-    completes_the_task(Kind::Local(EventKind::TaskCompleted)) |step| {
-        "ends its session": becomes(step, Role::None),
-    }
-
-    /// The robot is to leave.
-    leaves(Kind::Local(EventKind::LeaveRequested)) |step| {
-        "ends its session": becomes(step, Role::None),
-    }
-
     /// The robot becomes available or unavailable.
     changes_its_availability(Kind::Local(EventKind::AvailabilityChanged)) |step| {
         "ends its session": becomes(step, Role::None),
@@ -104,11 +99,6 @@ steps_of_leaders! { FROM, of_part_and_numbers;
         "drops a follower": step.said.tells(NoticeKind::FollowerGone),
         "ends its session": becomes(step, Role::None),
         "ignored": step.is_ignored(),
-    }
-
-    /// `T_lock`.
-    must_unlock(Kind::Fires(TimerKind::IdentityLock)) |step| {
-        "ends its session": becomes(step, Role::None),
     }
 
     /// The next RAM.

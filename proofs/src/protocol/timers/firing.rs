@@ -48,7 +48,6 @@ macro_rules! firing {
         harnesses! { $(
             #[doc = concat!("The timer *", stringify!($countdown), "* of stage *", stringify!($stage), "*.")]
             #[unwind(6)]
-            #[solver(cadical)]
             fn $name() {
                 any_firing(Role::$stage, TimerKind::$countdown, $laws);
             }
