@@ -42,6 +42,35 @@ fn heading_of(angle: &Wgs84AngleValue) -> Option<f64> {
     si::angle_degrees(angle.0)
 }
 
+/// The road user or the cluster of a VAM, in either version of the dictionary.
+macro_rules! of_vam {
+    ($vam:ident, $now:ident) => {{
+        let parameters = &$vam.vam.vam_parameters;
+        let cluster = parameters.vru_cluster_information_container.as_ref();
+        let cluster = cluster.map(|cluster| &cluster.vru_cluster_information);
+        // A cluster that its head breaks up has nobody any more.
+        if cluster.is_some_and(|cluster| cluster.cluster_cardinality_size.0 == 0) {
+            return Vec::new();
+        }
+        let motion = &parameters.vru_high_frequency_container;
+        vec![RoadUser {
+            cardinality: cluster.map_or(1, |cluster| cluster.cluster_cardinality_size.0),
+            identity: identity_of(
+                $vam.header.station_id.0,
+                cluster.and_then(|cluster| Some(cluster.cluster_id.as_ref()?.0)),
+            ),
+            speed: speed_of(&motion.speed),
+            heading: heading_of(&motion.heading.value),
+            measured_its: si::rebuild_timestamp($now, $vam.vam.generation_delta_time.0),
+            position: cluster_position(
+                &parameters.basic_container,
+                cluster.and_then(|cluster| cluster.cluster_bounding_box_shape.as_ref()),
+            ),
+            ..vru($vam.header.station_id.0, &parameters.basic_container)
+        }]
+    }};
+}
+
 impl ItsMessage {
     /// Who is on the road, as this message tells that is received at `now`, a `TimestampIts`: its
     /// sender, unless it is a CPM, a DENM or an RMCM, the people that a RAM announces, and what a CPM
@@ -65,56 +94,8 @@ impl ItsMessage {
             }
             Self::Rmcm(_) | Self::Denm(_) => Vec::new(),
             Self::Cam(cam) => vec![of_cam(cam, now)],
-            Self::Vam(vam) => {
-                let parameters = &vam.vam.vam_parameters;
-                let cluster = parameters.vru_cluster_information_container.as_ref();
-                let cluster = cluster.map(|cluster| &cluster.vru_cluster_information);
-                // A cluster that its head breaks up has nobody any more.
-                if cluster.is_some_and(|cluster| cluster.cluster_cardinality_size.0 == 0) {
-                    return Vec::new();
-                }
-                let motion = &parameters.vru_high_frequency_container;
-                vec![RoadUser {
-                    cardinality: cluster.map_or(1, |cluster| cluster.cluster_cardinality_size.0),
-                    identity: identity_of(
-                        vam.header.station_id.0,
-                        cluster.and_then(|cluster| Some(cluster.cluster_id.as_ref()?.0)),
-                    ),
-                    speed: speed_of(&motion.speed),
-                    heading: heading_of(&motion.heading.value),
-                    measured_its: si::rebuild_timestamp(now, vam.vam.generation_delta_time.0),
-                    position: cluster_position(
-                        &parameters.basic_container,
-                        cluster.and_then(|cluster| cluster.cluster_bounding_box_shape.as_ref()),
-                    ),
-                    ..vru(vam.header.station_id.0, &parameters.basic_container)
-                }]
-            }
-            Self::Vam211(vam) => {
-                let parameters = &vam.vam.vam_parameters;
-                let cluster = parameters.vru_cluster_information_container.as_ref();
-                let cluster = cluster.map(|cluster| &cluster.vru_cluster_information);
-                // A cluster that its head breaks up has nobody any more.
-                if cluster.is_some_and(|cluster| cluster.cluster_cardinality_size.0 == 0) {
-                    return Vec::new();
-                }
-                let motion = &parameters.vru_high_frequency_container;
-                vec![RoadUser {
-                    cardinality: cluster.map_or(1, |cluster| cluster.cluster_cardinality_size.0),
-                    identity: identity_of(
-                        vam.header.station_id.0,
-                        cluster.and_then(|cluster| Some(cluster.cluster_id.as_ref()?.0)),
-                    ),
-                    speed: speed_of(&motion.speed),
-                    heading: heading_of(&motion.heading.value),
-                    measured_its: si::rebuild_timestamp(now, vam.vam.generation_delta_time.0),
-                    position: cluster_position(
-                        &parameters.basic_container,
-                        cluster.and_then(|cluster| cluster.cluster_bounding_box_shape.as_ref()),
-                    ),
-                    ..vru(vam.header.station_id.0, &parameters.basic_container)
-                }]
-            }
+            Self::Vam(vam) => of_vam!(vam, now),
+            Self::Vam211(vam) => of_vam!(vam, now),
             Self::Cpm(cpm) => of_cpm(cpm),
         }
     }
