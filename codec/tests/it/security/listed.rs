@@ -7,8 +7,8 @@ use super::forge::Terms;
 use super::forge::{issue_permissions, opaque, permissions};
 use super::pki::{NOW, NOW_S, after_ms};
 use super::scene::{
-    ALL, ANTIPODE, AUTHORITY, CAM, EXPIRY, HERE, LOCATION, Pki, RAM, RMCM, SENDER, STRANGER,
-    Vectors, authority_terms, circle, envelope, heard, plain, secured, terms, three_d,
+    ALL, ANTIPODE, AUTHORITY, CAM, HERE, Pki, RAM, RMCM, SENDER, STRANGER, Vectors,
+    authority_terms, circle, envelope, heard, plain, secured, terms,
 };
 
 fn taken(all: &mut Vectors) {
@@ -23,18 +23,12 @@ fn taken(all: &mut Vectors) {
     all.takes(
         ("a DENM where it was generated", "TS 103 097 7.1.2"),
         Service::Denm,
-        |it, _| {
-            it.preamble = LOCATION;
-            it.fields = three_d(HERE);
-        },
+        |it, _| it.is_located(HERE),
     );
     all.takes(
         ("a VAM that expires", "TS 103 097 7.1.3"),
         Service::Vam,
-        |it, _| {
-            it.preamble = EXPIRY;
-            it.fields = (NOW.0 + 500_000).to_be_bytes().to_vec();
-        },
+        |it, _| it.expires(NOW.0 + 500_000),
     );
     all.takes(
         (
@@ -73,7 +67,6 @@ fn taken(all: &mut Vectors) {
 fn profiles(all: &mut Vectors) {
     let header = |name| (name, "TS 103 097 5.2");
     let profile = "against profile";
-    let expiry = |us: u64| (NOW.0 + us).to_be_bytes().to_vec();
     all.refuses(
         header("pduFunctionalType of another protocol"),
         "functional type of another protocol",
@@ -87,30 +80,21 @@ fn profiles(all: &mut Vectors) {
             robots("expiryTime in RAM or RMCM"),
             cause,
             service,
-            |it, _| {
-                it.preamble = EXPIRY;
-                it.fields = expiry(500_000);
-            },
+            |it, _| it.expires(NOW.0 + 500_000),
         );
         let cause = "generation location not allowed";
         all.refuses(
             robots("generationLocation in RAM or RMCM"),
             cause,
             service,
-            |it, _| {
-                it.preamble = LOCATION;
-                it.fields = three_d(HERE);
-            },
+            |it, _| it.is_located(HERE),
         );
     }
     all.refuses(
         robots("generationLocation in CAM"),
         profile,
         Service::Cam,
-        |it, _| {
-            it.preamble = LOCATION;
-            it.fields = three_d(HERE);
-        },
+        |it, _| it.is_located(HERE),
     );
     let denm = |name| (name, "TS 103 097 7.1.2");
     all.refuses(
@@ -120,8 +104,7 @@ fn profiles(all: &mut Vectors) {
         |_, _| {},
     );
     all.refuses(denm("a DENM by digest"), profile, Service::Denm, |it, _| {
-        it.preamble = LOCATION;
-        it.fields = three_d(HERE);
+        it.is_located(HERE);
         it.in_full = false;
     });
     for (bit, name) in [
@@ -139,10 +122,7 @@ fn profiles(all: &mut Vectors) {
         times("expiryTime that is generationTime"),
         cause,
         Service::Vam,
-        |it, _| {
-            it.preamble = EXPIRY;
-            it.fields = expiry(0);
-        },
+        |it, _| it.expires(NOW.0),
     );
     all.refuses(
         times("expiryTime that is over"),
@@ -150,9 +130,8 @@ fn profiles(all: &mut Vectors) {
         Service::Vam,
         |it, _| {
             it.generated_us -= 1_000_000;
-            it.payload = plain(Service::Vam, Time64(it.generated_us), HERE)[4..].to_vec();
-            it.preamble = EXPIRY;
-            it.fields = (NOW.0 - 1).to_be_bytes().to_vec();
+            it.is_said(Service::Vam, Time64(it.generated_us), HERE);
+            it.expires(NOW.0 - 1);
         },
     );
     let cause = "malformed envelope";
@@ -174,18 +153,13 @@ fn places_and_times(all: &mut Vectors) {
         on_earth("generationLocation at 200 degrees"),
         cause,
         Service::Vam,
-        |it, _| {
-            it.preamble = LOCATION;
-            it.fields = three_d(nowhere);
-        },
+        |it, _| it.is_located(nowhere),
     );
     all.refuses(
         on_earth("source position at 200 degrees"),
         cause,
         Service::Ram,
-        |it, _| {
-            it.payload = plain(Service::Ram, NOW, nowhere)[4..].to_vec();
-        },
+        |it, _| it.is_said(Service::Ram, NOW, nowhere),
     );
     all.refuses(
         on_earth("a region at 200 degrees"),
@@ -204,7 +178,7 @@ fn places_and_times(all: &mut Vectors) {
         cause,
         Service::Ram,
         |it, pki| {
-            it.payload = plain(Service::Ram, NOW, outside)[4..].to_vec();
+            it.is_said(Service::Ram, NOW, outside);
             it.certificate = pki.other(|it| it.region = circle(HERE, 500));
         },
     );
@@ -213,9 +187,8 @@ fn places_and_times(all: &mut Vectors) {
         cause,
         Service::Denm,
         |it, pki| {
-            it.payload = plain(Service::Denm, NOW, outside)[4..].to_vec();
-            it.preamble = LOCATION;
-            it.fields = three_d(HERE);
+            it.is_said(Service::Denm, NOW, outside);
+            it.is_located(HERE);
             it.certificate = pki.other(|it| it.region = circle(HERE, 500));
         },
     );
@@ -225,17 +198,14 @@ fn places_and_times(all: &mut Vectors) {
         "TS 103 097 7.1.2",
     );
     all.refuses(there, elsewhere, Service::Denm, |it, _| {
-        it.preamble = LOCATION;
-        it.fields = three_d((HERE.0 + 2_000_000, HERE.1));
+        it.is_located((HERE.0 + 2_000_000, HERE.1));
     });
     let plausible = |name| (name, "IEEE 1609.2 5.2 relevance");
     all.refuses(
         plausible("a sender on the other side of the earth"),
         "too far away",
         Service::Ram,
-        |it, _| {
-            it.payload = plain(Service::Ram, NOW, ANTIPODE)[4..].to_vec();
-        },
+        |it, _| it.is_said(Service::Ram, NOW, ANTIPODE),
     );
     let cause = "position vector of another time";
     for (name, at) in [
@@ -246,7 +216,7 @@ fn places_and_times(all: &mut Vectors) {
         ),
     ] {
         all.refuses(plausible(name), cause, Service::Ram, |it, _| {
-            it.payload = plain(Service::Ram, Time64(at), HERE)[4..].to_vec();
+            it.is_said(Service::Ram, Time64(at), HERE);
         });
     }
     for (name, cause, generated_us) in [
@@ -259,7 +229,7 @@ fn places_and_times(all: &mut Vectors) {
     ] {
         all.refuses(plausible(name), cause, Service::Ram, |it, _| {
             it.generated_us = generated_us;
-            it.payload = plain(Service::Ram, Time64(generated_us), HERE)[4..].to_vec();
+            it.is_said(Service::Ram, Time64(generated_us), HERE);
         });
     }
 }

@@ -148,12 +148,23 @@ pub(crate) fn envelope(pki: &Pki, service: Service, at: Time64) -> Envelope {
     }
 }
 
-/// Preamble bits of `HeaderInfo`.
-pub(crate) const EXPIRY: u8 = 0x20;
-pub(crate) const LOCATION: u8 = 0x10;
+impl Envelope {
+    /// It has a `generationLocation`.
+    pub(crate) fn is_located(&mut self, place: (i32, i32)) {
+        self.preamble = 0x10;
+        self.fields = [location(place), vec![0x10, 0]].concat();
+    }
 
-pub(crate) fn three_d(place: (i32, i32)) -> Vec<u8> {
-    [location(place), vec![0x10, 0]].concat()
+    /// It has an `expiryTime`.
+    pub(crate) fn expires(&mut self, at_us: u64) {
+        self.preamble = 0x20;
+        self.fields = at_us.to_be_bytes().to_vec();
+    }
+
+    /// The position vector of its packet has this time and place.
+    pub(crate) fn is_said(&mut self, service: Service, at: Time64, place: (i32, i32)) {
+        self.payload = plain(service, at, place)[4..].to_vec();
+    }
 }
 
 pub(crate) fn circle(centre: (i32, i32), metres: u16) -> Vec<u8> {
