@@ -4,9 +4,9 @@
 
 use std::error::Error;
 
-use crate::support::{canonical, from_hex, without_reserved_bits};
+use crate::support::{canonical, from_hex, golden, its_vectors, without_reserved_bits};
 use crossguard_codec::geonet::Headers;
-use crossguard_codec::{DecodeError, Dictionary, Identifiers};
+use crossguard_codec::{DecodeError, Identifiers};
 use serde_json::Value;
 
 struct Vector {
@@ -18,36 +18,29 @@ struct Vector {
 
 /// All vectors of `golden/`.
 fn vectors() -> Vec<Vector> {
-    let lines = [
-        include_str!("../golden/its.txt"),
-        include_str!("../golden/vam.txt"),
-        include_str!("../golden/packets.txt"),
-    ];
-    let lines = lines.iter().flat_map(|text| text.lines());
-    let of_others = lines
-        .filter(|line| !line.starts_with('#'))
-        .filter_map(|line| line.split_once(": "))
-        .map(|(name, hex)| (name.to_owned(), from_hex(hex)));
+    let vector = |name: &str, identifiers, octets| Vector {
+        name: name.to_owned(),
+        octets,
+        identifiers,
+        is_packet: false,
+    };
+    let of_others =
+        its_vectors().map(|(name, identifiers, octets)| vector(name, identifiers, octets));
+    let packets = golden::vectors(golden::PACKETS).map(|(name, digits)| Vector {
+        is_packet: name.starts_with('G'),
+        ..vector(name, Identifiers::default(), from_hex(digits))
+    });
     let of_robots: Vec<Value> =
         serde_json::from_str(include_str!("../golden/messages.json")).unwrap();
-    let of_robots = of_robots.into_iter().map(|golden| {
-        let text = |key: &str| golden[key].as_str().unwrap().to_owned();
-        (text("name"), from_hex(&text("octets")))
+    let of_robots = of_robots.iter().map(|golden| {
+        let text = |key: &str| golden[key].as_str().unwrap();
+        vector(
+            text("name"),
+            Identifiers::default(),
+            from_hex(text("octets")),
+        )
     });
-    let vector = |(name, octets): (String, Vec<u8>)| Vector {
-        is_packet: name.starts_with('G'),
-        identifiers: Identifiers {
-            dictionary: if name.starts_with('W') {
-                Dictionary::V2_1_1
-            } else {
-                Dictionary::V2_4_1
-            },
-            ..Identifiers::default()
-        },
-        name,
-        octets,
-    };
-    of_others.chain(of_robots).map(vector).collect()
+    of_others.chain(packets).chain(of_robots).collect()
 }
 
 fn check(vector: &Vector, octets: &[u8]) -> Result<(), Box<dyn Error>> {

@@ -1,6 +1,6 @@
 //! DENM: what the golden vector says, what senders encode otherwise than we do, what is refused, and strings.
 
-use crate::support::{arbitrary, from_bits, from_hex, to_bits};
+use crate::support::{arbitrary, from_bits, from_hex, golden, to_bits};
 use crossguard_codec::asn1::cam::CauseCodeV2;
 use crossguard_codec::asn1::denm::{
     CompanyName, DENM, PhoneNumber, StationaryVehicleContainer, Termination,
@@ -18,9 +18,7 @@ const MANAGEMENT_END: usize = MANAGEMENT_MARKER + 1 + 5 + 48 + 42 + 42 + (31 + 3
 const CAUSE: usize = MANAGEMENT_END + 1 + 2 + 3 + 1;
 
 fn d1() -> Vec<u8> {
-    let mut lines = include_str!("../golden/its.txt").lines();
-    let hex = lines.find_map(|line| line.strip_prefix("D1: "));
-    from_hex(hex.expect("the golden DENM"))
+    from_hex(golden::vector(golden::ITS, "D1"))
 }
 
 fn read(octets: &[u8]) -> Result<Received<DENM>, DecodeError> {

@@ -4,11 +4,11 @@
 use std::env;
 
 use allocation_counter::measure;
+use crossguard_codec::MESSAGE_LEN_MAX;
 use crossguard_codec::its::ItsMessage;
-use crossguard_codec::{Dictionary, Identifiers, MESSAGE_LEN_MAX};
 
 use crate::support::core::{Random, mutate};
-use crate::support::{canonical, from_hex};
+use crate::support::{canonical, its_vectors};
 use crossguard_codec::core::Source as _;
 
 /// How many inputs there are for each vector: by this variable, or so many.
@@ -16,26 +16,6 @@ const INPUTS: (&str, u64) = ("CROSSGUARD_FUZZ_INPUTS", 400);
 
 /// No message takes more octets of heap at once, while it is decoded and told.
 const HEAP_MAX: u64 = 8 * 1024 * 1024;
-
-/// The messages of other stations, with their names and dictionaries.
-fn vectors() -> Vec<(&'static str, Dictionary, Vec<u8>)> {
-    let texts = [
-        include_str!("../golden/its.txt"),
-        include_str!("../golden/vam.txt"),
-    ];
-    let lines = texts.into_iter().flat_map(str::lines);
-    let lines = lines.filter(|line| !line.starts_with('#'));
-    lines
-        .filter_map(|line| line.split_once(": "))
-        .map(|(name, hex)| {
-            let dictionary = match name.as_bytes()[0] {
-                b'W' => Dictionary::V2_1_1,
-                _ => Dictionary::V2_4_1,
-            };
-            (name, dictionary, from_hex(hex))
-        })
-        .collect()
-}
 
 /// The vector with some bits and its end changed, or its header with noise behind it, sparse or dense.
 fn input(vector: &[u8], random: &mut Random) -> Vec<u8> {
@@ -63,11 +43,7 @@ fn input(vector: &[u8], random: &mut Random) -> Vec<u8> {
 fn no_octets_make_a_message_that_panics_or_takes_much_memory() {
     let inputs = env::var(INPUTS.0).map_or(INPUTS.1, |inputs| inputs.parse().unwrap());
     let (mut read, mut not_canonical, mut refused, mut heap_max) = (0_u64, 0_u64, 0_u64, 0);
-    for (place, (name, dictionary, vector)) in vectors().into_iter().enumerate() {
-        let identifiers = Identifiers {
-            dictionary,
-            ..Identifiers::default()
-        };
+    for (place, (name, identifiers, vector)) in its_vectors().enumerate() {
         let mut random = Random(place as u64);
         for _ in 0..inputs {
             let octets = input(&vector, &mut random);

@@ -1,5 +1,6 @@
 //! Headers against packets that Wireshark took apart, and the errors that name a field.
 
+use crate::support::from_hex;
 use crossguard_codec::geonet::*;
 
 /// A packet of single-hop broadcast with traffic class 2 and BTP-B port 2001, without its CAM of 59
@@ -10,9 +11,7 @@ const SHB: &str =
 const GBC: &str = "11001a0a2040018000370a00000700001400020000000001bf0353e81d1103b105702107856d03841d1103b105702107006400000000000007d20000";
 
 fn octets(hex: &str, payload: usize) -> Vec<u8> {
-    let digits = hex.as_bytes().chunks(2);
-    let octets = digits.map(|pair| u8::from_str_radix(std::str::from_utf8(pair).unwrap(), 16));
-    let mut octets: Vec<u8> = octets.map(Result::unwrap).collect();
+    let mut octets = from_hex(hex);
     octets.resize(octets.len() + payload, 0xA5);
     octets
 }

@@ -1,7 +1,7 @@
 //! The golden vectors of CAM, DENM, CPM and of VAM on both dictionaries, whole and followed by noise.
 //! `broken_vectors.rs` breaks them systematically.
 
-use crate::support::{canonical, from_hex};
+use crate::support::{canonical, its_vectors, on};
 use crossguard_codec::asn1::cam::{
     CAM, CauseCodeV2, HighFrequencyContainer, SpecialVehicleContainer,
 };
@@ -13,31 +13,8 @@ use crossguard_codec::{Dictionary, Identifiers, Identity, Kind, distance};
 use crossguard_protocol::Decimetres;
 use proptest::prelude::*;
 
-const VECTORS: &str = include_str!("../golden/its.txt");
-const VAM_VECTORS: &str = include_str!("../golden/vam.txt");
-
-fn on(dictionary: Dictionary) -> Identifiers {
-    Identifiers {
-        dictionary,
-        ..Identifiers::default()
-    }
-}
-
-/// All vectors with their names, and what is to be known to read them.
 fn vectors() -> Vec<(&'static str, Identifiers, Vec<u8>)> {
-    let lines = VECTORS.lines().chain(VAM_VECTORS.lines());
-    let lines = lines.filter_map(|line| line.split_once(": "));
-    lines
-        .filter(|(name, _)| !name.starts_with('#'))
-        .map(|(name, hex)| {
-            let dictionary = if name.starts_with('W') {
-                Dictionary::V2_1_1
-            } else {
-                Dictionary::V2_4_1
-            };
-            (name, on(dictionary), from_hex(hex))
-        })
-        .collect()
+    its_vectors().collect()
 }
 
 fn message(name: &str) -> ItsMessage {

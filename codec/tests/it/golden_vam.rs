@@ -1,28 +1,18 @@
 //! The golden vectors of VAM: what other encoders made of the same types, bit for bit.
 
-use crate::support::from_hex;
 use crate::support::reference::Reference;
+use crate::support::{from_hex, golden};
 use crossguard_codec::asn1::cdd::AltitudeConfidence;
 use crossguard_codec::asn1::ram::RAM;
 use crossguard_codec::asn1::vam::{VAM, VamParameters};
 use crossguard_codec::{Identifiers, decode, encode, position_of};
 
-const VECTORS: &str = include_str!("../golden/vam.txt");
-
 fn vectors() -> impl Iterator<Item = (&'static str, Vec<u8>)> {
-    let lines = VECTORS
-        .lines()
-        .filter(|line| !line.starts_with('#') && !line.is_empty());
-    lines.map(|line| {
-        let (name, hex) = line.split_once(": ").expect("a name and octets");
-        (name, from_hex(hex))
-    })
+    golden::vectors(golden::VAM).map(|(name, digits)| (name, from_hex(digits)))
 }
 
 fn vam(name: &str) -> VAM {
-    let (_, octets) = vectors()
-        .find(|(n, _)| *n == name)
-        .expect("a vector of this name");
+    let octets = from_hex(golden::vector(golden::VAM, name));
     let received = decode::<VAM>(&Identifiers::default(), &octets).expect("a valid vector");
     assert_eq!(received.extended, 0);
     received.message

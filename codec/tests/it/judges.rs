@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::support::reference::Reference;
-use crate::support::{arbitrary, from_hex, to_hex};
+use crate::support::{arbitrary, from_hex, its_vectors, on, to_hex};
 use crossguard_codec::asn1::denm::DENM;
 use crossguard_codec::asn1::rmcm;
 use crossguard_codec::its::ItsMessage;
@@ -15,13 +15,6 @@ use crossguard_codec::{Dictionary, Identifiers, encode};
 
 /// How many RAM, how many RMCM, and of how many DENM the ones that fit.
 const MESSAGES: u64 = 2_000;
-
-fn on(dictionary: Dictionary) -> Identifiers {
-    Identifiers {
-        dictionary,
-        ..Identifiers::default()
-    }
-}
 
 /// Any RAM and RMCM, each as type and octets.
 fn of_robots() -> Vec<(&'static str, Vec<u8>)> {
@@ -51,29 +44,23 @@ fn of_events() -> Vec<(&'static str, Vec<u8>)> {
 /// The golden vectors of other stations, and whatever they become by a flipped bit that is still a
 /// message without additions.
 fn of_others() -> Vec<(&'static str, Vec<u8>)> {
-    let vectors = [
-        include_str!("../golden/its.txt"),
-        include_str!("../golden/vam.txt"),
-    ];
-    let lines = vectors.iter().flat_map(|text| text.lines());
     let mut messages = Vec::new();
-    for (name, digits) in lines.filter_map(|line| line.split_once(": ")) {
-        let (kind, dictionary) = match name.as_bytes() {
+    for (name, identifiers, octets) in its_vectors() {
+        let kind = match name.as_bytes() {
             // C4 is of release 2, which pycrate does not know.
             b"C4" => continue,
-            [b'C', _] => ("CAM", Dictionary::V2_4_1),
-            [b'D', _] => ("DENM", Dictionary::V2_4_1),
-            [b'P', _] => ("CPM", Dictionary::V2_4_1),
-            [b'V', ..] => ("VAM", Dictionary::V2_4_1),
-            [b'W', _] => ("VAM211", Dictionary::V2_1_1),
+            [b'C', _] => "CAM",
+            [b'D', _] => "DENM",
+            [b'P', _] => "CPM",
+            [b'V', ..] => "VAM",
+            [b'W', _] => "VAM211",
             _ => continue,
         };
-        let octets = from_hex(digits);
         // Behind the header.
         for bit in 48..octets.len() * 8 {
             let mut flipped = octets.clone();
             flipped[bit / 8] ^= 0x80 >> (bit % 8);
-            let decoded = ItsMessage::decode(&on(dictionary), &flipped);
+            let decoded = ItsMessage::decode(&identifiers, &flipped);
             if decoded.is_ok_and(|it| it.is_canonical && it.extended == 0) {
                 messages.push((kind, flipped));
             }

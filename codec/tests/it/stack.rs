@@ -1,17 +1,12 @@
 //! Whole packets: golden ones, what is discarded and why, and hostile octets.
 
-use crate::support::{from_hex, without_reserved_bits};
+use crate::support::{from_hex, golden, without_reserved_bits};
 use crossguard_codec::geonet::*;
 use crossguard_codec::{Identifiers, MESSAGE_LEN_MAX, Service};
 use proptest::prelude::*;
 
-const VECTORS: &str = include_str!("../golden/packets.txt");
-
 fn vector(name: &str) -> Vec<u8> {
-    let line = VECTORS
-        .lines()
-        .find_map(|line| line.strip_prefix(name)?.strip_prefix(": "));
-    from_hex(line.expect("a vector of this name"))
+    from_hex(golden::vector(golden::PACKETS, name))
 }
 
 /// The station of the vectors.

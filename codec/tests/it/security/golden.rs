@@ -7,6 +7,8 @@ use crossguard_codec::security::{
     TrustStore, Validity, issue, issue::Terms,
 };
 
+use crate::support::from_hex;
+
 const ROOT_KEY: &str = "4813494d137e1631bba301d5acab6e7bb7aa74ce1185d456565ef51d737677b3";
 const ROOT: &str = "8003008100188109544553542d524f4f540000000000296823f186000301028002026e81\
     0201018002027081030201fe01018080010480012482080301fffc03ff00038002027e8204010101ff8002406082\
@@ -38,20 +40,12 @@ const S3_TAIL: &str = "c00124000277d224ffc240020480050101aabbcc806d07c063fbbf552
 const GENERATED: Time64 = Time64(694_694_401_000_000);
 const CAM: u32 = 36;
 
-fn octets(hex: &str) -> Vec<u8> {
-    let digit = |c: u8| u8::try_from(char::from(c).to_digit(16).unwrap()).unwrap();
-    let digits = hex.as_bytes().chunks(2);
-    digits
-        .map(|two| digit(two[0]) << 4 | digit(two[1]))
-        .collect()
-}
-
 fn certificate(hex: &str) -> Certificate {
-    Certificate::decode(&octets(hex)).unwrap()
+    Certificate::decode(&from_hex(hex)).unwrap()
 }
 
 fn key(hex: &str) -> PrivateKey {
-    PrivateKey::of_octets(&octets(hex).try_into().unwrap()).unwrap()
+    PrivateKey::of_octets(&from_hex(hex).try_into().unwrap()).unwrap()
 }
 
 fn trust() -> TrustStore {
@@ -68,7 +62,7 @@ fn sender() -> Station {
 }
 
 fn message(tail: &str) -> Vec<u8> {
-    octets(&format!("03810040038063{PAYLOAD}{tail}"))
+    from_hex(&format!("03810040038063{PAYLOAD}{tail}"))
 }
 
 fn s1() -> Vec<u8> {
@@ -91,12 +85,12 @@ fn certificates_have_the_names_that_were_computed_elsewhere() {
         certificate(TICKET).content().issuer,
         Issuer::Certificate(certificate(AUTHORITY).id())
     );
-    assert_eq!(certificate(AUTHORITY).octets(), octets(AUTHORITY));
+    assert_eq!(certificate(AUTHORITY).octets(), from_hex(AUTHORITY));
 }
 
 #[test]
 fn the_same_messages_are_made() {
-    let payload = octets(PAYLOAD);
+    let payload = from_hex(PAYLOAD);
     // The first message brings the certificate.
     assert_eq!(sender().seal(GENERATED, CAM, &payload), Ok(s2()));
     let mut sender = sender();
@@ -112,7 +106,7 @@ fn the_messages_are_believed() {
     let mut receiver = Station::new(trust(), vec![own], Tolerances::default(), GENERATED).unwrap();
     let s2 = s2();
     let message = SignedMessage::decode(&s2).unwrap();
-    assert_eq!(message.payload, octets(PAYLOAD));
+    assert_eq!(message.payload, from_hex(PAYLOAD));
     assert_eq!(message.header.its_aid, CAM);
     assert_eq!(message.header.generation_time, GENERATED);
     let verified = receiver.verify(GENERATED, None, &message).unwrap();
@@ -125,7 +119,7 @@ fn the_messages_are_believed() {
     assert_eq!(requests, [HashedId3([0xaa, 0xbb, 0xcc])]);
     assert_eq!(
         message.signer,
-        SignerIdentifier::Digest(HashedId8(octets("6d07c063fbbf5525").try_into().unwrap()))
+        SignerIdentifier::Digest(HashedId8(from_hex("6d07c063fbbf5525").try_into().unwrap()))
     );
     assert!(receiver.verify(GENERATED, None, &message).is_ok());
 }

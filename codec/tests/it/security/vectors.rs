@@ -3,8 +3,6 @@
 //! They are in `codec/tests/golden/security.json` for other implementations, with the certificates that the receiver
 //! trusts. `cargo xtask bless security.json` writes the file. Nothing of the kit encodes or signs what is in it.
 
-use std::fmt::Write as _;
-
 use std::path::Path;
 use std::sync::Once;
 use std::{env, fs};
@@ -22,6 +20,7 @@ use super::scene::{
     AUTHORITY, CAM, DENM, HERE, Heard, Pki, RAM, RECEIVER, RMCM, ROOT, SENDER, VAM, Vector,
     Vectors, authority_terms, ego, envelope, identifiers, secured, terms,
 };
+use crate::support::{from_hex, to_hex};
 
 /// A receiver that trusts these certificates and has heard nothing.
 fn receiver(root: &[u8], authority: &[u8]) -> Stack {
@@ -50,17 +49,8 @@ fn signatures_of(receiver: &Stack) -> u64 {
     }
 }
 
-fn to_hex(octets: &[u8]) -> String {
-    octets.iter().fold(String::new(), |mut text, octet| {
-        let _ = write!(text, "{octet:02x}");
-        text
-    })
-}
-
-fn from_hex(text: &Value) -> Vec<u8> {
-    let digits = text.as_str().unwrap().as_bytes().chunks(2);
-    let octet = |two| u8::from_str_radix(std::str::from_utf8(two).unwrap(), 16).unwrap();
-    digits.map(octet).collect()
+fn octets_of(text: &Value) -> Vec<u8> {
+    from_hex(text.as_str().unwrap())
 }
 
 fn path() -> impl AsRef<Path> {
@@ -120,14 +110,14 @@ fn the_vectors_are_those_of_the_file() {
 #[test]
 fn every_packet_of_the_file_is_taken_or_refused_under_its_cause() {
     let file = file();
-    let (root, authority) = (from_hex(&file["root"]), from_hex(&file["authority"]));
+    let (root, authority) = (octets_of(&file["root"]), octets_of(&file["authority"]));
     let mut wrong = Vec::new();
     let mut causes = std::collections::BTreeSet::new();
     for vector in file["vectors"].as_array().unwrap() {
         let mut receiver = receiver(&root, &authority);
         for packet in vector["packets"].as_array().unwrap() {
             let now = Time64(packet["heardAtUs"].as_u64().unwrap());
-            let octets = from_hex(&packet["octets"]);
+            let octets = octets_of(&packet["octets"]);
             let before = signatures_of(&receiver);
             let heard = receiver.receive(&ego(now, HERE), &octets);
             let refused = heard.err().map(crossguard_codec::geonet::Discarded::cause);

@@ -7,13 +7,36 @@
 
 pub mod arbitrary;
 pub mod core;
+#[path = "../../../src/golden.rs"]
+pub mod golden;
 pub mod reference;
 pub mod samples;
 pub mod types;
 pub mod views;
 
 use crossguard_codec::its::ItsMessage;
-use crossguard_codec::{DecodeError, Identifiers};
+use crossguard_codec::{DecodeError, Dictionary, Identifiers};
+
+/// The golden vectors of other stations' messages with their names, and what is to be known to read them.
+pub fn its_vectors() -> impl Iterator<Item = (&'static str, Identifiers, Vec<u8>)> {
+    let all = [golden::ITS, golden::VAM].into_iter();
+    let all = all.flat_map(golden::vectors);
+    all.map(|(name, digits)| {
+        let dictionary = match name.as_bytes()[0] {
+            b'W' => Dictionary::V2_1_1,
+            _ => Dictionary::V2_4_1,
+        };
+        (name, on(dictionary), from_hex(digits))
+    })
+}
+
+/// What is to be known where stations use this dictionary.
+pub fn on(dictionary: Dictionary) -> Identifiers {
+    Identifiers {
+        dictionary,
+        ..Identifiers::default()
+    }
+}
 
 /// Decodes a message: it says rightly whether the octets are its canonical encoding, and it is in that one.
 pub fn canonical(identifiers: &Identifiers, octets: &[u8]) -> Result<(), DecodeError> {

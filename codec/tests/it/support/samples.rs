@@ -123,14 +123,14 @@ pub fn follower_view() -> Ram {
 
 /// A follower with this progress of command 3.
 pub fn progress_view(progress: Progress) -> Ram {
-    let last = Some(Report {
-        request: RequestId(3),
-        progress,
-    });
+    reporting(Heartbeat(700), RequestId(3), progress)
+}
+
+fn reporting(echo: Heartbeat, request: RequestId, progress: Progress) -> Ram {
     let coordination = Coordination::Follower {
         session: session(),
-        echo: Heartbeat(700),
-        last,
+        echo,
+        last: Some(Report { request, progress }),
     };
     Ram {
         station: FOLLOWER,
@@ -258,22 +258,8 @@ pub fn largest_ram(identifiers: &Identifiers) -> RAM {
 
 /// The follower's RAM whose report is the longest.
 pub fn failed_view() -> Ram {
-    let progress = Progress::Failed(Failure::Unavailable(Unavailability::LowBattery));
-    let last = Some(Report {
-        request: RequestId(255),
-        progress,
-    });
-    let coordination = Coordination::Follower {
-        session: session(),
-        echo: Heartbeat(0),
-        last,
-    };
-    Ram {
-        station: FOLLOWER,
-        coordination,
-        farewell: None,
-        on_duty: false,
-    }
+    let failure = Failure::Unavailable(Unavailability::LowBattery);
+    reporting(Heartbeat(0), RequestId(255), Progress::Failed(failure))
 }
 
 fn largest_cluster() -> VruClusterInformationContainer {
