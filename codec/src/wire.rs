@@ -25,6 +25,19 @@ macro_rules! wire_enum {
         }
 
         impl $name {
+            /// The value with this number in the ENUMERATED.
+            #[must_use]
+            pub fn of_number(number: u8) -> Option<Self> {
+                use $wire as Wire;
+                Wire::ALL.get(usize::from(number)).copied().map(Self::from_wire)
+            }
+
+            /// Its number in the ENUMERATED.
+            #[must_use]
+            pub const fn number(self) -> u8 {
+                self.to_wire() as u8
+            }
+
             pub(crate) const fn to_wire(self) -> $wire {
                 use $wire as Wire;
                 match self {

@@ -73,8 +73,8 @@ impl CrossguardHeard {
             unavailability: heard.availability.map_or(0, unavailability),
             on_duty: on_duty.into(),
             signal_means: shown.map_or(0, |shown| shown.means.0),
-            to_vehicles: shown.map_or(0, |shown| signal_code(shown.to_vehicles)),
-            to_pedestrians: shown.map_or(0, |shown| signal_code(shown.to_pedestrians)),
+            to_vehicles: shown.map_or(0, |shown| shown.to_vehicles.number()),
+            to_pedestrians: shown.map_or(0, |shown| shown.to_pedestrians.number()),
             map_kind: area.map_kind,
             has_map_region: area.has_map_region,
             map_region: area.map_region,
@@ -145,20 +145,20 @@ impl CrossguardBody {
                 width: known(self.width_m),
                 height: known(self.height_m),
             },
-            category: category(self.category)?,
-            job_role: job_role(self.job_role)?,
+            category: RobotCategory::of_number(self.category)?,
+            job_role: JobRole::of_number(self.job_role)?,
             battery: Battery {
                 state_of_charge: known(self.battery_percent),
                 charging: self.charging != 0,
             },
-            control_mode: control_mode(self.control_mode)?,
+            control_mode: ControlMode::of_number(self.control_mode)?,
             slow: Some(SlowState {
                 capabilities: Capabilities(self.abilities),
                 signals: match self.signal_means {
                     0 => None,
                     means @ 1..=15 => Some(SignalsShown {
-                        to_vehicles: signal(self.to_vehicles)?,
-                        to_pedestrians: signal(self.to_pedestrians)?,
+                        to_vehicles: PublicSignal::of_number(self.to_vehicles)?,
+                        to_pedestrians: PublicSignal::of_number(self.to_pedestrians)?,
                         means: SignalMeans(means),
                     }),
                     _ => return None,
@@ -169,62 +169,6 @@ impl CrossguardBody {
             ..RobotState::default()
         })
     }
-}
-
-/// The signals by their codes.
-const SIGNALS: [PublicSignal; 4] = [
-    PublicSignal::None,
-    PublicSignal::Stop,
-    PublicSignal::Go,
-    PublicSignal::Caution,
-];
-
-fn signal(code: u8) -> Option<PublicSignal> {
-    SIGNALS.get(usize::from(code)).copied()
-}
-
-fn signal_code(signal: PublicSignal) -> u8 {
-    (0..)
-        .zip(SIGNALS)
-        .find(|(_, it)| *it == signal)
-        .map_or(0, |(code, _)| code)
-}
-
-fn category(code: u8) -> Option<RobotCategory> {
-    Some(match code {
-        0 => RobotCategory::Unknown,
-        1 => RobotCategory::Humanoid,
-        2 => RobotCategory::Quadruped,
-        3 => RobotCategory::Wheeled,
-        4 => RobotCategory::Tracked,
-        5 => RobotCategory::Aerial,
-        6 => RobotCategory::Other,
-        _ => return None,
-    })
-}
-
-fn job_role(code: u8) -> Option<JobRole> {
-    Some(match code {
-        0 => JobRole::None,
-        1 => JobRole::TrafficGuard,
-        2 => JobRole::Escort,
-        3 => JobRole::Patrol,
-        4 => JobRole::Delivery,
-        5 => JobRole::Maintenance,
-        6 => JobRole::Other,
-        _ => return None,
-    })
-}
-
-fn control_mode(code: u8) -> Option<ControlMode> {
-    Some(match code {
-        0 => ControlMode::Autonomous,
-        1 => ControlMode::Teleoperated,
-        2 => ControlMode::EmergencyStop,
-        3 => ControlMode::Fault,
-        4 => ControlMode::Unavailable,
-        _ => return None,
-    })
 }
 
 #[cfg(test)]
