@@ -144,8 +144,25 @@ unsafe fn live<'a>(robot: *mut CrossguardRobot) -> Result<&'a mut Live, Crossgua
 /// Does `act` with a robot and a turn, and says in the turn what came of it.
 ///
 /// # Safety
-/// As for [`live`], [`write`], and [`room`] of the buffers that the turn names.
+/// As for [`try_with`].
 unsafe fn with(
+    robot: *mut CrossguardRobot,
+    turn: *mut CrossguardTurn,
+    act: impl FnOnce(&mut Live, &mut Turn<'_>),
+) -> CrossguardStatus {
+    let act = |live: &mut Live, turn: &mut Turn<'_>| {
+        act(live, turn);
+        CrossguardStatus::Ok
+    };
+    // SAFETY: the caller's promise.
+    unsafe { try_with(robot, turn, act) }
+}
+
+/// As [`with`], for an `act` that may be refused.
+///
+/// # Safety
+/// As for [`live`], [`write`], and [`room`] of the buffers that the turn names.
+unsafe fn try_with(
     robot: *mut CrossguardRobot,
     turn: *mut CrossguardTurn,
     act: impl FnOnce(&mut Live, &mut Turn<'_>) -> CrossguardStatus,
@@ -405,12 +422,8 @@ pub unsafe extern "C" fn crossguard_elapse(
     elapsed_ms: u32,
     turn: *mut CrossguardTurn,
 ) -> CrossguardStatus {
-    let act = |live: &mut Live, turn: &mut Turn<'_>| {
-        live.elapse(elapsed_ms, turn);
-        CrossguardStatus::Ok
-    };
     // SAFETY: the contracts of the pointers.
-    unsafe { with(robot, turn, act) }
+    unsafe { with(robot, turn, |live, turn| live.elapse(elapsed_ms, turn)) }
 }
 
 /// Tells a robot what happened in it. An event that changes nothing is an output of kind `Ignored`.
@@ -437,7 +450,7 @@ pub unsafe extern "C" fn crossguard_tell(
         CrossguardStatus::Ok
     };
     // SAFETY: the contracts of the pointers.
-    unsafe { with(robot, turn, act) }
+    unsafe { try_with(robot, turn, act) }
 }
 
 /// Hands a robot a `GeoNetworking` packet that was received. One that is dropped is not an error:
@@ -456,12 +469,8 @@ pub unsafe extern "C" fn crossguard_receive(
         Ok(packet) => packet,
         Err(status) => return status,
     };
-    let act = |live: &mut Live, turn: &mut Turn<'_>| {
-        live.receive(packet, turn);
-        CrossguardStatus::Ok
-    };
     // SAFETY: the contracts of the pointers.
-    unsafe { with(robot, turn, act) }
+    unsafe { with(robot, turn, |live, turn| live.receive(packet, turn)) }
 }
 
 /// Hands a robot a RAM or an RMCM that another stack took out of its packet: UPER, from the header on.
@@ -479,12 +488,8 @@ pub unsafe extern "C" fn crossguard_receive_message(
         Ok(message) => message,
         Err(status) => return status,
     };
-    let act = |live: &mut Live, turn: &mut Turn<'_>| {
-        live.hear(message, turn);
-        CrossguardStatus::Ok
-    };
     // SAFETY: the contracts of the pointers.
-    unsafe { with(robot, turn, act) }
+    unsafe { with(robot, turn, |live, turn| live.hear(message, turn)) }
 }
 
 /// Makes a RAM outside of a session, where the protocol does not say when: `next_ram_ms` of the view is
@@ -497,12 +502,8 @@ pub unsafe extern "C" fn crossguard_announce(
     robot: *mut CrossguardRobot,
     turn: *mut CrossguardTurn,
 ) -> CrossguardStatus {
-    let act = |live: &mut Live, turn: &mut Turn<'_>| {
-        live.announce(turn);
-        CrossguardStatus::Ok
-    };
     // SAFETY: the contracts of the pointers.
-    unsafe { with(robot, turn, act) }
+    unsafe { with(robot, turn, Live::announce) }
 }
 
 /// What a robot is doing. The robot is not changed.
@@ -570,12 +571,8 @@ pub unsafe extern "C" fn crossguard_log_start(
     if cfg!(not(feature = "trace")) {
         return CrossguardStatus::Unsupported;
     }
-    let act = |live: &mut Live, turn: &mut Turn<'_>| {
-        live.start_log(unix_ms, turn);
-        CrossguardStatus::Ok
-    };
     // SAFETY: the contracts of the pointers.
-    unsafe { with(robot, turn, act) }
+    unsafe { with(robot, turn, |live, turn| live.start_log(unix_ms, turn)) }
 }
 
 /// Ends the log of a robot, with how often each cause occurred.
@@ -589,10 +586,6 @@ pub unsafe extern "C" fn crossguard_log_stop(
     if cfg!(not(feature = "trace")) {
         return CrossguardStatus::Unsupported;
     }
-    let act = |live: &mut Live, turn: &mut Turn<'_>| {
-        live.stop_log(turn);
-        CrossguardStatus::Ok
-    };
     // SAFETY: the contracts of the pointers.
-    unsafe { with(robot, turn, act) }
+    unsafe { with(robot, turn, Live::stop_log) }
 }
