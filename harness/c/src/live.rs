@@ -74,66 +74,67 @@ impl Live {
         &self.counters
     }
 
-    /// The exchange, what it is embedded in for this call, and the time: `elapsed_ms` after the last call.
+    /// The exchange, and what it is embedded in for this call: `elapsed_ms` after the last one.
     fn parts<'a, 'b>(
         &'a mut self,
         turn: &'a mut Turn<'b>,
         elapsed_ms: u32,
-    ) -> (&'a mut Exchange, Call<'a, 'b>, Moment) {
+    ) -> (&'a mut Exchange, Call<'a, 'b>) {
         let moment = Moment {
             now_ms: self.exchange.elapsed_to_ms() + u64::from(elapsed_ms),
             timestamp_its: turn.plain.timestamp_its,
         };
         let call = Call {
             turn,
+            moment,
             name: &self.name,
             counters: &mut self.counters,
         };
-        (&mut self.exchange, call, moment)
+        (&mut self.exchange, call)
     }
 
     /// Lets time pass.
     pub(crate) fn elapse(&mut self, elapsed_ms: u32, turn: &mut Turn<'_>) {
-        let (exchange, mut call, moment) = self.parts(turn, elapsed_ms);
-        exchange.elapse(&mut call, moment);
+        let (exchange, mut call) = self.parts(turn, elapsed_ms);
+        exchange.elapse(&mut call);
     }
 
     /// Takes in an event; `parameters` are those of a command.
     pub(crate) fn tell(&mut self, event: Event, parameters: TaskParameters, turn: &mut Turn<'_>) {
-        let (exchange, mut call, moment) = self.parts(turn, 0);
+        let (exchange, mut call) = self.parts(turn, 0);
         match event {
             Event::CommandManeuver { follower, task } => {
-                exchange.command(&mut call, moment, follower, task, parameters);
+                exchange.command(&mut call, follower, task, parameters);
             }
             event => {
-                exchange.event(&mut call, moment, event);
+                exchange.event(&mut call, event);
             }
         }
     }
 
     /// Takes in a packet, if it has not waited for too long.
     pub(crate) fn receive(&mut self, packet: &[u8], turn: &mut Turn<'_>) {
-        let (exchange, mut call, moment) = self.parts(turn, 0);
-        let arrived = call.arrived(packet, moment);
-        exchange.receive(&mut call, moment, arrived);
+        let (exchange, mut call) = self.parts(turn, 0);
+        let arrived = call.arrived(packet);
+        exchange.receive(&mut call, arrived);
     }
 
     /// Takes in a message, if it has not waited for too long.
     pub(crate) fn hear(&mut self, message: &[u8], turn: &mut Turn<'_>) {
-        let (exchange, mut call, moment) = self.parts(turn, 0);
-        let arrived = call.arrived(message, moment);
-        exchange.receive_message(&mut call, moment, arrived);
+        let (exchange, mut call) = self.parts(turn, 0);
+        let arrived = call.arrived(message);
+        exchange.receive_message(&mut call, arrived);
     }
 
     /// Sends a RAM outside of a session, where the protocol does not say when.
     pub(crate) fn announce(&mut self, turn: &mut Turn<'_>) {
-        let (exchange, mut call, moment) = self.parts(turn, 0);
-        exchange.announce(&mut call, moment);
+        let (exchange, mut call) = self.parts(turn, 0);
+        exchange.announce(&mut call);
     }
 
     /// Begins the log of the robot.
     pub(crate) fn start_log(&mut self, unix_ms: u64, turn: &mut Turn<'_>) {
-        let (exchange, mut call, _) = self.parts(turn, 0);
+        let (exchange, mut call) = self.parts(turn, 0);
         call.write(&Entry::Started {
             robot: exchange.robot(),
             settings: exchange.config().settings(),
@@ -155,16 +156,17 @@ impl Live {
 /// One call: its effects go into the turn of the caller.
 struct Call<'a, 'b> {
     turn: &'a mut Turn<'b>,
+    moment: Moment,
     name: &'a Name,
     counters: &'a mut Counters,
 }
 
 impl Call<'_, '_> {
     /// Octets that waited for as long as the caller says, if it does.
-    fn arrived<'c>(&self, octets: &'c [u8], moment: Moment) -> Arrived<'c> {
+    fn arrived<'c>(&self, octets: &'c [u8]) -> Arrived<'c> {
         let at_ms = match self.turn.plain.waited_ms {
             CROSSGUARD_NONE_MS => None,
-            waited_ms => Some(moment.now_ms - u64::from(waited_ms)),
+            waited_ms => Some(self.moment.now_ms - u64::from(waited_ms)),
         };
         Arrived { octets, at_ms }
     }
@@ -188,6 +190,10 @@ impl Call<'_, '_> {
 }
 
 impl Host for Call<'_, '_> {
+    fn moment(&self) -> Moment {
+        self.moment
+    }
+
     fn state(&self) -> &RobotState {
         &self.turn.state
     }
@@ -222,23 +228,17 @@ impl Host for Call<'_, '_> {
         }
     }
 
-    fn heard(&mut self, moment: Moment, _me: &Robot, heard: &Heard, arrived: Arrived<'_>) {
+    fn heard(&mut self, _me: &Robot, heard: &Heard, arrived: Arrived<'_>) {
         self.turn.plain.heard = CrossguardHeard::of(heard);
         self.write(&Entry::Heard {
             message: heard.service,
             from: heard.from,
-            waited_ms: arrived.at_ms.map(|at_ms| moment.now_ms - at_ms),
+            waited_ms: arrived.at_ms.map(|at_ms| self.moment.now_ms - at_ms),
             octets: arrived.octets,
         });
     }
 
-    fn other(
-        &mut self,
-        _moment: Moment,
-        _me: &Robot,
-        indication: &Indication<'_>,
-        arrived: Arrived<'_>,
-    ) {
+    fn other(&mut self, _me: &Robot, indication: &Indication<'_>, arrived: Arrived<'_>) {
         let cause = Cause::NoUse(indication.service);
         self.dropped(cause, &"the robot does not take it in", arrived.octets);
     }

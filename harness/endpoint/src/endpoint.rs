@@ -228,24 +228,24 @@ impl<P: StateMachine> Endpoint<P> {
         state: &RobotState,
         stimulus: Stimulus<'_>,
     ) -> Vec<Effect> {
-        let mut turn = Turn::new(&mut self.around, state);
+        let mut turn = Turn::new(&mut self.around, state, moment);
         let exchange = &mut self.exchange;
         if moment.now_ms > exchange.elapsed_to_ms() {
-            turn.elapse(moment.now_ms);
-            exchange.elapse(&mut turn, moment);
+            turn.elapse();
+            exchange.elapse(&mut turn);
         }
-        self.pseudonyms.renew(exchange, &mut turn, moment);
+        self.pseudonyms.renew(exchange, &mut turn);
         match stimulus {
             Stimulus::Datagram { packet, arrived_ms } => {
                 let arrived = Arrived {
                     octets: packet,
                     at_ms: Some(arrived_ms),
                 };
-                exchange.receive(&mut turn, moment, arrived);
+                exchange.receive(&mut turn, arrived);
             }
             Stimulus::Event(event) => {
                 let event = self.pseudonyms.disguise(exchange, event);
-                let outputs = exchange.event(&mut turn, moment, event);
+                let outputs = exchange.event(&mut turn, event);
                 turn.answer(event, &outputs);
             }
             Stimulus::Order {
@@ -253,13 +253,13 @@ impl<P: StateMachine> Endpoint<P> {
                 task,
                 parameters,
             } => {
-                let outputs = exchange.command(&mut turn, moment, follower, task, parameters);
+                let outputs = exchange.command(&mut turn, follower, task, parameters);
                 turn.answer(Event::CommandManeuver { follower, task }, &outputs);
             }
-            Stimulus::Perceived(people) => turn.perceive(moment.now_ms, people),
+            Stimulus::Perceived(people) => turn.perceive(people),
             Stimulus::Time => {}
         }
-        self.others.tell_of_people(exchange, &mut turn, moment);
+        self.others.tell_of_people(exchange, &mut turn);
         // Who protects somebody is not silent.
         if exchange.robot().identity() != Identity::Unlocked || turn.announces_people() {
             self.pseudonyms.break_silence();
@@ -271,10 +271,10 @@ impl<P: StateMachine> Endpoint<P> {
             congestion_ms: self.congestion_ms,
             max_ms: turn.ram_interval_max_ms(),
         };
-        exchange.generate(&mut turn, moment, limits);
+        exchange.generate(&mut turn, limits);
         // After a RAM, so that robots know it is one of theirs.
         self.others
-            .tell_of_robot(exchange, &mut turn, moment, self.congestion_ms);
+            .tell_of_robot(exchange, &mut turn, self.congestion_ms);
         turn.into_effects()
     }
 }

@@ -13,7 +13,7 @@ mod host;
 mod orders;
 mod pins;
 
-use crossguard_codec::geonet::{Address, EgoPosition, Indication, Stack};
+use crossguard_codec::geonet::{Address, Indication, Stack};
 use crossguard_codec::si::generation_delta_time;
 use crossguard_codec::{
     ExecutionStatus, Heard, Identifiers, Pdu, RAM_LEN_MAX, RMCM_LEN_MAX, RobotState, Service,
@@ -92,27 +92,26 @@ impl<P: StateMachine> Exchange<P> {
         &mut self.stack
     }
 
-    /// Lets the time pass until `moment`.
-    pub fn elapse<H: Host>(&mut self, host: &mut H, moment: Moment) {
-        let elapsed = moment.now_ms.saturating_sub(self.elapsed_to_ms);
+    /// Lets the time pass until that of the host.
+    pub fn elapse<H: Host>(&mut self, host: &mut H) {
+        let now_ms = host.moment().now_ms;
+        let elapsed = now_ms.saturating_sub(self.elapsed_to_ms);
         if elapsed > 0 {
-            self.elapsed_to_ms = moment.now_ms;
+            self.elapsed_to_ms = now_ms;
             let elapsed = u32::try_from(elapsed).unwrap_or(u32::MAX);
-            self.step(host, moment, Input::Elapsed(Millis(elapsed)), None);
+            self.step(host, Input::Elapsed(Millis(elapsed)), None);
         }
     }
 
     /// Something happened in the robot. A maneuver is commanded without parameters.
-    pub fn event<H: Host>(&mut self, host: &mut H, moment: Moment, event: Event) -> Outputs {
+    pub fn event<H: Host>(&mut self, host: &mut H, event: Event) -> Outputs {
         match event {
             Event::CommandManeuver { follower, task } => {
-                self.command(host, moment, follower, task, TaskParameters::default())
+                self.command(host, follower, task, TaskParameters::default())
             }
             // Only geo-broadcasts are numbered, and robots send none.
-            Event::IdentityChanged(station, next) => {
-                self.change_identity(host, moment, station, (next, 0))
-            }
-            event => self.step(host, moment, Input::Local(event), None),
+            Event::IdentityChanged(station, next) => self.change_identity(host, station, (next, 0)),
+            event => self.step(host, Input::Local(event), None),
         }
     }
 
@@ -120,7 +119,6 @@ impl<P: StateMachine> Exchange<P> {
     pub fn command<H: Host>(
         &mut self,
         host: &mut H,
-        moment: Moment,
         follower: StationId,
         task: TaskType,
         parameters: TaskParameters,
@@ -130,7 +128,7 @@ impl<P: StateMachine> Exchange<P> {
         let follows = |it| matches!(phase, Phase::Leading(leading) if leading.member(it).is_some());
         self.orders.put(follower, parameters, follows);
         let event = Event::CommandManeuver { follower, task };
-        let outputs = self.step(host, moment, Input::Local(event), None);
+        let outputs = self.step(host, Input::Local(event), None);
         if outputs.ignored().is_some() {
             // The command that is outstanding keeps its own parameters.
             self.orders = before;
@@ -143,12 +141,11 @@ impl<P: StateMachine> Exchange<P> {
     pub fn change_identity<H: Host>(
         &mut self,
         host: &mut H,
-        moment: Moment,
         station: StationId,
         (next, sequence_number): (Option<UniqueNumber>, u16),
     ) -> Outputs {
         let changed = Input::Local(Event::IdentityChanged(station, next));
-        let outputs = self.step(host, moment, changed, None);
+        let outputs = self.step(host, changed, None);
         if outputs.ignored().is_none() {
             let address = Address::of_station(station.0, self.identifiers.robot_station_type);
             self.stack.change_address(address, sequence_number);
@@ -157,38 +154,35 @@ impl<P: StateMachine> Exchange<P> {
     }
 
     /// A packet arrived.
-    pub fn receive<H: Host>(&mut self, host: &mut H, moment: Moment, packet: Arrived<'_>) {
-        if self.has_waited_too_long(host, moment, packet) {
+    pub fn receive<H: Host>(&mut self, host: &mut H, packet: Arrived<'_>) {
+        if self.has_waited_too_long(host, packet) {
             return;
         }
-        let ego = EgoPosition::of(host.state(), moment.timestamp_its);
+        let ego = host.ego();
         match self.stack.receive(&ego, packet.octets) {
             Ok(indication) => match indication.service {
                 Service::Ram | Service::Rmcm => {
-                    self.understand(host, moment, packet, Some(&indication));
+                    self.understand(host, packet, Some(&indication));
                 }
-                _ => host.other(moment, self.protocol.robot(), &indication, packet),
+                _ => host.other(self.protocol.robot(), &indication, packet),
             },
             Err(discarded) => host.dropped(discarded.into(), &discarded, packet.octets),
         }
     }
 
     /// A message arrived, which another stack has taken out of its packet.
-    pub fn receive_message<H: Host>(&mut self, host: &mut H, moment: Moment, message: Arrived<'_>) {
-        if !self.has_waited_too_long(host, moment, message) {
-            self.understand(host, moment, message, None);
+    pub fn receive_message<H: Host>(&mut self, host: &mut H, message: Arrived<'_>) {
+        if !self.has_waited_too_long(host, message) {
+            self.understand(host, message, None);
         }
     }
 
     /// Drops octets that waited for longer than the timers allow.
-    fn has_waited_too_long<H: Host>(
-        &self,
-        host: &mut H,
-        moment: Moment,
-        arrived: Arrived<'_>,
-    ) -> bool {
+    fn has_waited_too_long<H: Host>(&self, host: &mut H, arrived: Arrived<'_>) -> bool {
         let delay_max_ms = self.config.settings().delay_max.0;
-        let waited_ms = arrived.at_ms.map(|at| moment.now_ms.saturating_sub(at));
+        let waited_ms = arrived
+            .at_ms
+            .map(|at| host.moment().now_ms.saturating_sub(at));
         match waited_ms {
             Some(waited_ms) if waited_ms > u64::from(delay_max_ms) => {
                 let detail = format_args!("for {waited_ms} ms; delay_max is {delay_max_ms} ms");
@@ -203,7 +197,6 @@ impl<P: StateMachine> Exchange<P> {
     fn understand<H: Host>(
         &mut self,
         host: &mut H,
-        moment: Moment,
         arrived: Arrived<'_>,
         indication: Option<&Indication<'_>>,
     ) {
@@ -221,7 +214,7 @@ impl<P: StateMachine> Exchange<P> {
                 let cause = Cause::Discarded("message of another port");
                 return host.dropped(cause, &detail, arrived.octets);
             }
-            let entitled = check_entitled(host, &self.identifiers, moment, indication, &heard);
+            let entitled = check_entitled(host, &self.identifiers, indication, &heard);
             if let Err(why) = entitled {
                 return host.dropped(why.into(), &why, arrived.octets);
             }
@@ -235,31 +228,31 @@ impl<P: StateMachine> Exchange<P> {
             octets: message,
             ..arrived
         };
-        host.heard(moment, me, &heard, arrived);
+        host.heard(me, &heard, arrived);
         for input in heard.inputs.iter() {
-            self.step(host, moment, *input, heard.parameters);
+            self.step(host, *input, heard.parameters);
         }
         self.pins.keep(self.protocol.robot(), heard.from, signer);
     }
 
     /// Sends a RAM outside of a session, where the protocol does not say when, if the generation rules do.
-    pub fn generate<H: Host>(&mut self, host: &mut H, moment: Moment, limits: Limits) {
+    pub fn generate<H: Host>(&mut self, host: &mut H, limits: Limits) {
         if self.robot().next_ram().is_none() {
             let (state, status) = self.said(host);
             let trigger = self
                 .generation
-                .trigger(moment.now_ms, limits, &state, &status);
+                .trigger(host.moment().now_ms, limits, &state, &status);
             if let Some(trigger) = trigger {
-                self.send_ram(host, moment, trigger, &state, status);
+                self.send_ram(host, trigger, &state, status);
             }
         }
     }
 
     /// Sends a RAM outside of a session now.
-    pub fn announce<H: Host>(&mut self, host: &mut H, moment: Moment) {
+    pub fn announce<H: Host>(&mut self, host: &mut H) {
         if self.robot().next_ram().is_none() {
             let (state, status) = self.said(host);
-            self.send_ram(host, moment, Trigger::Interval, &state, status);
+            self.send_ram(host, Trigger::Interval, &state, status);
         }
     }
 
@@ -268,7 +261,6 @@ impl<P: StateMachine> Exchange<P> {
     fn step<H: Host>(
         &mut self,
         host: &mut H,
-        moment: Moment,
         input: Input,
         parameters: Option<TaskParameters>,
     ) -> Outputs {
@@ -280,9 +272,9 @@ impl<P: StateMachine> Exchange<P> {
                     let (state, status) = self.said(host);
                     let event = self.generation.event(&status);
                     let trigger = event.unwrap_or(Trigger::Heartbeat);
-                    self.send_ram(host, moment, trigger, &state, status);
+                    self.send_ram(host, trigger, &state, status);
                 }
-                Output::SendRmcm(rmcm) => self.send_rmcm(host, moment, rmcm),
+                Output::SendRmcm(rmcm) => self.send_rmcm(host, rmcm),
                 output => {
                     if let Output::Ignored(why) = output {
                         host.ignored((*why).into());
@@ -297,14 +289,16 @@ impl<P: StateMachine> Exchange<P> {
     fn send_ram<H: Host>(
         &mut self,
         host: &mut H,
-        moment: Moment,
         trigger: Trigger,
         state: &RobotState,
         status: Status,
     ) {
-        let now_ms = moment.now_ms;
+        let Moment {
+            now_ms,
+            timestamp_its,
+        } = host.moment();
         let low_frequency = self.generation.low_frequency_due(now_ms);
-        let time = generation_delta_time(moment.timestamp_its);
+        let time = generation_delta_time(timestamp_its);
         let (ids, availability) = (&self.identifiers, status.availability);
         let ram = ram_from(ids, state, &status.view, availability, time, low_frequency);
         let ram = ram.map(|mut ram| {
@@ -313,13 +307,13 @@ impl<P: StateMachine> Exchange<P> {
         });
         self.generation
             .sent(now_ms, trigger, state, status, low_frequency);
-        self.send::<_, _, RAM_LEN_MAX>(host, moment, (Service::Ram, trigger), ram);
+        self.send::<_, _, RAM_LEN_MAX>(host, (Service::Ram, trigger), ram);
     }
 
-    fn send_rmcm<H: Host>(&mut self, host: &mut H, moment: Moment, rmcm: &Rmcm) {
+    fn send_rmcm<H: Host>(&mut self, host: &mut H, rmcm: &Rmcm) {
         let state = self.state(host);
         let (ids, position) = (&self.identifiers, &state.position);
-        let time = generation_delta_time(moment.timestamp_its);
+        let time = generation_delta_time(host.moment().timestamp_its);
         let message = match rmcm {
             Rmcm::Command(command) => {
                 let commands = [(*command, self.orders.of(command.to))];
@@ -334,14 +328,13 @@ impl<P: StateMachine> Exchange<P> {
             }
         };
         let kind = (Service::Rmcm, Trigger::Protocol);
-        self.send::<_, _, RMCM_LEN_MAX>(host, moment, kind, message);
+        self.send::<_, _, RMCM_LEN_MAX>(host, kind, message);
     }
 
     /// Encodes a message in `LEN` octets and sends it.
     fn send<H: Host, M: Pdu, const LEN: usize>(
         &mut self,
         host: &mut H,
-        moment: Moment,
         kind: (Service, Trigger),
         message: Result<M, ViewError>,
     ) {
@@ -351,7 +344,7 @@ impl<P: StateMachine> Exchange<P> {
         };
         let mut octets = [0; LEN];
         match encode_into(&self.identifiers, &message, &mut octets) {
-            Ok(length) => self.transmit(host, moment, kind, &octets[..length]),
+            Ok(length) => self.transmit(host, kind, &octets[..length]),
             Err(error) => host.dropped(Cause::NotSent, &error, &[]),
         }
     }
@@ -360,12 +353,11 @@ impl<P: StateMachine> Exchange<P> {
     pub fn transmit<H: Host>(
         &mut self,
         host: &mut H,
-        moment: Moment,
         (service, trigger): (Service, Trigger),
         message: &[u8],
     ) {
         let request = &service.request(&self.identifiers);
-        let ego = EgoPosition::of(host.state(), moment.timestamp_its);
+        let ego = host.ego();
         match self.stack.send(&ego, request, message, host.room()) {
             Ok(packet_len) => host.transmit(Outgoing {
                 service,

@@ -5,7 +5,7 @@ use crossguard_protocol::{Robot, StateMachine};
 
 use super::turn::Turn;
 use crate::cause::Cause;
-use crate::exchange::{Arrived, Exchange, Host as _, Moment};
+use crate::exchange::{Arrived, Exchange, Host as _};
 use crate::ras::surroundings::Awareness;
 
 /// Nothing is said to other stations.
@@ -26,7 +26,6 @@ impl Others {
         self,
         _: &mut Exchange<P>,
         _: &mut Turn<'_>,
-        _: Moment,
     ) {
     }
 
@@ -34,7 +33,6 @@ impl Others {
         self,
         _: &mut Exchange<P>,
         _: &mut Turn<'_>,
-        _: Moment,
         _: u64,
     ) {
     }
@@ -43,7 +41,6 @@ impl Others {
 /// Drops what another station tells.
 pub(super) fn hear(
     turn: &mut Turn<'_>,
-    _: Moment,
     _: &Robot,
     indication: &Indication<'_>,
     arrived: Arrived<'_>,

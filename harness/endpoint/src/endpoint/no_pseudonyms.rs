@@ -3,7 +3,7 @@
 use crossguard_protocol::{Event, StateMachine};
 
 use super::turn::Turn;
-use crate::exchange::{Exchange, Moment};
+use crate::exchange::Exchange;
 
 /// None.
 #[derive(Clone, Copy, Debug, Default)]
@@ -11,13 +11,7 @@ pub(super) struct Pseudonyms {}
 
 #[expect(clippy::unused_self, reason = "its counterpart has a state")]
 impl Pseudonyms {
-    pub(super) const fn renew<P: StateMachine>(
-        self,
-        _: &mut Exchange<P>,
-        _: &mut Turn<'_>,
-        _: Moment,
-    ) {
-    }
+    pub(super) const fn renew<P: StateMachine>(self, _: &mut Exchange<P>, _: &mut Turn<'_>) {}
 
     pub(super) const fn disguise<P: StateMachine>(self, _: &Exchange<P>, event: Event) -> Event {
         event

@@ -1,12 +1,12 @@
 //! Other stations than robots: what they say goes onto the map, and CAM and cluster VAM go to them.
 
 use crossguard_codec::Service;
-use crossguard_codec::geonet::{EgoPosition, Indication};
+use crossguard_codec::geonet::Indication;
 use crossguard_protocol::{Robot, StateMachine, StationId};
 
 use super::turn::Turn;
 use crate::cause::Cause;
-use crate::exchange::{Arrived, Exchange, Host as _, Moment};
+use crate::exchange::{Arrived, Exchange, Host as _};
 use crate::ras::cam::{CamGeneration, cam};
 use crate::ras::generation::Trigger;
 use crate::ras::surroundings::Awareness;
@@ -37,8 +37,8 @@ impl Others {
         &self,
         exchange: &mut Exchange<P>,
         turn: &mut Turn<'_>,
-        moment: Moment,
     ) {
+        let moment = turn.moment();
         let surroundings = &mut turn.around.surroundings;
         let due = surroundings.due_cluster_vams(moment.now_ms);
         let Some(plane) = surroundings.plane().copied() else {
@@ -49,7 +49,7 @@ impl Others {
             let (position, time) = (&turn.state().position, moment.timestamp_its);
             match vam_of(&ids, station, position, time, &told, &plane) {
                 Ok(vam) => {
-                    exchange.transmit(turn, moment, (Service::Vam, Trigger::Interval), &vam);
+                    exchange.transmit(turn, (Service::Vam, Trigger::Interval), &vam);
                 }
                 Err(error) => turn.not_sent(&error),
             }
@@ -61,19 +61,19 @@ impl Others {
         &mut self,
         exchange: &mut Exchange<P>,
         turn: &mut Turn<'_>,
-        moment: Moment,
         congestion_ms: u64,
     ) {
         let Some(generation) = &mut self.cam else {
             return;
         };
+        let moment = turn.moment();
         let Some(due) = generation.poll(moment.now_ms, congestion_ms, turn.state()) else {
             return;
         };
         let (ids, station) = (exchange.identifiers(), exchange.robot().station().0);
         let time = moment.timestamp_its;
         match cam(ids, station, turn.state(), time, due.low_frequency) {
-            Ok(octets) => exchange.transmit(turn, moment, (Service::Cam, due.trigger), &octets),
+            Ok(octets) => exchange.transmit(turn, (Service::Cam, due.trigger), &octets),
             Err(error) => turn.not_sent(&error),
         }
     }
@@ -82,15 +82,14 @@ impl Others {
 /// Puts on the map what another station tells to the robot `me`.
 pub(super) fn hear(
     turn: &mut Turn<'_>,
-    moment: Moment,
     me: &Robot,
     indication: &Indication<'_>,
     arrived: Arrived<'_>,
 ) {
     let (service, octets) = (indication.service, indication.message);
-    let ego = EgoPosition::of(turn.state(), moment.timestamp_its);
+    let (ego, now_ms) = (turn.ego(), turn.moment().now_ms);
     let neighbours = &mut turn.around.neighbours;
-    match neighbours.observe(me.station(), indication, &ego, moment.now_ms) {
+    match neighbours.observe(me.station(), indication, &ego, now_ms) {
         Ok(received) => {
             if !received.is_canonical {
                 turn.ignored(Cause::NotCanonical);
@@ -101,7 +100,7 @@ pub(super) fn hear(
                 return turn.dropped(Cause::NoUse(service), &event, arrived.octets);
             }
             let from = StationId(message.header().station_id.0);
-            turn.understood(moment, (service, from), Arrived { octets, ..arrived });
+            turn.understood(service, from, Arrived { octets, ..arrived });
         }
         Err(unobserved) => turn.dropped((&unobserved).into(), &unobserved, arrived.octets),
     }

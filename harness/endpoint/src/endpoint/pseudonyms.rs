@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use crossguard_codec::geonet::{EgoPosition, Envelope};
+use crossguard_codec::geonet::Envelope;
 use crossguard_codec::security::{HashedId8, TrustedTime};
 use crossguard_protocol::{Event, Identity, StateMachine};
 
 use super::Endpoint;
 use super::turn::Turn;
-use crate::exchange::{Exchange, Host as _, Moment};
+use crate::exchange::{Exchange, Host as _};
 pub(super) use crate::station::Pseudonyms;
 use crate::station::Security;
 
@@ -44,11 +44,10 @@ impl Pseudonyms {
         &mut self,
         exchange: &mut Exchange<P>,
         turn: &mut Turn<'_>,
-        moment: Moment,
     ) {
-        let ego = EgoPosition::of(turn.state(), moment.timestamp_its);
+        let (ego, now_ms) = (turn.ego(), turn.moment().now_ms);
         if let Envelope::Secured(secured) = exchange.stack_mut().envelope_mut() {
-            secured.look_at_clock(&ego, moment.now_ms);
+            secured.look_at_clock(&ego, now_ms);
         }
         if exchange.robot().identity() != Identity::Unlocked {
             return;
@@ -58,9 +57,9 @@ impl Pseudonyms {
         let envelope = exchange.stack_mut().envelope_mut();
         if let Some(taken) = self.take(envelope, &identifiers, &ego, &robot, lock_ms) {
             let numbers = (Some(taken.next), taken.sequence_number);
-            exchange.change_identity(turn, moment, taken.station, numbers);
-            turn.renew_clusters(moment.now_ms, taken.clusters);
-            self.fall_silent(taken.station, moment.now_ms);
+            exchange.change_identity(turn, taken.station, numbers);
+            turn.renew_clusters(taken.clusters);
+            self.fall_silent(taken.station, now_ms);
         }
     }
 

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use crossguard_codec::core::ram::RAM;
-use crossguard_codec::geonet::{Address, EgoPosition, Indication, PACKET_LEN_MAX, Signer};
+use crossguard_codec::geonet::{Address, Indication, PACKET_LEN_MAX, Signer};
 use crossguard_codec::{Heard, RobotState, Service, TaskParameters};
 use crossguard_protocol::{Event, Input, Output, Outputs, Robot, StationId};
 
@@ -19,16 +19,18 @@ use crate::ras::surroundings::Told;
 pub(super) struct Turn<'a> {
     pub(super) around: &'a mut Around,
     state: &'a RobotState,
+    moment: Moment,
     /// The packet that is being made.
     packet: Vec<u8>,
     effects: Vec<Effect>,
 }
 
 impl<'a> Turn<'a> {
-    pub(super) const fn new(around: &'a mut Around, state: &'a RobotState) -> Self {
+    pub(super) const fn new(around: &'a mut Around, state: &'a RobotState, moment: Moment) -> Self {
         Self {
             around,
             state,
+            moment,
             packet: Vec::new(),
             effects: Vec::new(),
         }
@@ -39,7 +41,8 @@ impl<'a> Turn<'a> {
     }
 
     /// Forgets stations and people that were not heard or perceived for too long.
-    pub(super) fn elapse(&mut self, now_ms: u64) {
+    pub(super) fn elapse(&mut self) {
+        let now_ms = self.moment.now_ms;
         self.around.neighbours.elapse(now_ms);
         self.around.surroundings.elapse(now_ms);
     }
@@ -51,8 +54,8 @@ impl<'a> Turn<'a> {
         }
     }
 
-    pub(super) fn perceive(&mut self, now_ms: u64, people: &[PerceivedVru]) {
-        let position = &self.state.position;
+    pub(super) fn perceive(&mut self, people: &[PerceivedVru]) {
+        let (now_ms, position) = (self.moment.now_ms, &self.state.position);
         let perceived = self.around.surroundings.perceive(now_ms, position, people);
         if let Err(unplaced) = perceived {
             self.dropped(Cause::Unplaced, &unplaced, &[]);
@@ -66,8 +69,9 @@ impl<'a> Turn<'a> {
 
     /// The people around are announced under other ids from now on.
     #[cfg(feature = "security")]
-    pub(super) fn renew_clusters(&mut self, now_ms: u64, seed: u64) {
-        self.around.surroundings.renew_ids(now_ms, seed);
+    pub(super) fn renew_clusters(&mut self, seed: u64) {
+        let surroundings = &mut self.around.surroundings;
+        surroundings.renew_ids(self.moment.now_ms, seed);
     }
 
     /// The longest interval between two RAM, in ms.
@@ -76,13 +80,8 @@ impl<'a> Turn<'a> {
     }
 
     /// A message was understood, from any sender.
-    pub(super) fn understood(
-        &mut self,
-        moment: Moment,
-        (kind, from): (Service, StationId),
-        message: Arrived<'_>,
-    ) {
-        let now_ms = moment.now_ms;
+    pub(super) fn understood(&mut self, kind: Service, from: StationId, message: Arrived<'_>) {
+        let now_ms = self.moment.now_ms;
         self.effects.push(Effect::Heard {
             kind,
             from,
@@ -100,6 +99,10 @@ impl<'a> Turn<'a> {
 }
 
 impl Host for Turn<'_> {
+    fn moment(&self) -> Moment {
+        self.moment
+    }
+
     fn state(&self) -> &RobotState {
         self.state
     }
@@ -132,16 +135,16 @@ impl Host for Turn<'_> {
             .extend(act(*output, parameters).map(Effect::Act));
     }
 
-    fn heard(&mut self, moment: Moment, me: &Robot, heard: &Heard, arrived: Arrived<'_>) {
-        let now_ms = moment.now_ms;
-        self.understood(moment, (heard.service, heard.from), arrived);
+    fn heard(&mut self, me: &Robot, heard: &Heard, arrived: Arrived<'_>) {
+        let now_ms = self.moment.now_ms;
+        self.understood(heard.service, heard.from, arrived);
         for input in heard.inputs.iter() {
             if let Input::Ram { ram, .. } = input {
                 self.around.answers.hear(now_ms, ram);
             }
         }
         let Some(state) = &heard.state else { return };
-        let ego = EgoPosition::of(self.state, moment.timestamp_its);
+        let ego = self.ego();
         self.around.neighbours.observe_robot(heard, &ego, now_ms);
         let surroundings = &mut self.around.surroundings;
         if let Some(plane) = surroundings.plane() {
@@ -155,19 +158,13 @@ impl Host for Turn<'_> {
         }
     }
 
-    fn vouched(&mut self, moment: Moment, from: StationId, (signer, address): (Signer, Address)) {
+    fn vouched(&mut self, from: StationId, (signer, address): (Signer, Address)) {
         let neighbours = &mut self.around.neighbours;
-        neighbours.bind(from, signer, address, moment.now_ms);
+        neighbours.bind(from, signer, address, self.moment.now_ms);
     }
 
-    fn other(
-        &mut self,
-        moment: Moment,
-        me: &Robot,
-        indication: &Indication<'_>,
-        arrived: Arrived<'_>,
-    ) {
-        others::hear(self, moment, me, indication, arrived);
+    fn other(&mut self, me: &Robot, indication: &Indication<'_>, arrived: Arrived<'_>) {
+        others::hear(self, me, indication, arrived);
     }
 
     fn complete(&mut self, ram: &mut RAM) {

@@ -10,7 +10,7 @@ use crossguard_codec::geonet::{Address, Indication, Permits};
 use crossguard_codec::{Heard, Identifiers, Part};
 use crossguard_protocol::{Input, StationId};
 
-use super::host::{Host, Moment};
+use super::host::Host;
 use crate::cause::Cause;
 
 /// Why a message of a sender that may be relied on is dropped all the same.
@@ -65,7 +65,6 @@ impl From<NotEntitled> for Cause {
 pub(super) fn check_entitled<H: Host>(
     host: &mut H,
     identifiers: &Identifiers,
-    moment: Moment,
     indication: &Indication<'_>,
     heard: &Heard,
 ) -> Result<(), NotEntitled> {
@@ -89,7 +88,7 @@ pub(super) fn check_entitled<H: Host>(
         return Err(NotEntitled::Address(is));
     }
     if let Some(signer) = indication.signer {
-        host.vouched(moment, is, (signer, address));
+        host.vouched(is, (signer, address));
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use core::fmt::Display;
 
 use crossguard_codec::core::ram::RAM;
-use crossguard_codec::geonet::{Address, Indication, Request, Signer};
+use crossguard_codec::geonet::{Address, EgoPosition, Indication, Request, Signer};
 use crossguard_codec::{Heard, RobotState, Service, TaskParameters};
 use crossguard_protocol::{Input, Output, Outputs, Robot, StationId};
 
@@ -45,9 +45,17 @@ pub struct Outgoing<'a> {
 
 /// What an exchange is embedded in: its effects go here, in order.
 pub trait Host {
+    /// What time it is: one for all that happens in a call.
+    fn moment(&self) -> Moment;
+
     /// How the application says that the robot is. What the protocol knows better is corrected before it is
     /// sent.
     fn state(&self) -> &RobotState;
+
+    /// Where the robot is now, for packets.
+    fn ego(&self) -> EgoPosition {
+        EgoPosition::of(self.state(), self.moment().timestamp_its)
+    }
 
     /// Where the next packet goes: [`PACKET_LEN_MAX`](crossguard_codec::geonet::PACKET_LEN_MAX) octets.
     fn room(&mut self) -> &mut [u8];
@@ -63,19 +71,13 @@ pub trait Host {
     fn act(&mut self, output: &Output, parameters: TaskParameters);
 
     /// The robot `me` understood a message.
-    fn heard(&mut self, moment: Moment, me: &Robot, heard: &Heard, arrived: Arrived<'_>);
+    fn heard(&mut self, me: &Robot, heard: &Heard, arrived: Arrived<'_>);
 
     /// The certificate of this signer vouches for the robot with this station id, whose packets come from this address.
-    fn vouched(&mut self, _moment: Moment, _from: StationId, _by: (Signer, Address)) {}
+    fn vouched(&mut self, _from: StationId, _by: (Signer, Address)) {}
 
     /// A message of another service than those of robots arrived at the robot `me`, in this packet.
-    fn other(
-        &mut self,
-        moment: Moment,
-        me: &Robot,
-        indication: &Indication<'_>,
-        arrived: Arrived<'_>,
-    );
+    fn other(&mut self, me: &Robot, indication: &Indication<'_>, arrived: Arrived<'_>);
 
     /// The host may add what it knows of the people around.
     fn complete(&mut self, _ram: &mut RAM) {}
