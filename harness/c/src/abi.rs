@@ -228,7 +228,7 @@ pub struct CrossguardTaskParameters {
 }
 
 /// Something that happened in the robot itself; `kind` says which fields count.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 #[repr(C)]
 pub struct CrossguardEvent {
     /// `CrossguardEventKind`.
@@ -261,7 +261,7 @@ pub struct CrossguardEvent {
 }
 
 /// One output; `kind` says which fields count.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 #[repr(C)]
 pub struct CrossguardOutput {
     /// `CrossguardOutputKind`.

@@ -232,26 +232,18 @@ impl CrossguardEvent {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::abi::CrossguardSession;
-    use crate::output::OPEN;
 
     #[test]
     fn every_event_has_its_code() {
         for kind in EventKind::ALL {
             let plain = CrossguardEvent {
                 kind: kind.code(),
-                urgency: 0,
                 followers: 1,
                 task: 1,
                 tasks: 1,
-                request: 0,
-                unavailability: 0,
                 station: 2,
-                session: CrossguardSession::default(),
-                place: 0,
                 boot: 1,
-                reserved: [0; 6],
-                parameters: OPEN,
+                ..CrossguardEvent::default()
             };
             assert_eq!(plain.to_protocol().map(|event| event.kind()), Some(kind));
         }

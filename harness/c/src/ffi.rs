@@ -22,7 +22,6 @@ use crate::body::NOBODY;
 use crate::config::Refused;
 use crate::counters::Text;
 use crate::live::{Live, Turn, copy_text};
-use crate::output::OPEN;
 use crate::trace::Lines;
 
 /// What a robot's memory begins with.
@@ -303,17 +302,7 @@ pub unsafe extern "C" fn crossguard_event_init(
     let new = CrossguardEvent {
         kind,
         urgency: 1,
-        followers: 0,
-        task: 0,
-        tasks: 0,
-        request: 0,
-        unavailability: 0,
-        station: 0,
-        session: crate::abi::CrossguardSession::default(),
-        place: 0,
-        boot: 0,
-        reserved: [0; 6],
-        parameters: OPEN,
+        ..CrossguardEvent::default()
     };
     // SAFETY: the contract of the pointer.
     status(unsafe { write(event) }.map(|event| *event = new))

@@ -18,7 +18,7 @@ use crate::abi::{
 };
 use crate::config::{Checked, Name};
 use crate::counters::{Counters, Text};
-use crate::trace::{Entry, Lines};
+use crate::trace::{ByName, Entry, Hex, Lines, Reception};
 
 /// Headers of a single-hop broadcast with BTP-B, in octets.
 const HEADERS_LEN: usize = 44;
@@ -136,7 +136,8 @@ impl Live {
     pub(crate) fn start_log(&mut self, unix_ms: u64, turn: &mut Turn<'_>) {
         let (exchange, mut call) = self.parts(turn, 0);
         call.write(&Entry::Started {
-            robot: exchange.robot(),
+            station: exchange.robot().station(),
+            boot: exchange.robot().boot(),
             settings: exchange.config().settings(),
             identifiers: exchange.identifiers(),
             unix_ms,
@@ -145,7 +146,7 @@ impl Live {
 
     /// Ends the log of the robot.
     pub(crate) fn stop_log(&mut self, turn: &mut Turn<'_>) {
-        let counters = &self.counters;
+        let counters = ByName(&self.counters);
         let (at_us, name) = (turn.plain.log_at_us, self.name.as_str());
         if turn.lines.write(at_us, name, &Entry::Stopped { counters }) {
             self.counters.count(Cause::LogFull);
@@ -210,7 +211,7 @@ impl Host for Call<'_, '_> {
         self.write(&Entry::Sent {
             message: outgoing.service,
             trigger: outgoing.trigger,
-            octets: outgoing.message,
+            octets: Hex(outgoing.message),
         });
     }
 
@@ -230,11 +231,16 @@ impl Host for Call<'_, '_> {
 
     fn heard(&mut self, _me: &Robot, heard: &Heard, arrived: Arrived<'_>) {
         self.turn.plain.heard = CrossguardHeard::of(heard);
+        let told_us = self.turn.plain.log_at_us;
+        let reception = arrived.at_ms.map(|at_ms| Reception {
+            arrived_us: told_us.saturating_sub((self.moment.now_ms - at_ms) * 1_000),
+            told_us,
+        });
         self.write(&Entry::Heard {
             message: heard.service,
             from: heard.from,
-            waited_ms: arrived.at_ms.map(|at_ms| self.moment.now_ms - at_ms),
-            octets: arrived.octets,
+            reception,
+            octets: Hex(arrived.octets),
         });
     }
 
@@ -248,9 +254,10 @@ impl Host for Call<'_, '_> {
         let name = Text::<CROSSGUARD_CAUSE_LEN>::of(&cause);
         copy_text(name.as_str(), &mut self.turn.plain.dropped);
         self.write(&Entry::Dropped {
-            cause,
+            layer: cause.layer(),
+            cause: cause.reason(),
             detail,
-            octets,
+            octets: Hex(octets),
         });
     }
 

@@ -14,32 +14,6 @@ use crate::abi::{
 use crate::body::{known, or_nan};
 use crate::place::PlainPlace;
 
-/// An output with nothing in it.
-const NOTHING: CrossguardOutput = CrossguardOutput {
-    kind: 0,
-    notice: 0,
-    reason: 0,
-    unavailability: 0,
-    policy: 0,
-    task: 0,
-    request: 0,
-    message: 0,
-    station: 0,
-    session: CrossguardSession {
-        leader: 0,
-        number: 0,
-    },
-    packet_offset: 0,
-    packet_length: 0,
-    message_offset: 0,
-    message_length: 0,
-    port: 0,
-    traffic_class: 0,
-    open_ms: 0,
-    reserved: [0; 4],
-    parameters: OPEN,
-};
-
 /// Parameters that leave everything to the follower.
 pub(crate) const OPEN: CrossguardTaskParameters = CrossguardTaskParameters {
     latitude_deg: f64::NAN,
@@ -58,12 +32,18 @@ pub(crate) const OPEN: CrossguardTaskParameters = CrossguardTaskParameters {
     reserved: [0; 4],
 };
 
+impl Default for CrossguardTaskParameters {
+    fn default() -> Self {
+        OPEN
+    }
+}
+
 impl CrossguardOutput {
     /// An output of this kind.
-    pub(crate) const fn of(kind: Kind) -> Self {
+    pub(crate) fn of(kind: Kind) -> Self {
         Self {
             kind: kind as u8,
-            ..NOTHING
+            ..Self::default()
         }
     }
 
@@ -88,7 +68,7 @@ impl CrossguardOutput {
             session: said.session.map(Into::into).unwrap_or_default(),
             open_ms: said.open.map_or(0, |left| left.0),
             parameters,
-            ..NOTHING
+            ..Self::default()
         })
     }
 }
