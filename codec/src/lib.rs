@@ -81,6 +81,7 @@ mod identifiers;
 #[cfg(feature = "foreign")]
 pub mod its;
 mod message;
+mod named;
 mod part;
 #[cfg(feature = "std")]
 mod road_user;

@@ -6,50 +6,24 @@ use serde::{Deserialize, Serialize};
 
 use crate::core::cdd::{CartesianCoordinate, Shape, VruClusterInformation};
 use crate::distance::moved;
+use crate::named;
 use crate::state::{Position, RobotState, SignalsShown};
 
-/// What somebody on the road is.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub enum Kind {
-    /// A robot that sends RAM.
-    Robot,
-    /// A vehicle.
-    Vehicle,
-    /// A vulnerable road user, or a group of them.
-    Vru,
-    /// A road-side unit.
-    RoadSideUnit,
-    /// Something else that somebody perceived.
-    Object,
-}
-
-impl Kind {
-    /// All of them.
-    pub const ALL: [Self; 5] = [
-        Self::Robot,
-        Self::Vehicle,
-        Self::Vru,
-        Self::RoadSideUnit,
-        Self::Object,
-    ];
-
-    /// Its name for people, and in metrics.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Robot => "robot",
-            Self::Vehicle => "vehicle",
-            Self::Vru => "vulnerable road user",
-            Self::RoadSideUnit => "road-side unit",
-            Self::Object => "object",
-        }
-    }
-}
-
-impl Display for Kind {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
+named! {
+    /// What somebody on the road is.
+    #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+    #[serde(rename_all = "camelCase")]
+    pub enum Kind {
+        /// A robot that sends RAM.
+        Robot = "robot",
+        /// A vehicle.
+        Vehicle = "vehicle",
+        /// A vulnerable road user, or a group of them.
+        Vru = "vulnerable road user",
+        /// A road-side unit.
+        RoadSideUnit = "road-side unit",
+        /// Something else that somebody perceived.
+        Object = "object",
     }
 }
 

@@ -7,49 +7,29 @@ use serde::{Deserialize, Serialize};
 
 use crate::geonet::{Destination, Lifetime, Request, TrafficClass};
 use crate::identifiers::Identifiers;
+use crate::named;
 
-/// A service that sends and receives messages.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "UPPERCASE")]
-pub enum Service {
-    /// Robot awareness.
-    Ram,
-    /// Robot maneuver coordination.
-    Rmcm,
-    /// Cooperative awareness of vehicles.
-    Cam,
-    /// Decentralized environmental notification.
-    Denm,
-    /// Awareness of vulnerable road users.
-    Vam,
-    /// Collective perception.
-    Cpm,
+named! {
+    /// A service that sends and receives messages.
+    #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+    #[serde(rename_all = "UPPERCASE")]
+    pub enum Service {
+        /// Robot awareness.
+        Ram = "RAM",
+        /// Robot maneuver coordination.
+        Rmcm = "RMCM",
+        /// Cooperative awareness of vehicles.
+        Cam = "CAM",
+        /// Decentralized environmental notification.
+        Denm = "DENM",
+        /// Awareness of vulnerable road users.
+        Vam = "VAM",
+        /// Collective perception.
+        Cpm = "CPM",
+    }
 }
 
 impl Service {
-    /// All of them.
-    pub const ALL: [Self; 6] = [
-        Self::Ram,
-        Self::Rmcm,
-        Self::Cam,
-        Self::Denm,
-        Self::Vam,
-        Self::Cpm,
-    ];
-
-    /// The name of its message.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Ram => "RAM",
-            Self::Rmcm => "RMCM",
-            Self::Cam => "CAM",
-            Self::Denm => "DENM",
-            Self::Vam => "VAM",
-            Self::Cpm => "CPM",
-        }
-    }
-
     /// Its BTP-B port.
     #[must_use]
     pub const fn port(self, identifiers: &Identifiers) -> u16 {

@@ -3,92 +3,45 @@
 use core::fmt::{self, Display, Formatter};
 
 use crossguard_codec::geonet::Discarded;
-use crossguard_codec::{DecodeError, Service, Unheard, ViewError};
+use crossguard_codec::{DecodeError, Service, Unheard, ViewError, named};
 use crossguard_protocol::{Disengagement, Ignored, StationId};
 use serde::{Deserialize, Serialize};
 
-/// Where on its way something was dropped or ignored, from the link inwards.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub enum Layer {
-    /// The faults that are simulated on purpose.
-    Simulated,
-    /// The link: the operating system, or the network below it.
-    Link,
-    /// The queue between the link and the robot.
-    Inbox,
-    /// `GeoNetworking` and BTP.
-    Packet,
-    /// The security envelope, and the permissions of its certificate.
-    Security,
-    /// The service that a message is of.
-    Service,
-    /// The encoding of a message.
-    Syntax,
-    /// The content of a message.
-    Semantics,
-    /// The state machine.
-    Protocol,
-    /// The robot's own sensors.
-    Perception,
-    /// The robot's own body, where that is another process.
-    Body,
-    /// The programs at its operator port.
-    Operator,
-    /// The files of the boot counter, of the time and of the revocation list.
-    Storage,
-    /// The log.
-    Log,
-    /// Readers of records that need not have all of them.
-    Output,
-}
-
-impl Layer {
-    /// All layers, in order.
-    pub const ALL: [Self; 15] = [
-        Self::Simulated,
-        Self::Link,
-        Self::Inbox,
-        Self::Packet,
-        Self::Security,
-        Self::Service,
-        Self::Syntax,
-        Self::Semantics,
-        Self::Protocol,
-        Self::Perception,
-        Self::Body,
-        Self::Operator,
-        Self::Storage,
-        Self::Log,
-        Self::Output,
-    ];
-
-    /// Its name in logs, metrics and reports.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Simulated => "simulated",
-            Self::Link => "link",
-            Self::Inbox => "inbox",
-            Self::Packet => "packet",
-            Self::Security => "security",
-            Self::Service => "service",
-            Self::Syntax => "syntax",
-            Self::Semantics => "semantics",
-            Self::Protocol => "protocol",
-            Self::Perception => "perception",
-            Self::Body => "body",
-            Self::Operator => "operator",
-            Self::Storage => "storage",
-            Self::Log => "log",
-            Self::Output => "output",
-        }
-    }
-}
-
-impl Display for Layer {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
+named! {
+    /// Where on its way something was dropped or ignored, from the link inwards.
+    #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+    #[serde(rename_all = "camelCase")]
+    pub enum Layer {
+        /// The faults that are simulated on purpose.
+        Simulated = "simulated",
+        /// The link: the operating system, or the network below it.
+        Link = "link",
+        /// The queue between the link and the robot.
+        Inbox = "inbox",
+        /// `GeoNetworking` and BTP.
+        Packet = "packet",
+        /// The security envelope, and the permissions of its certificate.
+        Security = "security",
+        /// The service that a message is of.
+        Service = "service",
+        /// The encoding of a message.
+        Syntax = "syntax",
+        /// The content of a message.
+        Semantics = "semantics",
+        /// The state machine.
+        Protocol = "protocol",
+        /// The robot's own sensors.
+        Perception = "perception",
+        /// The robot's own body, where that is another process.
+        Body = "body",
+        /// The programs at its operator port.
+        Operator = "operator",
+        /// The files of the boot counter, of the time and of the revocation list.
+        Storage = "storage",
+        /// The log.
+        Log = "log",
+        /// Readers of records that need not have all of them.
+        Output = "output",
     }
 }
 
@@ -220,29 +173,18 @@ impl Display for Cause {
     }
 }
 
-/// How the fault injector dropped a datagram.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub enum Loss {
-    /// By itself.
-    Random,
-    /// In a burst.
-    Burst,
-    /// In an outage.
-    Outage,
-    /// Too many datagrams were under way already.
-    Overflow,
-}
-
-impl Loss {
-    /// Its name among the reasons.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Random => "loss",
-            Self::Burst => "burst loss",
-            Self::Outage => "outage",
-            Self::Overflow => "overflow",
-        }
+named! {
+    /// How the fault injector dropped a datagram.
+    #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+    pub enum Loss {
+        /// By itself.
+        Random = "loss",
+        /// In a burst.
+        Burst = "burst loss",
+        /// In an outage.
+        Outage = "outage",
+        /// Too many datagrams were under way already.
+        Overflow = "overflow",
     }
 }
 

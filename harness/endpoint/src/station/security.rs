@@ -1,49 +1,30 @@
 //! Whether a robot signs and verifies, and under which pseudonyms.
 
-use std::fmt;
 use std::str::FromStr;
 
 use crossguard_codec::geonet::{Demand, Envelope, Secured};
 use crossguard_codec::security::{
     Station, Ticket, Time64, Tolerances, TrustStore, Unsigned, keyed_digest, random_octets,
 };
-use crossguard_codec::{Identifiers, Service};
+use crossguard_codec::{Identifiers, Service, named};
 use crossguard_protocol::StationId;
 use serde::{Deserialize, Serialize};
 
 use super::pseudonyms::Secret;
 
-/// How much security there is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Mode {
-    /// None: packets are not signed, and signed ones are dropped.
-    #[default]
-    Off,
-    /// Packets are signed. Those of others are taken without a signature as well, but not with a
-    /// wrong one.
-    Sign,
-    /// Packets are signed, and nothing is taken in without a signature that can be relied on.
-    Enforce,
-}
-
-impl Mode {
-    const ALL: [Self; 3] = [Self::Off, Self::Sign, Self::Enforce];
-
-    /// Its name in files and options.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Off => "off",
-            Self::Sign => "sign",
-            Self::Enforce => "enforce",
-        }
-    }
-}
-
-impl fmt::Display for Mode {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+named! {
+    /// How much security there is.
+    #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum Mode {
+        /// None: packets are not signed, and signed ones are dropped.
+        #[default]
+        Off = "off",
+        /// Packets are signed. Those of others are taken without a signature as well, but not with a
+        /// wrong one.
+        Sign = "sign",
+        /// Packets are signed, and nothing is taken in without a signature that can be relied on.
+        Enforce = "enforce",
     }
 }
 
