@@ -2,10 +2,11 @@
 //! sets, reasons.
 
 use crossguard_protocol::{
-    SessionId, SessionNumber, StationId, TaskSet, TaskType, Unavailability, UniqueNumber,
+    Ending, SessionId, SessionNumber, StationId, TaskSet, TaskType, Unavailability, UniqueNumber,
+    Urgency,
 };
 
-use crate::core::{cdd, common};
+use crate::core::{cdd, common, ram};
 use crate::si::Ladder;
 
 /// Defines an enumeration and its conversion to and from an ENUMERATED that has the same names.
@@ -139,27 +140,28 @@ pub(crate) fn session_number_of(number: common::SessionNumber) -> SessionNumber 
     SessionNumber(UniqueNumber::from_u32(number.0))
 }
 
-pub(crate) fn reason(reason: Unavailability) -> common::UnavailabilityReason {
-    use common::UnavailabilityReason as Wire;
-    match reason {
-        Unavailability::LowBattery => Wire::LowBattery,
-        Unavailability::Teleoperated => Wire::Teleoperated,
-        Unavailability::EmergencyStop => Wire::EmergencyStop,
-        Unavailability::LocalFault => Wire::LocalFault,
-        Unavailability::NotSafe => Wire::NotSafe,
-    }
+/// Defines both conversions between an enumeration of the protocol and the ENUMERATED that has the same names.
+macro_rules! mirrored {
+    ($to_wire:ident, $of_wire:ident: $own:ty, $wire:ty { $($variant:ident),+ }) => {
+        pub(crate) const fn $to_wire(own: $own) -> $wire {
+            match own {
+                $(<$own>::$variant => <$wire>::$variant,)+
+            }
+        }
+
+        pub(crate) const fn $of_wire(wire: $wire) -> $own {
+            match wire {
+                $(<$wire>::$variant => <$own>::$variant,)+
+            }
+        }
+    };
 }
 
-pub(crate) fn reason_of(reason: common::UnavailabilityReason) -> Unavailability {
-    use common::UnavailabilityReason as Wire;
-    match reason {
-        Wire::LowBattery => Unavailability::LowBattery,
-        Wire::Teleoperated => Unavailability::Teleoperated,
-        Wire::EmergencyStop => Unavailability::EmergencyStop,
-        Wire::LocalFault => Unavailability::LocalFault,
-        Wire::NotSafe => Unavailability::NotSafe,
-    }
-}
+mirrored!(reason, reason_of: Unavailability, common::UnavailabilityReason {
+    LowBattery, Teleoperated, EmergencyStop, LocalFault, NotSafe
+});
+mirrored!(urgency, urgency_of: Urgency, ram::RequestUrgency { Low, Medium, High, Emergency });
+mirrored!(ending, ending_of: Ending, ram::SessionEnding { Completed, Aborted });
 
 /// The class of a half width among all `classes` of an ENUMERATED confidence, the last of which is
 /// *unavailable*.

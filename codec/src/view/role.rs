@@ -1,9 +1,8 @@
 //! The operation container of a RAM: parts in a session, reports, farewells.
 
 use crossguard_protocol::{
-    Confirmation, Coordination, Ending, Failure, Farewell, Heartbeat, HelpRequest, MAX_FOLLOWERS,
-    Millis, OfferNumber, Place, Progress, Ram, Report, RequestId, SessionId, StationId,
-    UniqueNumber, Urgency,
+    Confirmation, Coordination, Failure, Farewell, Heartbeat, HelpRequest, MAX_FOLLOWERS, Millis,
+    OfferNumber, Place, Progress, Ram, Report, RequestId, SessionId, StationId, UniqueNumber,
 };
 
 use super::all_of;
@@ -11,13 +10,12 @@ use crate::core::common;
 use crate::core::ram::{
     self, CommandProgress, CommandReport, ConfirmedFollower, ConfirmedFollowers, CrossingNumber,
     CrossingReference, EndedSession, FailureReason, FollowerRole, HelperRole, LeaderRole,
-    LeftSession, RequestUrgency, RequestedFollowers, RequesterRole, SafetyTimeout, SessionEnding,
-    SessionFarewell, SessionRole,
+    LeftSession, RequestedFollowers, RequesterRole, SafetyTimeout, SessionFarewell, SessionRole,
 };
 use crate::error::ViewError;
 use crate::wire::{
-    reason, reason_of, session, session_number, session_number_of, session_of, station, station_of,
-    task_set, tasks_of,
+    ending, ending_of, reason, reason_of, session, session_number, session_number_of, session_of,
+    station, station_of, task_set, tasks_of, urgency, urgency_of,
 };
 
 const _: () = assert!(ConfirmedFollowers::CAPACITY >= MAX_FOLLOWERS);
@@ -193,12 +191,9 @@ fn report_of(report: CommandReport) -> Report {
 
 pub(super) fn farewell_from(farewell: Farewell) -> SessionFarewell {
     match farewell {
-        Farewell::Ended(number, ending) => SessionFarewell::Ended(EndedSession {
+        Farewell::Ended(number, how) => SessionFarewell::Ended(EndedSession {
             session_number: session_number(number),
-            ending: match ending {
-                Ending::Completed => SessionEnding::Completed,
-                Ending::Aborted => SessionEnding::Aborted,
-            },
+            ending: ending(how),
         }),
         Farewell::Left(left, offer) => SessionFarewell::Left(LeftSession {
             session: session(left),
@@ -210,11 +205,8 @@ pub(super) fn farewell_from(farewell: Farewell) -> SessionFarewell {
 pub(super) fn farewell_of(farewell: SessionFarewell) -> Farewell {
     match farewell {
         SessionFarewell::Ended(ended) => {
-            let ending = match ended.ending {
-                SessionEnding::Completed => Ending::Completed,
-                SessionEnding::Aborted => Ending::Aborted,
-            };
-            Farewell::Ended(session_number_of(ended.session_number), ending)
+            let number = session_number_of(ended.session_number);
+            Farewell::Ended(number, ending_of(ended.ending))
         }
         SessionFarewell::Left(left) => {
             Farewell::Left(session_of(left.session), offer_of(left.offer_number))
@@ -240,23 +232,5 @@ fn place_of(crossing: Option<CrossingReference>) -> Result<Place, ViewError> {
     match Place(u32::from(regulator) << 16 | u32::from(intersection)) {
         Place::UNKNOWN => Err(ViewError::UnknownCrossing),
         place => Ok(place),
-    }
-}
-
-fn urgency(urgency: Urgency) -> RequestUrgency {
-    match urgency {
-        Urgency::Low => RequestUrgency::Low,
-        Urgency::Medium => RequestUrgency::Medium,
-        Urgency::High => RequestUrgency::High,
-        Urgency::Emergency => RequestUrgency::Emergency,
-    }
-}
-
-fn urgency_of(urgency: RequestUrgency) -> Urgency {
-    match urgency {
-        RequestUrgency::Low => Urgency::Low,
-        RequestUrgency::Medium => Urgency::Medium,
-        RequestUrgency::High => Urgency::High,
-        RequestUrgency::Emergency => Urgency::Emergency,
     }
 }
