@@ -37,7 +37,7 @@ pub(crate) mod sealed {
 
 /// The codec of the messages that the core has.
 macro_rules! by_the_core {
-    ($message:ty) => {
+    ($message:ty, $name:literal, $len_max:ident, $identifiers:ident) => {
         impl sealed::Sealed for $message {
             fn write(&self, buffer: &mut [u8]) -> Result<usize, EncodeError> {
                 core::encode(self, buffer).map_err(EncodeError::of_core::<Self>)
@@ -53,36 +53,23 @@ macro_rules! by_the_core {
                 })
             }
         }
+
+        impl Pdu for $message {
+            const NAME: &'static str = $name;
+            const LEN_MAX: usize = $len_max;
+            fn header(&self) -> ItsPduHeader {
+                self.header
+            }
+            fn expected_header(identifiers: &Identifiers) -> (u8, u8) {
+                let own = &identifiers.$identifiers;
+                (own.protocol_version, own.message_id)
+            }
+        }
     };
 }
 
-by_the_core!(RAM);
-by_the_core!(RMCM);
-
-impl Pdu for RAM {
-    const NAME: &'static str = "RAM";
-    const LEN_MAX: usize = RAM_LEN_MAX;
-    fn header(&self) -> ItsPduHeader {
-        self.header
-    }
-    fn expected_header(identifiers: &Identifiers) -> (u8, u8) {
-        (identifiers.ram.protocol_version, identifiers.ram.message_id)
-    }
-}
-
-impl Pdu for RMCM {
-    const NAME: &'static str = "RMCM";
-    const LEN_MAX: usize = RMCM_LEN_MAX;
-    fn header(&self) -> ItsPduHeader {
-        self.header
-    }
-    fn expected_header(identifiers: &Identifiers) -> (u8, u8) {
-        (
-            identifiers.rmcm.protocol_version,
-            identifiers.rmcm.message_id,
-        )
-    }
-}
+by_the_core!(RAM, "RAM", RAM_LEN_MAX, ram);
+by_the_core!(RMCM, "RMCM", RMCM_LEN_MAX, rmcm);
 
 /// A message as it was received.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

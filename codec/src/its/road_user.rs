@@ -66,7 +66,9 @@ macro_rules! of_vam {
                 &parameters.basic_container,
                 cluster.and_then(|cluster| cluster.cluster_bounding_box_shape.as_ref()),
             ),
-            ..vru($vam.header.station_id.0, &parameters.basic_container)
+            kind: Kind::Vru,
+            station_type: Some(parameters.basic_container.station_type.0),
+            signals: None,
         }]
     }};
 }
@@ -141,21 +143,6 @@ fn of_cam(cam: &CAM, now: u64) -> RoadUser {
         cardinality: 1,
         signals: None,
         measured_its: si::rebuild_timestamp(now, cam.cam.generation_delta_time.0),
-    }
-}
-
-/// A road user that sends VAM, as far as its basic container tells.
-fn vru(station: u32, container: &BasicContainer) -> RoadUser {
-    RoadUser {
-        identity: Identity::Station(station),
-        kind: Kind::Vru,
-        station_type: Some(container.station_type.0),
-        position: position_of(container),
-        speed: None,
-        heading: None,
-        cardinality: 1,
-        signals: None,
-        measured_its: 0,
     }
 }
 

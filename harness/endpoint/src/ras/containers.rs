@@ -137,15 +137,12 @@ fn prediction(
     });
     Some(VruMotionPredictionContainer {
         path_prediction: PathPredicted::new(&points),
-        ..VruMotionPredictionContainer {
-            path_history: None,
-            path_prediction: None,
-            safe_distance: None,
-            trajectory_interception_indication: None,
-            acceleration_change_indication: None,
-            heading_change_indication: None,
-            stability_change_indication: None,
-        }
+        path_history: None,
+        safe_distance: None,
+        trajectory_interception_indication: None,
+        acceleration_change_indication: None,
+        heading_change_indication: None,
+        stability_change_indication: None,
     })
 }
 
