@@ -55,14 +55,11 @@ pub fn check(
         options,
         &limits,
         &mut |reached| {
+            let second = second.as_ref();
             watch(CheckProgress {
-                checked: second
-                    .as_ref()
-                    .map_or(reached.states, |second| second.unique_states),
-                explored: reached.states,
-                frontier: reached.frontier,
-                depth: reached.depth,
-                ..progress
+                checked: second.map_or(reached.checked, |second| second.unique_states),
+                expected: progress.expected,
+                ..reached
             });
         },
     );

@@ -31,12 +31,6 @@ pub struct Options {
     pub safety_only: bool,
 }
 
-/// How many states are expanded before what they lead to is numbered.
-pub(crate) const BATCH: usize = 16_384;
-
-/// How many of them a thread takes at a time.
-pub(crate) const CHUNK: usize = 256;
-
 /// A request to give up, which an observer of a check may make. Clones are the same request.
 #[derive(Clone, Debug, Default)]
 pub struct Stop(Arc<AtomicBool>);

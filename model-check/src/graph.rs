@@ -11,15 +11,6 @@ use crate::properties::PropertyId;
 use crate::report::CutOff;
 use crate::store::States;
 
-/// How far an exploration is.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Reached {
-    pub(crate) states: usize,
-    /// How many of them are still to be expanded.
-    pub(crate) frontier: usize,
-    pub(crate) depth: usize,
-}
-
 /// What is kept of an exploration.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) enum Keep {
@@ -62,14 +53,6 @@ impl Graph {
     /// The first state that breaks a property of states or steps: no other is nearer.
     pub(crate) const fn broken(&self, property: PropertyId) -> Option<u32> {
         self.broken[property as usize]
-    }
-
-    fn reached(&self, expanded: usize) -> Reached {
-        Reached {
-            states: self.states(),
-            frontier: self.states() - expanded,
-            depth: self.depth(),
-        }
     }
 
     pub(crate) fn states(&self) -> usize {

@@ -12,70 +12,9 @@
 //!                        └─────────── state ───────────┘
 //! ```
 
-use std::hash::{BuildHasher, Hash};
-
-use hashbrown::HashTable;
-use rustc_hash::FxBuildHasher;
-
 use crate::model::{Backdrop, ModelState};
+use crate::numbered::Numbered;
 use crate::scenario::MAX_ROBOTS;
-
-/// Values with numbers from 0, in the order in which they were added.
-struct Numbered<T> {
-    values: Vec<T>,
-    /// By what the values are.
-    numbers: HashTable<u32>,
-}
-
-impl<T> Default for Numbered<T> {
-    fn default() -> Self {
-        Self {
-            values: Vec::new(),
-            numbers: HashTable::new(),
-        }
-    }
-}
-
-impl<T: Copy + Eq + Hash> Numbered<T> {
-    fn find(&self, value: &T) -> Option<u32> {
-        self.find_hashed(hash(value), value)
-    }
-
-    fn find_hashed(&self, hashed: u64, value: &T) -> Option<u32> {
-        let is_it = |number: &u32| self.values[*number as usize] == *value;
-        self.numbers.find(hashed, is_it).copied()
-    }
-
-    /// The number of a value, a new one where it was not there.
-    ///
-    /// # Panics
-    /// Where 2^32 values are there.
-    fn add(&mut self, value: T) -> u32 {
-        let hashed = hash(&value);
-        if let Some(known) = self.find_hashed(hashed, &value) {
-            return known;
-        }
-        let fresh = u32::try_from(self.values.len()).expect("fewer than 2^32 values");
-        self.values.push(value);
-        let rehash = |&number: &u32| hash(&self.values[number as usize]);
-        self.numbers.insert_unique(hashed, fresh, rehash);
-        fresh
-    }
-
-    /// The value of a number that was given out.
-    fn get(&self, number: u32) -> T {
-        self.values[number as usize]
-    }
-
-    fn freeze(&mut self) {
-        self.numbers = HashTable::new();
-        self.values.shrink_to_fit();
-    }
-}
-
-fn hash(value: &impl Hash) -> u64 {
-    FxBuildHasher.hash_one(value)
-}
 
 type Pairs = Numbered<(u32, u32)>;
 
@@ -97,11 +36,8 @@ const PAIRS: usize = MAX_ROBOTS / 2;
 const _: () = assert!(PAIRS == 3 && MAX_ROBOTS.is_multiple_of(2));
 
 impl States {
-    /// As many as can be numbered.
-    pub(crate) const MAX: usize = u32::MAX as usize;
-
     pub(crate) fn len(&self) -> usize {
-        self.whole.values.len()
+        self.whole.len()
     }
 
     /// The number of a state, if it was added, before [`States::freeze`].
@@ -117,7 +53,7 @@ impl States {
     /// The number of a state, a new one where it was not added before.
     ///
     /// # Panics
-    /// Where [`States::MAX`] states are there.
+    /// Where 2^32 states are there.
     pub(crate) fn add(&mut self, state: &ModelState) -> u32 {
         let (robots, backdrop) = state.parts();
         let mut pair = |i: usize| self.robots[i].add((robots[2 * i], robots[2 * i + 1]));
@@ -130,14 +66,14 @@ impl States {
 
     /// The state of a number.
     pub(crate) fn get(&self, number: u32) -> ModelState {
-        let (front, back) = self.whole.get(number);
-        let (back, backdrop) = self.back.get(back);
-        let (first, second) = self.front.get(front);
+        let (front, back) = *self.whole.get(number);
+        let (back, backdrop) = *self.back.get(back);
+        let (first, second) = *self.front.get(front);
         let mut robots = [0; MAX_ROBOTS];
         for (i, pair) in [first, second, back].into_iter().enumerate() {
-            (robots[2 * i], robots[2 * i + 1]) = self.robots[i].get(pair);
+            (robots[2 * i], robots[2 * i + 1]) = *self.robots[i].get(pair);
         }
-        ModelState::of_parts(robots, self.backdrop.get(backdrop))
+        ModelState::of_parts(robots, *self.backdrop.get(backdrop))
     }
 
     /// Gives memory back: nothing is added or looked for any more.
@@ -176,7 +112,7 @@ mod tests {
         }
         let numbers: Vec<u32> = found.iter().map(|state| states.add(state)).collect();
         assert!(states.len() > 100 && states.len() < found.len());
-        assert!(states.front.values.len() < states.len());
+        assert!(states.front.len() < states.len());
         for (state, &number) in found.iter().zip(&numbers) {
             assert_eq!(
                 (states.get(number), states.find(state)),

@@ -30,12 +30,12 @@ struct EdgeClasses {
     numbers: HashMap<Classes, u16, FxBuildHasher>,
 }
 
-/// A transition out of a state that is being added.
+/// How a transition leads to its target.
 #[derive(Clone, Copy)]
-pub(super) struct NewEdge {
-    pub(super) to: u32,
+pub(super) struct Way {
     /// It is nothing but an arrival on a monotone channel.
     pub(super) by_chance: bool,
+    /// The classes of the transition, where classes are kept.
     pub(super) taken: Classes,
 }
 
@@ -53,21 +53,21 @@ impl Edges {
         }
     }
 
-    /// Adds the transitions of the next state, in which these classes are enabled.
-    pub(super) fn add(&mut self, transitions: &[NewEdge], enabled: Classes) -> Result<(), Full> {
+    /// Adds the transitions of the next state, each with its target, in which these classes are enabled.
+    pub(super) fn add(&mut self, transitions: &[(u32, Way)], enabled: Classes) -> Result<(), Full> {
         let end = self.targets.len() + transitions.len();
         let end = u32::try_from(end).map_err(|_| Full)?;
         if let Some(classes) = &mut self.classes {
             let enabled = classes.number(enabled)?;
             classes.enabled.push(enabled);
-            for edge in transitions {
-                let taken = classes.number(edge.taken)?;
+            for (_, way) in transitions {
+                let taken = classes.number(way.taken)?;
                 classes.taken.push(taken);
             }
         }
-        self.targets.extend(transitions.iter().map(|edge| edge.to));
+        self.targets.extend(transitions.iter().map(|&(to, _)| to));
         if let Some(by_chance) = &mut self.by_chance {
-            by_chance.extend(transitions.iter().map(|edge| edge.by_chance));
+            by_chance.extend(transitions.iter().map(|(_, way)| way.by_chance));
         }
         self.starts.push(end);
         Ok(())

@@ -1,13 +1,9 @@
 //! The states of one stage, numbered in the order in which they are found, with the ways between them.
 
-use std::hash::{BuildHasher, BuildHasherDefault};
-
-use hashbrown::HashTable;
-use rustc_hash::FxHasher;
-
 use super::stage::{Marks, Stage};
 use super::team::{TeamModel, TeamState, Ways};
 use super::weight::ChanceTable;
+use crate::numbered::Numbered;
 
 /// A way from one state to another: so many different ones have the same chances.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -21,8 +17,7 @@ pub(super) struct Arc {
 pub(super) struct StageSpace<'a> {
     pub(super) stage: Stage,
     model: &'a mut TeamModel,
-    states: Vec<TeamState>,
-    numbers: HashTable<u32>,
+    states: Numbered<TeamState>,
     /// Where the ways from each state are in `arcs`, once they are worked out.
     rows: Vec<Option<(u32, u32)>>,
     arcs: Vec<Arc>,
@@ -34,8 +29,7 @@ impl<'a> StageSpace<'a> {
         Self {
             stage,
             model,
-            states: Vec::new(),
-            numbers: HashTable::new(),
+            states: Numbered::default(),
             rows: Vec::new(),
             arcs: Vec::new(),
             chances: ChanceTable::default(),
@@ -62,11 +56,11 @@ impl<'a> StageSpace<'a> {
     }
 
     pub(super) fn state(&self, number: u32) -> &TeamState {
-        &self.states[number as usize]
+        self.states.get(number)
     }
 
     pub(super) fn marks(&self, number: u32) -> Marks {
-        self.states[number as usize].marks
+        self.state(number).marks
     }
 
     /// Whether the stage is over there.
@@ -79,17 +73,8 @@ impl<'a> StageSpace<'a> {
     /// # Panics
     /// When 2^32 states are exceeded, far beyond what fits in memory.
     pub(super) fn number(&mut self, state: TeamState) -> u32 {
-        let hash = hash(&state);
-        let is_it = |&number: &u32| self.states[number as usize] == state;
-        if let Some(&known) = self.numbers.find(hash, is_it) {
-            return known;
-        }
-        let number = u32::try_from(self.states.len()).expect("fewer than 2^32 states");
-        self.states.push(state);
-        self.rows.push(None);
-        let states = &self.states;
-        let rehash = |&number: &u32| self::hash(&states[number as usize]);
-        self.numbers.insert_unique(hash, number, rehash);
+        let number = self.states.add(state);
+        self.rows.resize(self.states.len(), None);
         number
     }
 
@@ -103,7 +88,7 @@ impl<'a> StageSpace<'a> {
     }
 
     fn work_out(&mut self, number: u32) -> (u32, u32) {
-        let state = self.states[number as usize].clone();
+        let state = self.state(number).clone();
         let ways = self.model.ways(self.stage, &state);
         let mut row = self.arcs_of(ways);
         let start = u32::try_from(self.arcs.len()).expect("fewer than 2^32 transitions");
@@ -161,8 +146,4 @@ impl<'a> StageSpace<'a> {
 /// The probability of a way, where those of the products are these.
 pub(super) fn probability(arc: Arc, of_products: &[f64]) -> f64 {
     f64::from(arc.times) * of_products[usize::from(arc.chances)]
-}
-
-fn hash(state: &TeamState) -> u64 {
-    BuildHasherDefault::<FxHasher>::default().hash_one(state)
 }
