@@ -1,5 +1,5 @@
-//! How fast states are explored, and what one takes in memory: the kit's model, the same protocol in
-//! stateright's `ActorModel`, and the pair in SPIN, side by side.
+//! How fast states are explored, and what one takes in memory: the kit's model, the same model in
+//! stateright, and the pair in SPIN, side by side.
 //!
 //! ```console
 //! cargo bench -p crossguard-model-check
@@ -11,7 +11,6 @@
 //! states: the set of visited states, the frontier, tables of interned values, and the allocator's waste, all of it.
 //! SPIN's bytes are what `pan` reports, less its hash table's fixed part.
 
-mod actors;
 mod cost;
 
 use std::num::NonZeroUsize;
@@ -39,9 +38,6 @@ Not comparable:
 - `check` keeps all states and all transitions, and judges states, steps and runs. With `--safety` it keeps
   states alone, and judges states and steps. With its second opinion it explores once more with stateright,
   and counts every state once.
-- ActorModel knows no renaming, so heartbeats and offers grow without end, and no radio on which a message
-  arrives at once: every message in flight may wait. Its state space is infinite; it is cut off after as
-  many states as `trio` has. It checks two properties, without history; the kit's model checks all.
 - `trio` has so few states that tables of values that all states share are a good part of their bytes;
   `team-of-four` says what a state takes.
 - SPIN's model is of `pair`, in its own words, with its properties, compiled by gcc -O2.";
@@ -96,8 +92,6 @@ fn main() {
     row("trio, `check --second-opinion`", second);
     let model = in_own_process("model", "trio", 1);
     row("trio, the kit's model in stateright", model);
-    let actors = in_own_process("actors", "trio", 1);
-    row("trio in stateright's ActorModel", actors);
     let team = in_own_process("check", "team-of-four", 2);
     let team = row("team-of-four, `check`, 2 threads", team);
     let safety = in_own_process("safety", "team-of-four", 2);
@@ -145,7 +139,6 @@ fn row(what: &str, measured: Measured) -> Measured {
 fn explore(name: &str, scenario: &str, threads: NonZeroUsize) {
     let start = Instant::now();
     let scenario = Scenario::load(scenario).expect("a shipped scenario");
-    let limit = scenario.expected.expect("its size is known").unique_states;
     let meter = Meter::start();
     let states = match name {
         "model" => Model::new(scenario)
@@ -163,7 +156,6 @@ fn explore(name: &str, scenario: &str, threads: NonZeroUsize) {
             };
             check(&Model::new(scenario), &options, &mut |_| ()).unique_states
         }
-        "actors" => actors::explore(&scenario, limit),
         other => panic!("no exploration {other}"),
     };
     let (seconds, bytes) = meter.read(states).expect("Linux");
