@@ -72,6 +72,7 @@ pub mod properties;
 pub mod replay;
 pub mod report;
 pub mod road;
+mod robots;
 mod runs;
 pub mod scenario;
 pub mod sequence;

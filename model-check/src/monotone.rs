@@ -32,6 +32,7 @@ use std::sync::Arc;
 use crate::canonical::Renamings;
 use crate::intern::Interner;
 use crate::memo::Memo;
+use crate::robots::Robots;
 use crate::transmission::{PackedTransmission, Transmission};
 
 /// A set of messages, each with its way, in order.
@@ -43,12 +44,6 @@ pub(crate) struct Sets {
     /// What a set and one more message make.
     with: Memo<(u32, PackedTransmission), u32>,
     renamed: Memo<(u32, u32), u32>,
-    renamings: Arc<Renamings>,
-}
-
-/// What the sets need to know of messages: the number of the names in one.
-pub(crate) trait MessageNames {
-    fn names(&self, message: u16) -> u32;
 }
 
 impl Sets {
@@ -63,7 +58,6 @@ impl Sets {
             known: sets,
             with: Memo::default(),
             renamed: Memo::default(),
-            renamings: Arc::clone(renamings),
         }
     }
 
@@ -74,10 +68,10 @@ impl Sets {
     }
 
     /// The number of the set of these messages.
-    pub(crate) fn of(&self, sent: &[Transmission], names: &impl MessageNames) -> u32 {
+    pub(crate) fn of(&self, sent: &[Transmission], robots: &Robots) -> u32 {
         let mut slots: Vec<_> = sent.iter().copied().map(PackedTransmission::of).collect();
         slots.sort_unstable();
-        self.number(slots.into(), names)
+        self.number(slots.into(), robots)
     }
 
     /// The names that occur in a set.
@@ -86,7 +80,7 @@ impl Sets {
     }
 
     /// A set and one more message.
-    pub(crate) fn with(&self, set: u32, message: Transmission, names: &impl MessageNames) -> u32 {
+    pub(crate) fn with(&self, set: u32, message: Transmission, robots: &Robots) -> u32 {
         let message = PackedTransmission::of(message);
         let slots = self.known.value(set);
         let Err(at) = slots.binary_search(&message) else {
@@ -97,15 +91,15 @@ impl Sets {
         }
         let mut slots = slots.to_vec();
         slots.insert(at, message);
-        let with = self.number(slots.into(), names);
+        let with = self.number(slots.into(), robots);
         *self.with.keep((set, message), with)
     }
 
     /// A set without the messages to one receiver.
-    pub(crate) fn without(&self, set: u32, receiver: usize, names: &impl MessageNames) -> u32 {
+    pub(crate) fn without(&self, set: u32, receiver: usize, robots: &Robots) -> u32 {
         let stays = |sent: &Transmission| usize::from(sent.to) != receiver;
         let left = self.transmissions(set).filter(stays);
-        self.number(left.map(PackedTransmission::of).collect(), names)
+        self.number(left.map(PackedTransmission::of).collect(), robots)
     }
 
     /// A set after the renaming of this number, which `message` carries out on one message.
@@ -114,7 +108,7 @@ impl Sets {
         set: u32,
         renaming: u32,
         message: impl Fn(u16) -> u16,
-        names: &impl MessageNames,
+        robots: &Robots,
     ) -> u32 {
         if self.names(set) == Renamings::EMPTY {
             return set;
@@ -122,7 +116,7 @@ impl Sets {
         if let Some(known) = self.renamed.get(&(set, renaming)) {
             return *known;
         }
-        let renamed = self.map(set, names, |sent| Transmission {
+        let renamed = self.map(set, robots, |sent| Transmission {
             message: message(sent.message),
             ..sent
         });
@@ -133,7 +127,7 @@ impl Sets {
     pub(crate) fn map(
         &self,
         set: u32,
-        names: &impl MessageNames,
+        robots: &Robots,
         replace: impl Fn(Transmission) -> Transmission,
     ) -> u32 {
         let mut slots: Vec<PackedTransmission> = self
@@ -142,14 +136,15 @@ impl Sets {
             .collect();
         slots.sort_unstable();
         slots.dedup();
-        self.number(slots.into(), names)
+        self.number(slots.into(), robots)
     }
 
-    fn number(&self, set: Set, names: &impl MessageNames) -> u32 {
+    fn number(&self, set: Set, robots: &Robots) -> u32 {
         self.known.number_with(set, |set| {
             let messages = set.iter().filter_map(|slot| slot.transmission());
-            self.renamings
-                .union(messages.map(|sent| names.names(sent.message)))
+            robots
+                .renamings
+                .union(messages.map(|sent| robots.message_names(sent.message)))
         })
     }
 }

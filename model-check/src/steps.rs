@@ -11,12 +11,10 @@ use smallvec::SmallVec;
 
 use crate::canonical::Renamings;
 use crate::history::History;
-use crate::intern::Interner;
 use crate::memo::Memo;
-use crate::monotone::MessageNames;
-use crate::network::Message;
-use crate::node::{Node, Rules};
+use crate::node::Rules;
 use crate::properties::{PropertyId, StepView};
+use crate::robots::Robots;
 
 /// What a robot takes in, by number where it is a message.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -50,11 +48,9 @@ pub(crate) struct ComputedStep {
     pub(crate) broken: u32,
 }
 
-/// All nodes, messages and steps that have occurred.
+/// All robots, messages and steps that have occurred.
 pub(crate) struct Steps {
-    rules: Box<dyn Rules>,
-    pub(crate) nodes: Interner<Node>,
-    pub(crate) messages: Interner<Message>,
+    pub(crate) robots: Robots,
     outputs: Memo<Outputs, Arc<Outputs>>,
     computed: Memo<(u32, Cause), ComputedStep>,
 }
@@ -62,9 +58,7 @@ pub(crate) struct Steps {
 impl Steps {
     pub(crate) fn new(rules: Box<dyn Rules>, renamings: &Arc<Renamings>) -> Self {
         Self {
-            rules,
-            nodes: Interner::new(renamings),
-            messages: Interner::new(renamings),
+            robots: Robots::new(rules, renamings),
             outputs: Memo::default(),
             computed: Memo::default(),
         }
@@ -85,11 +79,6 @@ impl Steps {
         Some(self.computed.keep((node, cause), step))
     }
 
-    /// A step of a robot that is only looked at.
-    pub(crate) fn of(&self, config: &Config, node: &Node, input: Input) -> Option<(Node, Outputs)> {
-        node.step(&*self.rules, config, input)
-    }
-
     fn compute(
         &self,
         config: &Config,
@@ -98,12 +87,12 @@ impl Steps {
         cause: Cause,
     ) -> Option<ComputedStep> {
         let input = match cause {
-            Cause::Message(number) => self.messages.value(number.into()).input(),
+            Cause::Message(number) => self.robots.message(number).input(),
             Cause::Timer(timer) => Input::Expired(timer),
             Cause::Event(event) => Input::Local(event),
         };
-        let before = self.nodes.value(node);
-        let (after, outputs) = before.step(&*self.rules, config, input)?;
+        let before = self.robots.nodes.value(node);
+        let (after, outputs) = self.robots.step(config, node, input)?;
         let history = History::default();
         let view = StepView {
             config,
@@ -115,9 +104,9 @@ impl Steps {
         };
         let is_historic = view.is_historic();
         let (premises, broken) = judge(properties, &view, is_historic);
-        let sends = self.sends(&after, &outputs);
+        let sends = self.robots.sends(&after, &outputs);
         let restarted = after.restarted_timers();
-        let after = self.nodes.number(after.untimed());
+        let after = self.robots.nodes.number(after.untimed());
         Some(ComputedStep {
             input,
             outputs: self.shared(&outputs),
@@ -137,40 +126,6 @@ impl Steps {
         let shared = known.unwrap_or_else(|| self.outputs.keep(*outputs, Arc::new(*outputs)));
         Arc::clone(shared)
     }
-
-    fn sends(&self, sender: &Node, outputs: &Outputs) -> SmallVec<[u16; 2]> {
-        let Some(robot) = &sender.robot else {
-            return SmallVec::new();
-        };
-        outputs
-            .iter()
-            .filter_map(|output| Message::sent(robot, output))
-            .map(|message| self.message_number(message))
-            .collect()
-    }
-
-    /// The number of a message.
-    ///
-    /// # Panics
-    /// When there are more than 65,536 distinct messages.
-    pub(crate) fn message_number(&self, message: Message) -> u16 {
-        short(self.messages.number(message))
-    }
-
-    /// The number of a message after a renaming.
-    pub(crate) fn message_renamed(&self, message: u16, renaming: u32) -> u16 {
-        short(self.messages.renamed(message.into(), renaming))
-    }
-}
-
-impl MessageNames for Steps {
-    fn names(&self, message: u16) -> u32 {
-        self.messages.names(message.into())
-    }
-}
-
-fn short(message: u32) -> u16 {
-    u16::try_from(message).expect("fewer than 65,536 distinct messages")
 }
 
 /// Which step rules the step meets the premise of, and which of these it breaks. Rules that look at

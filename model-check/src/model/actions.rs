@@ -131,7 +131,7 @@ impl Model {
 
     /// Whether the robot at this place is down or hangs.
     pub(super) fn is_deaf(&self, state: &ModelState, place: usize) -> bool {
-        let node = self.0.steps.nodes.value(state.nodes[place]);
+        let node = self.0.steps.robots.nodes.value(state.nodes[place]);
         node.robot.is_none() || state.hangs(place)
     }
 

@@ -4,7 +4,7 @@
 use smallvec::SmallVec;
 
 use super::{Action, Draft, Model, ModelState, Shared};
-use crate::canonical::{NameSets, Renamable};
+use crate::canonical::Renamable;
 use crate::network::Network;
 use crate::scenario::MAX_ROBOTS;
 use crate::symmetry::{Exchange, Images, Symmetry};
@@ -17,16 +17,11 @@ impl Model {
             mut network,
         } = draft;
         let robots = self.0.scenario.robots.len();
-        let mut sets = NameSets::default();
-        for &node in &state.nodes[..robots] {
-            sets.add(self.0.steps.nodes.names(node));
-        }
-        for message in network.messages() {
-            sets.add(self.0.steps.messages.names(message.into()));
-        }
+        let nodes = &state.nodes[..robots];
+        let mut sets = self.0.steps.robots.name_sets(nodes, network.messages());
         sets.add(self.0.sets.names(network.sent));
         sets.add(self.0.histories.names(state.history));
-        if let Some(renaming) = self.0.renamings.of(sets) {
+        if let Some(renaming) = self.0.steps.robots.renamings.of(sets) {
             self.rename(&mut state, &mut network, renaming);
         }
         if !self.0.symmetry.is_trivial() {
@@ -43,15 +38,14 @@ impl Model {
             sets,
             ..
         } = &*self.0;
-        for node in &mut state.nodes[..scenario.robots.len()] {
-            *node = steps.nodes.renamed(*node, renaming);
-        }
+        let nodes = &mut state.nodes[..scenario.robots.len()];
+        steps.robots.rename_nodes(nodes, renaming);
         *network = network.map(|mut transmission| {
-            transmission.message = steps.message_renamed(transmission.message, renaming);
+            transmission.message = steps.robots.message_renamed(transmission.message, renaming);
             transmission
         });
-        let renamed = |message| steps.message_renamed(message, renaming);
-        network.sent = sets.renamed(network.sent, renaming, renamed, steps);
+        let renamed = |message| steps.robots.message_renamed(message, renaming);
+        network.sent = sets.renamed(network.sent, renaming, renamed, &steps.robots);
         state.history = histories.renamed(state.history, renaming);
     }
 
@@ -102,8 +96,8 @@ impl Model {
         let nodes = state.nodes[..scenario.robots.len()].iter();
         let images = nodes.map(|&node| {
             symmetry.images(&symmetry.nodes, node, |mut exchange| {
-                let image = steps.nodes.value(node).renamed(&mut exchange);
-                steps.nodes.number(image)
+                let image = steps.robots.nodes.value(node).renamed(&mut exchange);
+                steps.robots.nodes.number(image)
             })
         });
         images.collect()
@@ -125,17 +119,19 @@ impl Model {
         let message = |number: u16| {
             let images = symmetry.images(&symmetry.messages, number.into(), |mut exchange| {
                 let message = self.message(number).renamed(&mut exchange);
-                steps.message_number(message).into()
+                steps.robots.message_number(message).into()
             });
             u16::try_from(images[exchange]).expect("numbers of messages are small")
         };
         let sent = symmetry.images(&symmetry.sets, draft.network.sent, |exchange| {
             let image = |number: u16| {
                 let mut exchange = exchange;
-                steps.message_number(self.message(number).renamed(&mut exchange))
+                steps
+                    .robots
+                    .message_number(self.message(number).renamed(&mut exchange))
             };
             let moved = |sent| exchange.transmission(sent, image);
-            sets.map(draft.network.sent, steps, moved)
+            sets.map(draft.network.sent, &steps.robots, moved)
         });
         let exchanged = &symmetry.exchanges[exchange];
         let mut network = exchanged.network(&draft.network, message);

@@ -86,13 +86,13 @@ impl Model {
     fn given_out(&self, state: &ModelState, liar: StationId) -> GivenOut {
         let steps = &self.0.steps;
         let nodes = state.nodes[..self.0.scenario.robots.len()].iter();
-        let of_nodes = nodes.map(|&node| steps.nodes.names(node));
+        let of_nodes = nodes.map(|&node| steps.robots.nodes.names(node));
         let network = self.network(state);
         let messages = network.messages();
-        let of_messages = messages.map(|message| steps.messages.names(message.into()));
+        let of_messages = messages.map(|message| steps.robots.message_names(message));
         let of_history = self.0.histories.names(state.history);
         let sets = of_nodes.chain(of_messages).chain([of_history]);
-        self.0.renamings.given_out_by(liar, sets)
+        self.0.steps.robots.renamings.given_out_by(liar, sets)
     }
 
     fn effective(
@@ -118,7 +118,7 @@ impl Model {
         given_out: &GivenOut,
     ) -> Vec<u16> {
         let (scenario, steps) = (&self.0.scenario, &self.0.steps);
-        let hearer: &Node = steps.nodes.value(node);
+        let hearer: &Node = steps.robots.nodes.value(node);
         let Some(robot) = &hearer.robot else {
             return Vec::new();
         };
@@ -128,7 +128,7 @@ impl Model {
         let heard = all.filter(|message| part.says(message) && concerns(message, station));
         let effective = heard.filter(|message| {
             let (input, config) = (message.input(), &scenario.config);
-            let Some((after, outputs)) = steps.of(config, hearer, input) else {
+            let Some((after, outputs)) = hearer.step(&*steps.robots.rules, config, input) else {
                 return false;
             };
             let view = StepView {
@@ -144,7 +144,9 @@ impl Model {
             self.note_premises(premises);
             broken != 0 || outputs.ignored().is_none() || after.untimed() != *hearer
         });
-        effective.map(|it| steps.message_number(it)).collect()
+        effective
+            .map(|it| steps.robots.message_number(it))
+            .collect()
     }
 
     /// Whether a step led to a leader with an insider that is to stay a stranger.
@@ -152,7 +154,7 @@ impl Model {
         let strangers = self.0.scenario.liars();
         let mut strangers = strangers.filter(|(_, _, lies)| *lies == LyingPart::Helper);
         strangers.any(|(_, station, _)| {
-            let robot = self.0.steps.nodes.value(node).robot.as_ref();
+            let robot = self.0.steps.robots.nodes.value(node).robot.as_ref();
             robot.is_some_and(|robot| {
                 matches!(robot.phase(), Phase::Leading(leading) if leading.member(station).is_some())
             })

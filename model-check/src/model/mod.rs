@@ -133,7 +133,6 @@ struct Shared {
     networks: Interner<PackedNetwork>,
     /// Sets of messages on a monotone channel.
     sets: Sets,
-    renamings: Arc<Renamings>,
     lies: KnownLies,
     /// One bit per property whose premise has been met.
     premises_met: AtomicU32,
@@ -184,7 +183,6 @@ impl Model {
             histories: Interner::new(&renamings),
             networks: Interner::new(&renamings),
             sets: Sets::new(&renamings),
-            renamings,
             lies: KnownLies::default(),
             premises_met: AtomicU32::new(0),
         };
@@ -216,7 +214,7 @@ impl Model {
                 Some(_) => Node::down(setup.station),
                 None => Node::first_boot(setup.station),
             };
-            *node = self.0.steps.nodes.number(first);
+            *node = self.0.steps.robots.nodes.number(first);
         }
         ModelState {
             nodes,
@@ -241,7 +239,7 @@ impl Model {
         let robots = self.0.scenario.robots.len();
         state.nodes[..robots]
             .iter()
-            .map(|&number| self.0.steps.nodes.value(number))
+            .map(|&number| self.0.steps.robots.nodes.value(number))
     }
 
     /// The history of a state.
@@ -253,7 +251,7 @@ impl Model {
     /// An interned message.
     #[must_use]
     pub fn message(&self, number: u16) -> &Message {
-        self.0.steps.messages.value(number.into())
+        self.0.steps.robots.message(number)
     }
 
     /// Whether the step into this state broke a step property.

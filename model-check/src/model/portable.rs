@@ -79,7 +79,7 @@ impl Packer {
         let (robots, network) = (model.0.scenario.robots.len(), model.network(state));
         for &node in &state.nodes[..robots] {
             self.tell(PartKind::Node, node, news, || {
-                serde_json::to_string(model.0.steps.nodes.value(node))
+                serde_json::to_string(model.0.steps.robots.nodes.value(node))
             });
         }
         self.tell(PartKind::History, state.history, news, || {
@@ -142,6 +142,7 @@ impl Unpacker {
         let own = match part.kind {
             PartKind::Node => shared
                 .steps
+                .robots
                 .nodes
                 .number(serde_json::from_str(&part.text).map_err(cannot)?),
             PartKind::History => shared
@@ -149,12 +150,12 @@ impl Unpacker {
                 .number(serde_json::from_str(&part.text).map_err(cannot)?),
             PartKind::Message => {
                 let message: Message = serde_json::from_str(&part.text).map_err(cannot)?;
-                shared.steps.message_number(message).into()
+                shared.steps.robots.message_number(message).into()
             }
             PartKind::Sent => {
                 let sent: Vec<Transmission> = serde_json::from_str(&part.text).map_err(cannot)?;
                 let sent = self.own(sent)?;
-                shared.sets.of(&sent, &shared.steps)
+                shared.sets.of(&sent, &shared.steps.robots)
             }
         };
         self.0.insert((part.kind, part.number), own);
@@ -311,7 +312,7 @@ impl Fingerprints {
         for (hash, &node) in hashes.iter_mut().zip(&nodes[..robots]) {
             *hash = self
                 .nodes
-                .of(node, || hashed(model.0.steps.nodes.value(node)));
+                .of(node, || hashed(model.0.steps.robots.nodes.value(node)));
         }
         hashes
     }

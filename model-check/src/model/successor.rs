@@ -95,10 +95,11 @@ impl Model {
                 let node = self
                     .0
                     .steps
+                    .robots
                     .nodes
                     .value(next.state.nodes[usize::from(i)])
                     .restarted();
-                next.state.nodes[usize::from(i)] = self.0.steps.nodes.number(node);
+                next.state.nodes[usize::from(i)] = self.0.steps.robots.nodes.number(node);
                 self.forget_the_dead(&mut next);
                 None
             }
@@ -175,7 +176,7 @@ impl Model {
 
     /// The session at whose sign a pedestrian steps on the road. Judges whether the guards are in place.
     fn step_on_road(&self, next: &mut ModelState, i: usize) -> Option<SessionId> {
-        let node = self.0.steps.nodes.value(next.nodes[i]);
+        let node = self.0.steps.robots.nodes.value(next.nodes[i]);
         let session = node.robot.as_ref()?.session()?;
         let required = usize::from(self.0.scenario.request.followers);
         for &property in &self.0.scenario.properties {
@@ -200,7 +201,7 @@ impl Model {
     /// Forgets what a body has done last once no robot leads that session any more.
     fn forget_bodies(&self, next: &mut ModelState) {
         for i in 0..self.0.scenario.robots.len() {
-            let node = self.0.steps.nodes.value(next.nodes[i]);
+            let node = self.0.steps.robots.nodes.value(next.nodes[i]);
             let Body::Ended(id, _) = node.actuation.body else {
                 continue;
             };
@@ -211,19 +212,19 @@ impl Model {
             if !self.nodes(next).any(leads) {
                 let mut forgetful = node.clone();
                 forgetful.actuation.body = Body::Parked;
-                next.nodes[i] = self.0.steps.nodes.number(forgetful);
+                next.nodes[i] = self.0.steps.robots.nodes.number(forgetful);
             }
         }
     }
 
     fn crash(&self, next: &mut ModelState, i: usize) {
-        let node = self.0.steps.nodes.value(next.nodes[i]);
+        let node = self.0.steps.robots.nodes.value(next.nodes[i]);
         if let Some(robot) = &node.robot {
             let mut history = self.history(next).clone();
             history.record_crash(robot);
             next.history = self.0.histories.number(history);
         }
-        next.nodes[i] = self.0.steps.nodes.number(node.crashed());
+        next.nodes[i] = self.0.steps.robots.nodes.number(node.crashed());
         next.hung &= !(1 << i);
     }
 
@@ -239,8 +240,8 @@ impl Model {
             return;
         }
         for (i, &node) in next.state.nodes[..scenario.robots.len()].iter().enumerate() {
-            if steps.nodes.value(node).robot.is_none() {
-                next.network.sent = sets.without(next.network.sent, i, steps);
+            if steps.robots.nodes.value(node).robot.is_none() {
+                next.network.sent = sets.without(next.network.sent, i, &steps.robots);
             }
         }
     }
@@ -263,8 +264,8 @@ impl Model {
             let view = StepView {
                 config: &scenario.config,
                 history: self.0.histories.value(next.state.history),
-                before: steps.nodes.value(before),
-                after: steps.nodes.value(step.after),
+                before: steps.robots.nodes.value(before),
+                after: steps.robots.nodes.value(step.after),
                 input: step.input,
                 outputs: &step.outputs,
             };
@@ -291,7 +292,7 @@ impl Model {
         step: &ComputedStep,
     ) -> Option<()> {
         let offers = |node: u32| {
-            let robot = self.0.steps.nodes.value(node).robot.as_ref();
+            let robot = self.0.steps.robots.nodes.value(node).robot.as_ref();
             robot.filter(|robot| matches!(robot.phase(), Phase::Offering(_)))
         };
         let bound = match cause {
@@ -324,7 +325,7 @@ impl Model {
             // An insider that lies needs to hear nothing: it may say all that it could have heard of.
             let hears = |&to: &usize| to != from && scenario.robots[to].lies.is_none();
             for to in (0..scenario.robots.len()).filter(hears) {
-                let receiver = steps.nodes.value(next.state.nodes[to]);
+                let receiver = steps.robots.nodes.value(next.state.nodes[to]);
                 if !concerns(message, receiver.persisted.station) || !self.may_hear(next, to) {
                     continue;
                 }
@@ -335,7 +336,7 @@ impl Model {
                     message: number,
                 };
                 if channel.monotone {
-                    next.network.sent = sets.with(next.network.sent, transmission, steps);
+                    next.network.sent = sets.with(next.network.sent, transmission, &steps.robots);
                 } else {
                     next.network.send(transmission);
                 }
@@ -347,7 +348,7 @@ impl Model {
     fn may_hear(&self, next: &Draft, place: usize) -> bool {
         let channel = self.0.scenario.channel;
         let keeps = channel.monotone || channel.delayed > 0;
-        let node = self.0.steps.nodes.value(next.state.nodes[place]);
+        let node = self.0.steps.robots.nodes.value(next.state.nodes[place]);
         match node.robot {
             None => keeps && next.state.left.restarts > 0,
             Some(_) => keeps || !next.state.hangs(place),

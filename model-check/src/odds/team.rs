@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crossguard_protocol::{
-    Event, HelpRequest, Input, Output, Outputs, Place, StationId, TaskSet, TaskType, Urgency,
+    Event, HelpRequest, Output, Outputs, Place, StationId, TaskSet, TaskType, Urgency,
 };
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
@@ -11,11 +11,10 @@ use smallvec::SmallVec;
 use super::setup::{FOLLOWERS_MAX, OddsSetup, WIDTHS};
 use super::stage::{Marks, Milestone, Stage};
 use super::weight::Chances;
-use crate::canonical::{NameSets, Ranks, Renamable, Renamings};
+use crate::canonical::{Ranks, Renamable, Renamings};
 use crate::held::Held;
-use crate::intern::Interner;
-use crate::network::Message;
 use crate::node::{Node, Rules};
+use crate::robots::{Robots, TimedCause};
 
 const ROBOTS_MAX: usize = FOLLOWERS_MAX as usize + 1;
 
@@ -59,17 +58,6 @@ impl TeamState {
 /// Ways on from a state, with what happens on each.
 pub(super) type Ways = Vec<(Chances, TeamState)>;
 
-/// What a robot takes in.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-enum TeamCause {
-    /// A tick has passed.
-    Tick,
-    /// A message arrives.
-    Message(u16),
-    /// Its application does something.
-    Event(Event),
-}
-
 /// The effect of a robot's step.
 #[derive(Clone)]
 struct TeamStep {
@@ -83,12 +71,9 @@ pub(super) struct TeamModel {
     setup: OddsSetup,
     /// One bit for each follower whose link loses nothing.
     lossless: u8,
-    rules: Box<dyn Rules>,
-    nodes: Interner<Node>,
-    messages: Interner<Message>,
-    renamings: Arc<Renamings>,
+    robots: Robots,
     /// Each step of a robot is computed once.
-    steps: FxHashMap<(u32, TeamCause), TeamStep>,
+    steps: FxHashMap<(u32, TimedCause), TeamStep>,
 }
 
 /// A state while a tick is worked out.
@@ -104,10 +89,7 @@ impl TeamModel {
         Self {
             setup,
             lossless: 0,
-            rules,
-            nodes: Interner::new(&renamings),
-            messages: Interner::new(&renamings),
-            renamings,
+            robots: Robots::new(rules, &renamings),
             steps: FxHashMap::default(),
         }
     }
@@ -135,7 +117,7 @@ impl TeamModel {
         (1 << self.setup.followers()) - 1
     }
 
-    fn robots(&self) -> u8 {
+    fn team_size(&self) -> u8 {
         self.setup.followers() + 1
     }
 
@@ -154,8 +136,11 @@ impl TeamModel {
     /// as they are on average.
     pub(super) fn start(&mut self) -> Ways {
         let mut nodes = [0; ROBOTS_MAX];
-        for (place, node) in (0..self.robots()).zip(&mut nodes) {
-            *node = self.nodes.number(Node::first_boot(Self::station(place)));
+        for (place, node) in (0..self.team_size()).zip(&mut nodes) {
+            *node = self
+                .robots
+                .nodes
+                .number(Node::first_boot(Self::station(place)));
         }
         let state = TeamState {
             nodes,
@@ -169,7 +154,7 @@ impl TeamModel {
             place: Place(1),
         };
         let detected = Event::PedestrianDetected(request);
-        self.take_in(&mut draft, LEADER, TeamCause::Event(detected));
+        self.take_in(&mut draft, LEADER, TimedCause::Event(detected));
         self.canonicalize(&mut draft.state);
         if self.setup.burst().is_none() {
             return vec![(draft.chances, draft.state)];
@@ -199,12 +184,12 @@ impl TeamModel {
             ..before.clone()
         });
         if stage == Stage::Commanding {
-            for place in 1..self.robots() {
+            for place in 1..self.team_size() {
                 let event = Event::CommandManeuver {
                     follower: Self::station(place),
                     task: TaskType::MOVE,
                 };
-                self.take_in(&mut draft, LEADER, TeamCause::Event(event));
+                self.take_in(&mut draft, LEADER, TimedCause::Event(event));
             }
             self.canonicalize(&mut draft.state);
         }
@@ -213,7 +198,8 @@ impl TeamModel {
 
     /// Whether the leader still asks for help.
     pub(super) fn is_requesting(&self, state: &TeamState) -> bool {
-        self.nodes
+        self.robots
+            .nodes
             .value(state.nodes[usize::from(LEADER)])
             .is_requesting()
     }
@@ -233,12 +219,12 @@ impl TeamModel {
                 broadcast.ticks += 1;
             }
             draft.state.air.retain(|broadcast| broadcast.ticks < delay);
-            for place in 0..self.robots() {
-                self.take_in(draft, place, TeamCause::Tick);
+            for place in 0..self.team_size() {
+                self.take_in(draft, place, TimedCause::Elapsed(self.setup.grid().tick));
             }
         }
         for broadcast in arriving {
-            for place in (0..self.robots()).filter(|place| *place != broadcast.from) {
+            for place in (0..self.team_size()).filter(|place| *place != broadcast.from) {
                 drafts = self.arrives(drafts, broadcast, place);
             }
         }
@@ -279,7 +265,7 @@ impl TeamModel {
     fn arrives(&mut self, drafts: Vec<TickDraft>, broadcast: Broadcast, to: u8) -> Vec<TickDraft> {
         let mut after = Vec::with_capacity(2 * drafts.len());
         for mut lost in drafts {
-            let cause = TeamCause::Message(broadcast.message);
+            let cause = TimedCause::Message(broadcast.message);
             if !self.changes_anything(&lost, to, cause) {
                 after.push(lost);
                 continue;
@@ -312,12 +298,12 @@ impl TeamModel {
         match stage {
             // Helpers are as many as are asked for: once all have offered, no other offer can come.
             Stage::Gathering => {
-                self.take_in(&mut draft, LEADER, TeamCause::Event(Event::AllAnswered));
+                self.take_in(&mut draft, LEADER, TimedCause::Event(Event::AllAnswered));
             }
             Stage::Commanding => {
                 let marks = self.marks(stage, &draft);
                 if marks.has(Milestone::Acknowledged) && !marks.has_failed() {
-                    self.take_in(&mut draft, LEADER, TeamCause::Event(Event::OpenCorridor));
+                    self.take_in(&mut draft, LEADER, TimedCause::Event(Event::OpenCorridor));
                 }
             }
             Stage::Holding => {}
@@ -335,20 +321,22 @@ impl TeamModel {
     }
 
     fn marks(&self, stage: Stage, draft: &TickDraft) -> Marks {
-        let numbers = &draft.state.nodes[..usize::from(self.robots())];
-        let nodes: SmallVec<[&Node; ROBOTS_MAX]> =
-            numbers.iter().map(|&node| self.nodes.value(node)).collect();
+        let numbers = &draft.state.nodes[..usize::from(self.team_size())];
+        let nodes: SmallVec<[&Node; ROBOTS_MAX]> = numbers
+            .iter()
+            .map(|&node| self.robots.nodes.value(node))
+            .collect();
         stage.marked(draft.state.marks, &nodes, draft.falls_back)
     }
 
-    fn changes_anything(&mut self, draft: &TickDraft, place: u8, cause: TeamCause) -> bool {
+    fn changes_anything(&mut self, draft: &TickDraft, place: u8, cause: TimedCause) -> bool {
         let before = draft.state.nodes[usize::from(place)];
         let step = self.step(before, cause);
         step.after != before || !step.sends.is_empty()
     }
 
     /// A robot takes something in.
-    fn take_in(&mut self, draft: &mut TickDraft, place: u8, cause: TeamCause) {
+    fn take_in(&mut self, draft: &mut TickDraft, place: u8, cause: TimedCause) {
         let node = &mut draft.state.nodes[usize::from(place)];
         let step = self.step(*node, cause);
         *node = step.after;
@@ -361,17 +349,12 @@ impl TeamModel {
         draft.state.air.extend(sent);
     }
 
-    fn step(&mut self, node: u32, cause: TeamCause) -> TeamStep {
+    fn step(&mut self, node: u32, cause: TimedCause) -> TeamStep {
         if let Some(known) = self.steps.get(&(node, cause)) {
             return known.clone();
         }
-        let input = match cause {
-            TeamCause::Tick => Input::Elapsed(self.setup.grid().tick),
-            TeamCause::Message(number) => self.messages.value(number.into()).input(),
-            TeamCause::Event(event) => Input::Local(event),
-        };
-        let config = self.setup.config();
-        let stepped = self.nodes.value(node).step(&*self.rules, config, input);
+        let input = self.robots.input(cause);
+        let stepped = self.robots.step(self.setup.config(), node, input);
         let step = match stepped {
             Some((after, outputs)) => self.stepped(&after, &outputs),
             // No robot is ever down here.
@@ -387,17 +370,9 @@ impl TeamModel {
 
     fn stepped(&self, after: &Node, outputs: &Outputs) -> TeamStep {
         let robot = after.robot.as_ref();
-        let sends = outputs
-            .iter()
-            .filter_map(|output| Message::sent(robot?, output))
-            .map(|message| {
-                let number = self.messages.number(message);
-                u16::try_from(number).expect("fewer than 65,536 distinct messages")
-            });
         let falls_back = outputs
             .iter()
             .any(|output| matches!(output, Output::FallBack(..)));
-        let sends = sends.collect();
         let held = robot.map(|robot| {
             after.renamed(&mut Held {
                 config: self.setup.config(),
@@ -406,32 +381,26 @@ impl TeamModel {
             })
         });
         TeamStep {
-            after: self.nodes.number(held.unwrap_or_else(|| after.clone())),
-            sends,
+            after: self
+                .robots
+                .nodes
+                .number(held.unwrap_or_else(|| after.clone())),
+            sends: self.robots.sends(after, outputs),
             falls_back,
         }
     }
 
     /// The state that stands for all that differ in names alone.
     fn canonicalize(&self, state: &mut TeamState) {
-        let robots = usize::from(self.robots());
-        let mut sets = NameSets::default();
-        for &node in &state.nodes[..robots] {
-            sets.add(self.nodes.names(node));
-        }
-        for broadcast in &state.air {
-            sets.add(self.messages.names(broadcast.message.into()));
-        }
-        let Some(renaming) = self.renamings.of(sets) else {
+        let nodes = &mut state.nodes[..usize::from(self.team_size())];
+        let messages = state.air.iter().map(|broadcast| broadcast.message);
+        let sets = self.robots.name_sets(nodes, messages);
+        let Some(renaming) = self.robots.renamings.of(sets) else {
             return;
         };
-        for node in &mut state.nodes[..robots] {
-            *node = self.nodes.renamed(*node, renaming);
-        }
+        self.robots.rename_nodes(nodes, renaming);
         for broadcast in &mut state.air {
-            let renamed = self.messages.renamed(broadcast.message.into(), renaming);
-            broadcast.message =
-                u16::try_from(renamed).expect("fewer than 65,536 distinct messages");
+            broadcast.message = self.robots.message_renamed(broadcast.message, renaming);
         }
     }
 }

@@ -8,11 +8,12 @@ use super::explore::Explored;
 use super::measure::Longest;
 use super::model::TimedModel;
 use super::section::{Looks, Rates};
-use super::state::{TimedAction, TimedCause, TimedState};
+use super::state::{TimedAction, TimedState};
 use crate::check::KIT;
 use crate::exploration::{CheckProgress, Options};
 use crate::network::Transmission;
 use crate::report::{PropertyReport, ScenarioReport};
+use crate::robots::TimedCause;
 use crate::scenario::Size;
 use crate::sequence::{ChartPlace, ChartStep, Fate};
 

@@ -16,7 +16,7 @@
 
 use std::sync::Arc;
 
-use crossguard_protocol::{Event, Input, Millis, Outputs, StationId};
+use crossguard_protocol::{Event, Millis, Outputs, StationId};
 use smallvec::SmallVec;
 
 use super::broken::BrokenSet;
@@ -25,18 +25,18 @@ use super::limits::Limits;
 use super::quiet::ContactChange;
 use super::section::Timed;
 use super::sign::Sign;
-use super::state::{TimedCause, TimedState};
+use super::state::TimedState;
 use super::teams::MAX_TEAMS;
 use super::told::{Telling, Told};
 use super::watch::StopWatch;
-use crate::canonical::{NameSets, Ranks, Renamable, Renamings};
+use crate::canonical::{Ranks, Renamable, Renamings};
 use crate::held::Held;
-use crate::intern::Interner;
 use crate::memo::Memo;
 use crate::network::Message;
 use crate::node::{Node, Protocol, Rules};
 use crate::properties::PropertyId;
 use crate::properties::timed_view::RobotSteps;
+use crate::robots::{Robots, TimedCause};
 use crate::scenario::{MAX_ROBOTS, Scenario};
 
 /// The effect of a robot's step.
@@ -59,10 +59,7 @@ pub struct TimedModel {
     pub(super) scenario: Scenario,
     pub(super) timed: Timed,
     limits: Limits,
-    rules: Box<dyn Rules>,
-    pub(super) nodes: Interner<Node>,
-    messages: Interner<Message>,
-    renamings: Arc<Renamings>,
+    pub(super) robots: Robots,
     /// Each step of a robot is computed once.
     steps: Memo<(u32, TimedCause), TimedRobotStep>,
 }
@@ -83,10 +80,7 @@ impl TimedModel {
             limits: Limits::new(&scenario.config, timed.delay),
             timed,
             scenario,
-            rules: Box::new(rules),
-            nodes: Interner::new(&renamings),
-            messages: Interner::new(&renamings),
-            renamings,
+            robots: Robots::new(Box::new(rules), &renamings),
             steps: Memo::default(),
         })
     }
@@ -111,7 +105,7 @@ impl TimedModel {
     pub fn initial(&self) -> TimedState {
         let mut nodes = [0; MAX_ROBOTS];
         for (node, setup) in nodes.iter_mut().zip(&self.scenario.robots) {
-            *node = self.nodes.number(Node::first_boot(setup.station));
+            *node = self.robots.nodes.number(Node::first_boot(setup.station));
         }
         let mut state = TimedState {
             nodes,
@@ -150,16 +144,16 @@ impl TimedModel {
         let robots = self.scenario.robots.len();
         state.nodes[..robots]
             .iter()
-            .map(|&number| self.nodes.value(number))
+            .map(|&number| self.robots.nodes.value(number))
     }
 
     /// A robot of a state, by its place.
     pub(super) fn node(&self, state: &TimedState, place: u8) -> &Node {
-        self.nodes.value(state.nodes[usize::from(place)])
+        self.robots.nodes.value(state.nodes[usize::from(place)])
     }
 
     pub(super) fn message(&self, number: u16) -> &Message {
-        self.messages.value(number.into())
+        self.robots.message(number)
     }
 
     pub(super) fn step(&self, node: u32, cause: TimedCause) -> Option<&TimedRobotStep> {
@@ -168,10 +162,7 @@ impl TimedModel {
         }
         let (after, outputs) = self.compute(node, cause)?;
         let robot = after.robot.as_ref()?;
-        let sends = outputs
-            .iter()
-            .filter_map(|output| Message::sent(robot, output));
-        let (input, before) = (self.input(cause), self.nodes.value(node));
+        let (input, before) = (self.robots.input(cause), self.robots.nodes.value(node));
         let said = before.robot.as_ref()?.ram();
         // A run ends before they do.
         let mut held = Held {
@@ -180,30 +171,20 @@ impl TimedModel {
             holds_help: false,
         };
         let step = TimedRobotStep {
-            sends: sends.map(|message| self.message_number(message)).collect(),
+            sends: self.robots.sends(&after, &outputs),
             sign: outputs.iter().filter_map(Sign::told).last(),
             telling: Telling::of(&outputs, |station| self.bit_of(station)),
             contact: ContactChange::of(&said, input, &outputs, &robot.ram()),
             is_ignored: outputs.ignored().is_some(),
             is_valid: robot.is_valid(&self.scenario.config),
-            after: self.nodes.number(after.renamed(&mut held)),
+            after: self.robots.nodes.number(after.renamed(&mut held)),
         };
         Some(self.steps.keep((node, cause), step))
     }
 
     pub(super) fn compute(&self, node: u32, cause: TimedCause) -> Option<(Node, Outputs)> {
-        let input = self.input(cause);
-        self.nodes
-            .value(node)
-            .step(&*self.rules, &self.scenario.config, input)
-    }
-
-    fn input(&self, cause: TimedCause) -> Input {
-        match cause {
-            TimedCause::Elapsed(elapsed) => Input::Elapsed(elapsed),
-            TimedCause::Message(number) => self.message(number).input(),
-            TimedCause::Event(event) => Input::Local(event),
-        }
+        let input = self.robots.input(cause);
+        self.robots.step(&self.scenario.config, node, input)
     }
 
     /// One bit for the place of the robot with this station id.
@@ -213,33 +194,16 @@ impl TimedModel {
         place.map_or(0, |place| 1 << place)
     }
 
-    /// The number of a message.
-    ///
-    /// # Panics
-    /// When there are more than 65,536 distinct messages.
-    fn message_number(&self, message: Message) -> u16 {
-        let number = self.messages.number(message);
-        u16::try_from(number).expect("fewer than 65,536 distinct messages")
-    }
-
     pub(super) fn canonicalize(&self, state: &mut TimedState) {
-        let robots = self.scenario.robots.len();
-        let mut sets = NameSets::default();
-        for &node in &state.nodes[..robots] {
-            sets.add(self.nodes.names(node));
-        }
-        for flight in state.channel.flights() {
-            sets.add(self.messages.names(flight.transmission.message.into()));
-        }
-        let Some(renaming) = self.renamings.of(sets) else {
+        let nodes = &mut state.nodes[..self.scenario.robots.len()];
+        let messages = state.channel.flights();
+        let messages = messages.map(|flight| flight.transmission.message);
+        let sets = self.robots.name_sets(nodes, messages);
+        let Some(renaming) = self.robots.renamings.of(sets) else {
             return;
         };
-        for node in &mut state.nodes[..robots] {
-            *node = self.nodes.renamed(*node, renaming);
-        }
-        state.channel = state.channel.map(|message| {
-            let renamed = self.messages.renamed(message.into(), renaming);
-            u16::try_from(renamed).expect("fewer than 65,536 distinct messages")
-        });
+        self.robots.rename_nodes(nodes, renaming);
+        let renamed = |message| self.robots.message_renamed(message, renaming);
+        state.channel = state.channel.map(renamed);
     }
 }

@@ -83,14 +83,3 @@ pub enum TimedAction {
     /// Two teams come within reach of each other.
     Meet,
 }
-
-/// What a robot takes in.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum TimedCause {
-    /// The time that its clock has shown since it last took in the time.
-    Elapsed(Millis),
-    /// A message, by its number.
-    Message(u16),
-    /// What its application does.
-    Event(Event),
-}

@@ -9,12 +9,13 @@ use super::model::{TimedModel, TimedRobotStep};
 use super::quiet::Quiet;
 use super::section::{Looks, Rates};
 use super::sign::Sign;
-use super::state::{TimedAction, TimedCause, TimedState};
+use super::state::{TimedAction, TimedState};
 use super::teams::MAX_TEAMS;
 use super::told::{Reason, Told};
 use super::watch::StopWatch;
 use crate::network::{Transmission, concerns};
 use crate::properties::timed_view::{RobotSteps, falls_back};
+use crate::robots::TimedCause;
 use crate::scenario::MAX_ROBOTS;
 
 impl TimedModel {
@@ -153,7 +154,7 @@ impl TimedModel {
         }
         next.quiet[usize::from(i)] = None;
         next.untold[usize::from(i)] = Millis::ZERO;
-        next.nodes[usize::from(i)] = self.nodes.number(self.node(next, i).crashed());
+        next.nodes[usize::from(i)] = self.robots.nodes.number(self.node(next, i).crashed());
         next.channel.forget_receiver(i);
     }
 
