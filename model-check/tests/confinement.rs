@@ -233,86 +233,21 @@ fn beat(ms: u32) -> Heartbeat {
     Heartbeat(u16::try_from(2 + ms / TICK_MS).unwrap())
 }
 
-#[test]
-fn a_follower_that_says_that_it_guards_keeps_the_corridor_open_until_the_execution_limit() {
+fn falls_back(_: &Robot, outputs: &Outputs) -> bool {
+    outputs.iter().any(|it| matches!(it, Output::FallBack(..)))
+}
+
+fn shows_go_in_an_open_corridor() -> Honest {
     let mut honest = Honest::shows_go();
-    echoes(&mut honest, Some(Progress::InPosition));
+    guards(&mut honest);
     assert_eq!(honest.event(Event::OpenCorridor).ignored(), None);
-    let lies = |honest: &mut Honest| echoes(honest, Some(Progress::InPosition));
-    let took_ms = honest.until(closes, lies);
-    assert_lasts("says that it guards where it does not", took_ms);
+    honest
 }
 
-#[test]
-fn a_follower_that_is_silent_keeps_it_open_for_a_lease() {
-    let mut honest = Honest::shows_go();
-    echoes(&mut honest, Some(Progress::InPosition));
-    assert_eq!(honest.event(Event::OpenCorridor).ignored(), None);
-    let took_ms = honest.until(closes, |_| ());
-    assert_lasts("says that it guards, and is silent", took_ms);
-}
-
-#[test]
-fn a_helper_that_takes_its_offers_back_costs_a_request() {
-    let mut honest = Honest::asks();
-    let took_ms = honest.until(is_idle, |honest| {
-        offers(honest);
-        let session = honest.robot.session().unwrap();
-        let farewell = crossguard_protocol::Farewell::Left(session, OfferNumber(number(0)));
-        let ram = Ram {
-            station: LIAR,
-            coordination: Coordination::None,
-            farewell: Some(farewell),
-            on_duty: false,
-        };
-        honest.take(Input::Ram {
-            ram,
-            distance: Decimetres(0),
-        });
-    });
-    assert_lasts(
-        "offers and takes back, so that a request gets no roles",
-        took_ms,
-    );
-}
-
-#[test]
-fn a_helper_that_does_not_join_costs_its_place_for_as_long_as_a_lost_follower() {
-    let mut honest = Honest::leads();
-    let took_ms = honest.until(is_idle, |_| ());
-    assert_lasts("offers, is confirmed, and does not join", took_ms);
-}
-
-#[test]
-fn a_bystander_that_asks_on_and_on_reserves_a_robot_until_the_identity_limit() {
+fn reserved() -> Honest {
     let mut honest = Honest::new();
     honest.hears(asks(Heartbeat(0)));
-    let took_ms = honest.until(is_idle, |honest| {
-        let heartbeat = beat(honest.now_ms);
-        honest.hears(asks(heartbeat));
-    });
-    assert_lasts("asks for help, and so reserves an idle robot", took_ms);
-}
-
-#[test]
-fn a_bystander_that_asked_once_reserves_a_robot_for_one_reservation() {
-    let mut honest = Honest::new();
-    honest.hears(asks(Heartbeat(0)));
-    let took_ms = honest.until(is_idle, |_| ());
-    assert_lasts("asked for help, and is silent", took_ms);
-}
-
-#[test]
-fn a_leader_keeps_a_robot_until_the_identity_limit() {
-    let mut honest = Honest::follows();
-    let took_ms = honest.until(is_idle, |honest| {
-        let (heartbeat, offer) = (beat(honest.now_ms), honest.offer());
-        honest.hears(leads(heartbeat, offer, number(0), Urgency::High));
-    });
-    assert_lasts(
-        "commands the robots that joined it, and keeps them",
-        took_ms,
-    );
+    honest
 }
 
 fn commanded() -> Honest {
@@ -335,20 +270,64 @@ fn commanded() -> Honest {
     honest
 }
 
-#[test]
-fn a_leader_that_is_silent_is_obeyed_until_the_safety_timeout() {
-    let mut honest = commanded();
-    let ends =
-        |_: &Robot, outputs: &Outputs| outputs.iter().any(|it| matches!(it, Output::FallBack(..)));
-    let took_ms = honest.until(ends, |_| ());
-    assert_lasts("commanded, and is silent", took_ms);
+fn says_nothing(_: &mut Honest) {}
+
+fn guards(honest: &mut Honest) {
+    echoes(honest, Some(Progress::InPosition));
 }
 
+fn offers_and_leaves(honest: &mut Honest) {
+    offers(honest);
+    let session = honest.robot.session().unwrap();
+    let farewell = crossguard_protocol::Farewell::Left(session, OfferNumber(number(0)));
+    let ram = Ram {
+        station: LIAR,
+        coordination: Coordination::None,
+        farewell: Some(farewell),
+        on_duty: false,
+    };
+    honest.take(Input::Ram {
+        ram,
+        distance: Decimetres(0),
+    });
+}
+
+fn asks_on(honest: &mut Honest) {
+    honest.hears(asks(beat(honest.now_ms)));
+}
+
+fn leads_on(honest: &mut Honest) {
+    let (heartbeat, offer) = (beat(honest.now_ms), honest.offer());
+    honest.hears(leads(heartbeat, offer, number(0), Urgency::High));
+}
+
+/// What the liar can, as the page says it; the robot that it harms; when that is over; and what the liar says at each tick.
+type Lie = (
+    &'static str,
+    fn() -> Honest,
+    fn(&Robot, &Outputs) -> bool,
+    fn(&mut Honest),
+);
+
+#[rustfmt::skip]
+const LIES: [Lie; 9] = [
+    ("says that it guards where it does not", shows_go_in_an_open_corridor, closes, guards),
+    ("says that it guards, and is silent", shows_go_in_an_open_corridor, closes, says_nothing),
+    ("offers and takes back, so that a request gets no roles", Honest::asks, is_idle, offers_and_leaves),
+    ("offers, is confirmed, and does not join", Honest::leads, is_idle, says_nothing),
+    ("asks for help, and so reserves an idle robot", reserved, is_idle, asks_on),
+    ("asked for help, and is silent", reserved, is_idle, says_nothing),
+    ("commands the robots that joined it, and keeps them", Honest::follows, is_idle, leads_on),
+    ("commanded, and is silent", commanded, falls_back, says_nothing),
+    ("led, and is silent", commanded, is_idle, says_nothing),
+];
+
 #[test]
-fn a_leader_that_is_silent_is_left_after_that() {
-    let mut honest = commanded();
-    let took_ms = honest.until(is_idle, |_| ());
-    assert_lasts("led, and is silent", took_ms);
+fn each_lie_lasts_no_longer_than_its_row_says_and_almost_that_long() {
+    for (can, begin, is_over, say) in LIES {
+        let took_ms = begin().until(is_over, say);
+        assert_lasts(can, took_ms);
+    }
 }
 
 #[test]
@@ -380,12 +359,12 @@ fn a_bystander_with_ever_new_sessions_keeps_two_leaders_from_yielding() {
     let other = StationId(1);
     let yields = |with_liar: bool| {
         let mut honest = Honest::shows_go();
-        echoes(&mut honest, Some(Progress::InPosition));
+        guards(&mut honest);
         for period in 0..50 {
             for _ in 0..10 {
                 honest.elapse();
             }
-            echoes(&mut honest, Some(Progress::InPosition));
+            guards(&mut honest);
             let goes_before = Coordination::Leader {
                 number: SessionNumber(number(0)),
                 heartbeat: Heartbeat(period),
