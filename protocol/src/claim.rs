@@ -38,6 +38,7 @@ impl Claim {
         if !self.place.may_be(other.place) {
             return Err(Ignored::OtherPlace);
         }
+        // R6: one of two goes before.
         if self.precedence(station) > other.precedence(other_station) {
             return Err(Ignored::LowerPrecedence);
         }

@@ -29,6 +29,7 @@ impl Robot {
             Identity::Locked(left) => left.left(),
             Identity::Unlocked | Identity::Expiring => None,
         };
+        // R16: with time enough to cross.
         if lock_left.is_none_or(|left| left < t_cross) || !leading.runs_for(t_cross) {
             return Err(Ignored::NotEnoughTime);
         }
@@ -59,6 +60,7 @@ impl Robot {
             return;
         }
         if let Some(obstacle) = leading.corridor_obstacle(step.config) {
+            // R16: closed in the step in which a guard is no more.
             leading.shut(step, obstacle);
         } else if step.renewed {
             step.out
@@ -80,6 +82,7 @@ impl Leading {
     /// nothing, so its corridor ends before any follower can have fallen back.
     fn shortest_lease(&self) -> Millis {
         let left = |member: &Member| member.lease.countdown().left();
+        // R17: no sign outlives the lease on any guard.
         let shortest = self.members.iter().filter_map(left).min();
         shortest.unwrap_or(Millis::ZERO)
     }
@@ -95,6 +98,7 @@ impl Leading {
     /// The first thing that stands in the way of an open corridor.
     #[must_use]
     pub fn corridor_obstacle(&self, config: &Config) -> Option<CorridorClosure> {
+        // R16: every guard that was asked for, each engaged.
         if self.members.len() < usize::from(self.request.followers) {
             return Some(CorridorClosure::FollowerMissing);
         }

@@ -20,6 +20,7 @@ impl Rival {
     pub(crate) fn is_heard_again(self, known: &mut Option<Self>) -> Result<bool, Ignored> {
         match known {
             Some(rival) if rival.session == self.session => {
+                // R6: a rival counts while it beats.
                 if self.heartbeat.is_newer_than(rival.heartbeat) {
                     return Ok(true);
                 }
@@ -134,6 +135,7 @@ impl Robot {
         let next_ram = self.ram.left().unwrap_or(Millis::ZERO);
         match &mut self.phase {
             Phase::Requesting(requesting) if requesting.number == session.number => {
+                // R3: no lease outlives the safety timer of the helper.
                 if !step.config.lease_fits(t_safety) {
                     return Err(Ignored::TimersDoNotFit);
                 }
@@ -153,6 +155,7 @@ impl Robot {
             return;
         };
         let settings = step.config.settings();
+        // R4: enough offers, or `t_select` once more.
         if requesting.offers.len() < usize::from(requesting.request.followers) {
             requesting.selection = Countdown::armed(settings.t_select);
             return;
@@ -190,6 +193,7 @@ impl Robot {
         let Phase::Requesting(requesting) = &self.phase else {
             return Err(Ignored::NothingNew);
         };
+        // R4: at once, where enough have offered.
         if requesting.offers.len() < usize::from(requesting.request.followers) {
             return Err(Ignored::NothingNew);
         }
@@ -208,6 +212,7 @@ impl Robot {
 
     /// `T_help` has run out.
     pub(crate) fn help_expired(&mut self, step: &mut Step<'_, impl Sink>) {
+        // R5
         self.end_session(step, EndReason::NoHelp);
     }
 

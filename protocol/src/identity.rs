@@ -10,6 +10,7 @@ impl Robot {
     /// Locks and unlocks as the robot gets bound and free.
     pub(crate) fn settle_identity(&mut self, step: &mut Step<'_, impl Sink>) {
         match (self.identity, self.is_bound()) {
+            // R23: from the request or offer on.
             (Identity::Unlocked, true) => {
                 self.identity = Identity::Locked(Countdown::armed(step.config.t_lock_session()));
                 step.out.push(Output::LockIdentity);
@@ -24,6 +25,7 @@ impl Robot {
 
     /// The lock has lasted as long as it may: whatever the robot has a part in ends in order.
     pub(crate) fn identity_lock_expired(&mut self, step: &mut Step<'_, impl Sink>) {
+        // R23: at the latest by the limit.
         match self.phase {
             // A farewell is all that is left, and it has had its time.
             Phase::Idle => self.farewell = None,

@@ -56,6 +56,7 @@ impl Robot {
         if let Availability::Unavailable(reason) = self.availability {
             return Err(Ignored::Unavailable(reason));
         }
+        // R20: nothing new before the duty is over.
         if self.duty.is_some() {
             return Err(Ignored::OnDuty);
         }
@@ -76,7 +77,7 @@ impl Robot {
             return Err(Ignored::NothingNew);
         }
         self.availability = availability;
-        // The status container of the RAM tells it.
+        // R24: the status container of its RAM says so at once.
         step.out.push(Output::SendRam);
         if let Availability::Unavailable(reason) = availability {
             self.become_unavailable(step, reason);

@@ -36,7 +36,7 @@ impl Robot {
             .is_some_and(|member| member.may_be_commanded().is_ok() && member.is_used_up(step));
         let guards = member.is_some_and(|member| member.guards(step.config));
         if leading.corridor != Corridor::Clear && (used_up || guards) {
-            // No message takes a guard off a road on which there may be people.
+            // R18: no message takes a guard off a road on which there may be people.
             return Err(Ignored::RoadOccupied);
         }
         if used_up {
@@ -84,6 +84,7 @@ impl Robot {
         let Some(session) = session else { return };
         let repeated = leading.update_member(station, |member| {
             let outstanding = member.outstanding.as_mut()?;
+            // R10: `n_ack` repeats, then the follower is given up.
             if outstanding.repeats < n_ack {
                 outstanding.repeat(step, session, station);
                 return None;
@@ -203,6 +204,7 @@ impl Member {
         let outstanding = self
             .outstanding
             .filter(|outstanding| outstanding.request == request);
+        // R9: an answer to anything else changes nothing.
         let outstanding = outstanding.ok_or(Ignored::NotOutstanding)?;
         self.outstanding = None;
         Ok(outstanding)
@@ -243,6 +245,7 @@ impl Member {
         let Some(order) = self.order.as_mut().filter(|order| {
             // A delayed RAM undoes nothing, and a final progress stays final.
             let is_news = |known| report.progress.is_news(known, echo);
+            // R11: session and command are named. R28: so is which RAM is newer, for a place.
             order.request == report.request && order.progress.is_none_or(is_news)
         }) else {
             return acknowledged.or(Err(Ignored::NothingNew));
@@ -285,6 +288,7 @@ impl Robot {
         let station = self.station;
         let rejection = self.rejection(step, command);
         match &mut self.phase {
+            // R1: a command of another session is none.
             Phase::Following(following) if following.session == command.session => {
                 let taken = following.take_command(step, station, rejection, command);
                 if following.executing().is_some() {
@@ -316,6 +320,7 @@ impl Robot {
         if job.progress == progress {
             return Err(Ignored::NothingNew);
         }
+        // R28: the RAM that says so is sent at once.
         job.progress = progress;
         step.out.push(Output::SendRam);
         Ok(())
@@ -369,6 +374,7 @@ impl Robot {
         if let Availability::Unavailable(reason) = self.availability {
             return Some(Rejection::Unavailable(reason));
         }
+        // R27: nothing but what it fell back from.
         if self.duty.is_some_and(|duty| !duty.is_resumed_by(command)) {
             return Some(Rejection::OnDuty);
         }
@@ -412,11 +418,12 @@ impl Following {
             step.out.push(answer(Verdict::Rejected(refused.reason)));
             return Ok(());
         }
+        // R8, R15: acknowledged again, and never started again, whatever became of it.
         if self.job.is_some_and(|job| job.request == command.request) {
             step.out.push(answer(Verdict::Accepted));
             return Ok(());
         }
-        // Newer than both: after a leap of more than half the number space, which no leader makes, a
+        // R8: newer than both. After a leap of more than half the number space, which no leader makes, a
         // number can be newer than what was refused and older than what was accepted.
         let is_new = |answered: RequestId| command.request.is_newer_than(answered);
         let is_newest = self.refused.is_none_or(|refused| is_new(refused.request))
@@ -441,6 +448,7 @@ impl Following {
             progress: Progress::Executing,
         });
         self.refused = None;
+        // R7: the acknowledgement stands before the start.
         step.out.push(answer(Verdict::Accepted));
         if let Some(maneuver) = superseded {
             step.out

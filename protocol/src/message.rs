@@ -137,6 +137,7 @@ impl Progress {
     #[must_use]
     pub(crate) const fn is_news(self, known: Self, echo: Ordering) -> bool {
         match (known, self) {
+            // R28: a place is taken by a newer echo alone, and left by any that is not older.
             (Self::Executing, Self::InPosition) => matches!(echo, Ordering::Greater),
             (Self::InPosition, Self::Executing) => !matches!(echo, Ordering::Less),
             (Self::Executing | Self::InPosition, _) => !self.is_running(),

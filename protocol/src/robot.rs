@@ -97,6 +97,7 @@ impl Robot {
             Input::Expired(timer) => self.expire(step, timer),
             Input::Local(event) => self.notice_event(step, event),
         };
+        // R26: an input that changes nothing says why.
         if let Err(reason) = effect {
             step.out.push(Output::Ignored(reason));
         }
@@ -223,8 +224,10 @@ impl Robot {
         &mut self,
         step: &mut Step<'_, impl Sink>,
     ) -> Result<UniqueNumber, Ignored> {
+        // R1: no number is given out twice.
         let count = self.next_count;
         self.next_count = count.checked_add(1).ok_or(Ignored::NumbersExhausted)?;
+        // R25: while half of the numbers are left.
         if self.next_count > u16::MAX / 2 {
             step.out.push(Output::RenewEpoch);
         }
@@ -237,7 +240,7 @@ impl Robot {
     /// Takes back the number of an offer that nobody can confirm any more, so that a peer which asks for
     /// help and ends its request over and over uses up none.
     pub(crate) fn take_back_number(&mut self, offer: OfferNumber) {
-        // While it offers, it gives out nothing else: this is the last one of its epoch.
+        // R25: while it offers, it gives out nothing else. So this is the last one of its epoch.
         if offer.0.boot == self.boot {
             self.next_count = offer.0.count;
         }
@@ -253,6 +256,7 @@ impl Robot {
         if boot <= self.boot {
             return Err(Ignored::NothingNew);
         }
+        // R25
         self.boot = boot;
         self.next_count = 0;
         Ok(())

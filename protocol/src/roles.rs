@@ -36,6 +36,7 @@ impl Robot {
             .map(|f| f.offer);
         match &mut self.phase {
             Phase::Offering(offering) if offering.session == session => {
+                // R2: listed by the number of this offer.
                 if listed == Some(offering.number) {
                     let offer = offering.number;
                     self.join(step, Following::new(step.config, session, offer, heartbeat));
@@ -43,6 +44,7 @@ impl Robot {
                 }
             }
             Phase::Following(following) if following.session == session => {
+                // R2: and so at every RAM.
                 if listed == Some(following.offer) {
                     return following.hear_heartbeat(step, heartbeat);
                 }
@@ -163,6 +165,7 @@ impl Robot {
         };
         following.contact = Contact::Lost(Countdown::armed(step.config.settings().t_leave));
         let session = following.session;
+        // R14: by the task's policy; then `t_leave` runs.
         if let Some(maneuver) = following.finish(Progress::SafeIdle) {
             self.fall_back(step, maneuver);
             step.out.push(Output::SendRam);
@@ -172,6 +175,7 @@ impl Robot {
 
     /// `T_leave` ran out as well.
     pub(crate) fn leave_expired(&mut self, step: &mut Step<'_, impl Sink>) {
+        // R14
         self.leave(step, ReleaseReason::ContactLost);
     }
 
@@ -203,6 +207,7 @@ impl Robot {
         };
         if leading
             .members
+            // R22: this record alone.
             .remove_first(|member| member.station == station)
             .is_none()
         {
@@ -268,6 +273,7 @@ impl Member {
             None => step.out.notify(Notice::FollowerJoined(self.station)),
         }
         self.echoed = Some(echo);
+        // R13: from when the heartbeat was sent, not from now.
         let left = step.config.settings().t_lease.saturating_sub(age);
         if left > Millis::ZERO {
             if !self.lease.stands() {
@@ -302,6 +308,7 @@ impl Following {
     /// Only a *newer* heartbeat restarts `T_safety`: a delayed or repeated RAM proves nothing about
     /// the leader's present.
     fn hear_heartbeat(&mut self, step: &mut Step<'_, impl Sink>, heartbeat: Heartbeat) -> Effect {
+        // R12: an older heartbeat renews nothing.
         if !heartbeat.is_newer_than(self.heard) {
             return Err(Ignored::OldHeartbeat);
         }
@@ -315,6 +322,7 @@ impl Following {
         if self.contact.is_lost() {
             step.out.notify(Notice::ContactRegained(self.session));
         }
+        // R12: in full, by whatever is newer.
         self.contact = Contact::Fresh(Countdown::armed(step.config.settings().t_safety));
     }
 }

@@ -27,6 +27,7 @@ impl Robot {
 
     /// The application says that the road is clear, and that the body's fallback is finished.
     pub(crate) fn clear_road(&mut self, step: &mut Step<'_, impl Sink>) -> Effect {
+        // R20
         if self.duty.take().is_some() {
             step.out.push(Output::SendRam);
             self.forget_people();
@@ -57,6 +58,7 @@ impl Robot {
         if following.sees_people {
             return Err(Ignored::NothingNew);
         }
+        // R29: from now on every end is a fallback.
         following.sees_people = true;
         Ok(())
     }
@@ -77,6 +79,7 @@ impl Robot {
         };
         leading.yields_to = Some(other);
         step.out.notify(Notice::Yielded(other));
+        // R6: nobody steps on the road any more; who is there keeps the guards.
         leading.shut(step, CorridorClosure::Yielded(other));
         if leading.corridor == Corridor::Clear {
             self.end_session(step, EndReason::Withdrawn(other));
@@ -89,6 +92,7 @@ impl Robot {
     pub(crate) fn fall_back(&mut self, step: &mut Step<'_, impl Sink>, maneuver: Maneuver) {
         let policy = step.config.fallback(maneuver.task);
         step.out.push(Output::FallBack(maneuver, policy));
+        // R20: until the application says that the road is clear.
         self.duty = Some(Duty::FallingBack(maneuver));
     }
 
@@ -116,6 +120,7 @@ impl Robot {
             Phase::Requesting(requesting) => requesting.number,
             Phase::Leading(leading) => {
                 leading.shut(step, CorridorClosure::SessionEnded);
+                // R19: an end under people is a duty.
                 if leading.corridor != Corridor::Clear && ending == Ending::Aborted {
                     self.duty = Some(Duty::Crossing(SessionId {
                         leader: self.station,
@@ -150,6 +155,7 @@ impl Robot {
             Phase::Following(following) => {
                 let session = following.session;
                 if let Some(maneuver) = following.executing() {
+                    // R19: only a completed crossing frees a guard. R29: and only one that sees nobody.
                     if why == ReleaseReason::TaskCompleted && !following.sees_people {
                         let why = StopReason::Released(why);
                         step.out.push(Output::StopManeuver(maneuver, why));
@@ -179,6 +185,7 @@ impl Robot {
             // Another farewell would keep the identity locked beyond its limit.
             return Err(Ignored::IdentityLockLimit);
         }
+        // R21
         let left = Countdown::armed(step.config.settings().t_farewell);
         self.farewell = Some(StandingFarewell { farewell, left });
         step.out.push(Output::SendRam);
@@ -198,6 +205,7 @@ impl Robot {
                     leader: from,
                     number,
                 };
+                // R21: named by its number, or not meant.
                 if self.session() != Some(ended) {
                     return Err(Ignored::OtherSession);
                 }

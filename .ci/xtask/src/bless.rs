@@ -14,7 +14,7 @@ struct Generated {
 }
 
 /// Sources first: what follows from other files comes after them.
-const GENERATED: [Generated; 13] = [
+const GENERATED: [Generated; 14] = [
     Generated {
         path: "protocol/src: words and named tasks, in other languages",
         by: "cargo test -p crossguard-protocol --test languages",
@@ -58,6 +58,10 @@ const GENERATED: [Generated; 13] = [
     Generated {
         path: "protocol/doc/protocol.md: the state diagram",
         by: "cargo test -p crossguard-harness --test it pages::the_state_diagram",
+    },
+    Generated {
+        path: "protocol/doc/protocol.md: the index of rules",
+        by: "cargo test -p crossguard-harness --test it pages::the_index_of_rules",
     },
     Generated {
         path: "harness/tests/cmd/",

@@ -1,6 +1,7 @@
 //! The pages of the repository: what they link and tell to type is there.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
@@ -224,38 +225,87 @@ fn the_readmes_sum_of_states_is_that_of_the_scenarios() {
     assert_is(&path, &new);
 }
 
-/// Everything that the index of rules names is there, and every property is of some rule.
+/// The functions of the protocol that keep each rule: a mark such as `// R7: ...` stands at the line.
+fn kept() -> BTreeMap<String, Vec<String>> {
+    let mut sources = Vec::new();
+    files(&repository().join("protocol/src"), "rs", &mut sources);
+    sources.retain(|path| !path.iter().any(|part| part == "laws"));
+    sources.sort();
+    let mut kept = BTreeMap::<String, Vec<String>>::new();
+    for path in sources {
+        let file = path.file_stem().unwrap().to_string_lossy();
+        let mut function = "";
+        for line in std::fs::read_to_string(&path).unwrap().leak().lines() {
+            if let Some((_, rest)) = line.split_once("fn ") {
+                let ends = |c: char| !c.is_alphanumeric() && c != '_';
+                function = rest.split(ends).next().unwrap_or(function);
+            }
+            let Some(comment) = line.trim_start().strip_prefix("// ") else {
+                continue;
+            };
+            let is_rule = |word: &&str| {
+                let number = word.strip_prefix('R');
+                number.is_some_and(|it| it.parse::<u8>().is_ok())
+            };
+            for rule in comment
+                .split(|c: char| !c.is_alphanumeric())
+                .filter(is_rule)
+            {
+                let functions = kept.entry(rule.to_owned()).or_default();
+                let here = format!("`{file}::{function}`");
+                if !functions.contains(&here) {
+                    functions.push(here);
+                }
+            }
+        }
+    }
+    kept
+}
+
+/// The index of rules has the functions in which their marks stand, everything else that it names is there, and every
+/// property is of some rule.
 #[test]
 fn the_index_of_rules_names_what_there_is() {
     let text = |path: String| std::fs::read_to_string(repository().join(path)).unwrap();
-    let has = |path: String, name: &str| {
-        let is_there = text(path.clone()).contains(&format!("fn {name}("));
-        assert!(is_there, "no {name} in {path}");
-    };
-    let page = text("protocol/doc/protocol.md".to_owned());
+    let (path, page) = read("protocol/doc/protocol.md");
     let missed = ["weakenings", "timed_weakenings"].map(|file| {
         let path = format!("model-check/tests/{file}.rs");
         text(path)
     });
-    let (mut rules, mut named) = (0, BTreeSet::new());
-    for row in page.lines().filter(|line| line.starts_with("| R")) {
+    let kept = kept();
+    let (mut rules, mut named, mut indexed) = (0, BTreeSet::new(), String::new());
+    for row in page.lines() {
+        if !row.starts_with("| R") {
+            indexed.push_str(row);
+            indexed.push('\n');
+            continue;
+        }
         let cells: Vec<_> = row.trim_matches('|').split(" | ").map(str::trim).collect();
-        let [id, _, functions, properties, weakening, law, script] = cells[..] else {
+        let [id, rule, _, properties, weakening, law, script] = cells[..] else {
             panic!("another number of columns: {row}");
         };
         rules += 1;
         assert_eq!(id, format!("R{rules}"));
-        for name in quoted(functions) {
-            let (file, function) = name.split_once("::").expect("a file and a function");
-            has(format!("protocol/src/{file}.rs"), function);
-        }
+        let functions = kept.get(id).unwrap_or_else(|| panic!("no mark // {id}"));
+        let cells = [
+            id,
+            rule,
+            &functions.join(" "),
+            properties,
+            weakening,
+            law,
+            script,
+        ];
+        let _ = writeln!(indexed, "| {} |", cells.join(" | "));
         for name in quoted(weakening) {
             let is_there = missed.iter().any(|it| it.contains(&format!("fn {name}(")));
             assert!(is_there, "no weakening {name}");
         }
         for name in quoted(law) {
             let (file, function) = name.split_once("::").expect("a file and a law");
-            has(format!("protocol/src/laws/{file}.rs"), function);
+            let path = format!("protocol/src/laws/{file}.rs");
+            let is_there = text(path.clone()).contains(&format!("fn {function}("));
+            assert!(is_there, "no {function} in {path}");
         }
         let [script] = &quoted(script)[..] else {
             panic!("one script: {row}");
@@ -263,6 +313,8 @@ fn the_index_of_rules_names_what_there_is() {
         assert!(text(format!("protocol/tests/scripts/{script}")).contains("\n== "));
         named.extend(properties.split(", ").map(str::to_owned));
     }
+    assert_eq!(kept.len(), rules, "a mark of no rule: {:?}", kept.keys());
+    assert_is(&path, &indexed);
     let verified = text("model-check/doc/verification.md".to_owned());
     let is_property = |id: &&str| {
         let number = id.get(1..).and_then(|number| number.parse::<u8>().ok());
