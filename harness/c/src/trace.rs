@@ -167,16 +167,12 @@ mod json {
             let Some(room) = &mut self.room else {
                 return false;
             };
-            let record = Record {
-                at_us,
-                robot,
-                entry,
-            };
             let mut rest = Rest {
                 room: &mut room[self.length..],
                 length: 0,
             };
-            let written = to_writer(&mut rest, &record).is_ok() && rest.write_byte(b'\n').is_ok();
+            let record = Record { at_us, robot };
+            let written = rest.write_joined(&record, entry).is_some();
             if written {
                 self.length += rest.length;
             } else {
@@ -191,14 +187,26 @@ mod json {
     struct Record<'a> {
         at_us: u64,
         robot: &'a str,
-        #[serde(flatten)]
-        entry: &'a Entry<'a>,
     }
 
     /// What is left of a buffer.
     struct Rest<'a> {
         room: &'a mut [u8],
         length: usize,
+    }
+
+    impl Rest<'_> {
+        /// Writes a line with one object that has the fields of both, if there is room: to flatten one into the other,
+        /// serde needs a heap.
+        fn write_joined(&mut self, record: &Record<'_>, entry: &Entry<'_>) -> Option<()> {
+            to_writer(&mut *self, record).ok()?;
+            // The comma takes the place of `}` and `{`.
+            self.length -= 1;
+            let joint = self.length;
+            to_writer(&mut *self, entry).ok()?;
+            self.room[joint] = b',';
+            self.write_byte(b'\n').ok()
+        }
     }
 
     impl SerWrite for Rest<'_> {
