@@ -12,8 +12,10 @@ use crossguard_codec::si::timestamp_its;
 /// Where the site of the kit's demonstrations is, in degrees.
 const LATITUDE: f64 = 49.0101;
 const LONGITUDE: f64 = 8.4124;
-/// How long the body takes for a maneuver.
+/// How long the body takes for a maneuver that goes to a place.
 const MANEUVER_MS: u64 = 1_000;
+/// How long it takes beside somebody who crosses: it must not be done before they are.
+const ESCORT_MS: u64 = 15_000;
 /// After so many heartbeats beside an open corridor the pedestrian of this program is across.
 const CROSSING: u32 = 20;
 /// How often a robot without a session says that it is there.
@@ -325,7 +327,9 @@ impl Station {
                 let begin = output.packet_offset as usize;
                 outside.send(&packets[begin..begin + output.packet_length as usize]);
             } else if is(Does::StartManeuver) {
-                self.app.running = Some((*output, now_ms + MANEUVER_MS));
+                let is_escort = output.task == Task::Move as u8;
+                let takes_ms = if is_escort { ESCORT_MS } else { MANEUVER_MS };
+                self.app.running = Some((*output, now_ms + takes_ms));
             } else if is(Does::StopManeuver) || is(Does::FallBack) {
                 self.app.running = None;
             } else if is(Does::CorridorOpened) {
