@@ -4,16 +4,13 @@ use crossguard_protocol::*;
 
 use crate::script::*;
 
-fn short_lock() -> Settings {
-    Settings {
-        t_lock: Millis(80_000),
-        ..Settings::default()
-    }
-}
-
 #[test]
 fn a_farewell_does_not_outlast_the_lock() {
-    let mut street = Street::with_settings(&[ARI], short_lock());
+    let settings = Settings {
+        t_lock: Millis(80_000),
+        ..Settings::default()
+    };
+    let mut street = Street::with_settings(&[ARI], settings);
     let stale = |count| {
         follower(
             GO2,
@@ -74,10 +71,6 @@ fn whenever_the_second_helper_arrives_the_team_is_complete() {
     assert!(teams > 800, "{teams}");
 }
 
-fn gone(station: StationId) -> Output {
-    Output::Notify(Notice::FollowerGone(station, GoneReason::NoContact))
-}
-
 #[test]
 fn a_follower_whose_echo_is_half_the_number_space_old_is_dropped() {
     let mut street = Street::with_roles(&[ARI, GO2, SPOT]);
@@ -86,7 +79,8 @@ fn a_follower_whose_echo_is_half_the_number_space_old_is_dropped() {
     // Its other timers are held back; no endpoint does that.
     let echoed = street.leading(ARI).member(GO2).unwrap().echoed.unwrap();
     let lag = |street: &Street| street.leading(ARI).heartbeat.distance_from(echoed);
-    while !street.has_put_out(ARI, gone(GO2)) {
+    let gone = Output::Notify(Notice::FollowerGone(GO2, GoneReason::NoContact));
+    while !street.has_put_out(ARI, gone) {
         assert!(street.leading(ARI).member(GO2).is_some());
         assert!(u32::from(lag(&street)) < Heartbeat::HALF_SPACE);
         street.forget();
@@ -112,17 +106,13 @@ fn a_timer_that_is_not_armed_does_not_expire() {
     }
 }
 
-fn team() -> Street {
-    Street::with_roles(&[ARI, GO2, SPOT, NAO, PEPPER])
-}
-
 #[test]
 fn one_step_of_a_full_team_stays_within_the_capacity_for_outputs() {
     let everybody = [ARI, GO2, SPOT, NAO, PEPPER];
     // The leader sleeps until everything is due at once: under an open corridor, and with commands that
     // nobody acknowledges.
     let open = Street::open(&everybody, TaskType::BLOCK);
-    let mut commanded = team();
+    let mut commanded = Street::with_roles(&everybody);
     for follower in [GO2, SPOT, NAO, PEPPER] {
         commanded.tell(ARI, order(follower, TaskType::BLOCK));
     }

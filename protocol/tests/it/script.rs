@@ -89,7 +89,7 @@ pub struct Step {
     pub who: StationId,
     /// The RAM after it.
     pub ram: Ram,
-    pub outputs: Outputs,
+    pub outputs: Vec<Output>,
 }
 
 /// Robots, and a radio channel that loses what the script wants lost.
@@ -100,13 +100,11 @@ pub struct Street {
     robots: BTreeMap<StationId, Robot>,
     /// Pairs of sender and receiver between which everything is lost.
     cut: BTreeSet<(StationId, StationId)>,
-    /// What each robot has put out since the script last asked.
-    heard: Vec<(StationId, Output)>,
     /// Milliseconds since the beginning.
     now: u32,
     /// Robots that hang, and since when.
     hung: BTreeMap<StationId, u32>,
-    /// The steps since an interpreter last took them.
+    /// The steps that put something out, since somebody last asked or forgot.
     pub trace: Vec<Step>,
     /// The RMCM that each robot sent last.
     rmcm: BTreeMap<StationId, Rmcm>,
@@ -127,7 +125,6 @@ impl Street {
             configs: BTreeMap::new(),
             robots,
             cut: BTreeSet::new(),
-            heard: Vec::new(),
             now: 0,
             hung: BTreeMap::new(),
             trace: Vec::new(),
@@ -229,19 +226,20 @@ impl Street {
                 Output::CorridorClosed(_) => {
                     self.go_until.remove(&who);
                 }
+                Output::SendRmcm(rmcm) => {
+                    self.rmcm.insert(who, rmcm);
+                }
                 _ => {}
             }
-            if let Output::SendRmcm(rmcm) = output {
-                self.rmcm.insert(who, rmcm);
-            }
-            self.heard.push((who, output));
         }
-        self.trace.push(Step {
-            now: self.now,
-            who,
-            ram: self[who].ram(),
-            outputs,
-        });
+        if !outputs.is_empty() {
+            self.trace.push(Step {
+                now: self.now,
+                who,
+                ram: self[who].ram(),
+                outputs: outputs.iter().copied().collect(),
+            });
+        }
         outputs
     }
 
@@ -369,12 +367,12 @@ impl Street {
 
     /// Forgets what was put out so far.
     pub fn forget(&mut self) {
-        self.heard.clear();
+        self.trace.clear();
     }
 
     /// Whether `who` has put this out since the script last asked or forgot.
     pub fn has_put_out(&self, who: StationId, output: Output) -> bool {
-        self.heard.contains(&(who, output))
+        self.count(who, |it| *it == output) > 0
     }
 
     /// The RMCM that `who` sent last.
@@ -384,10 +382,9 @@ impl Street {
 
     /// How often `who` has put out something of this kind.
     pub fn count(&self, who: StationId, of_kind: impl Fn(&Output) -> bool) -> usize {
-        self.heard
-            .iter()
-            .filter(|(id, output)| *id == who && of_kind(output))
-            .count()
+        let of_who = self.trace.iter().filter(|step| step.who == who);
+        let outputs = of_who.flat_map(|step| &step.outputs);
+        outputs.filter(|output| of_kind(output)).count()
     }
 
     pub fn leading(&self, who: StationId) -> &Leading {
