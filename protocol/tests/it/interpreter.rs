@@ -30,7 +30,7 @@ ROBOT EVENT                detects N, orders ROBOT TASK, in position, out of pos
                            road clear, task completed, leaves, unavailable WHY, available, all answered, sees a person,
                            identity N, epoch N
 ROBOT elapses MS           time that this robot alone is told
-ROBOT hears NAME           a message that was kept, or `RAM ...` or `RMCM ...` (see `message`)
+ROBOT hears NAME           a message that was kept, or `RAM ...` or `RMCM ...` (see `made_ram`, `made_rmcm`)
 keep NAME ROBOT RAM|RMCM   what the robot says now, or the RMCM that it sent last
 pass MS                    time passes for all
 cut A B, part A B, heal    B does not hear A; neither hears the other; all hear all
@@ -121,7 +121,7 @@ impl<'a> Script<'a> {
             ["pass", millis] => {
                 let millis = number(millis)?;
                 let street = self.street()?;
-                street.trace.clear();
+                street.forget();
                 street.pass(millis);
                 self.tell_time();
             }
@@ -175,7 +175,7 @@ impl<'a> Script<'a> {
             ref words => Some(Input::Local(event(self.street()?, who, words)?)),
         };
         let street = self.street()?;
-        street.trace.clear();
+        street.forget();
         match input {
             Some(input) => street.step(who, input),
             None => street.go_on(who),
@@ -188,7 +188,7 @@ impl<'a> Script<'a> {
     fn tell(&mut self) {
         let trace = self.street.as_mut().map(|it| std::mem::take(&mut it.trace));
         for (i, step) in trace.into_iter().flatten().enumerate() {
-            for output in step.outputs.iter() {
+            for output in &step.outputs {
                 if i == 0 || !matches!(output, Output::Ignored(_)) {
                     let _ = writeln!(self.out, "  {:>5} {}", step.now, said(&step, output));
                 }
@@ -216,7 +216,7 @@ impl<'a> Script<'a> {
                 )
             };
             let all_routine = step.outputs.iter().all(is_routine);
-            for output in step.outputs.iter() {
+            for output in &step.outputs {
                 let (ram, prolonged) = routine.entry(step.who).or_default();
                 match output {
                     Output::SendRam if all_routine => *ram += 1,

@@ -1,5 +1,7 @@
 //! Reads the words of a command: robots, events, messages that a script makes up.
 
+use std::fmt::Display;
+
 use crossguard_protocol::*;
 
 use super::HELP;
@@ -13,6 +15,18 @@ pub(super) type Wrong = String;
 
 pub(super) fn wrong(word: &str, allowed: &str) -> Wrong {
     format!("{word}: expected {allowed}")
+}
+
+/// The two parts of a word of this form.
+fn pair<'a>(word: &'a str, at: char, form: &str) -> Result<(&'a str, &'a str), Wrong> {
+    word.split_once(at).ok_or_else(|| wrong(word, form))
+}
+
+/// The value that reads like this.
+fn named<T: Copy + Display>(all: &[T], text: &str) -> Result<T, Wrong> {
+    let of_text = all.iter().find(|it| it.to_string() == text).copied();
+    let texts = || all.iter().map(T::to_string).collect::<Vec<_>>().join(", ");
+    of_text.ok_or_else(|| wrong(text, &texts()))
 }
 
 pub(super) fn number<T: std::str::FromStr>(word: &str) -> Result<T, Wrong> {
@@ -51,9 +65,7 @@ pub(super) fn tasks(word: &str) -> Result<TaskSet, Wrong> {
 
 /// `BOOT.COUNT`.
 pub(super) fn unique(word: &str) -> Result<UniqueNumber, Wrong> {
-    let (boot, count) = word
-        .split_once('.')
-        .ok_or_else(|| wrong(word, "BOOT.COUNT"))?;
+    let (boot, count) = pair(word, '.', "BOOT.COUNT")?;
     Ok(UniqueNumber {
         boot: number(boot)?,
         count: number(count)?,
@@ -62,35 +74,17 @@ pub(super) fn unique(word: &str) -> Result<UniqueNumber, Wrong> {
 
 /// `LEADER#BOOT.COUNT`.
 pub(super) fn session(word: &str) -> Result<SessionId, Wrong> {
-    let (leader, count) = word
-        .split_once('#')
-        .ok_or_else(|| wrong(word, "LEADER#BOOT.COUNT"))?;
+    let (leader, count) = pair(word, '#', "LEADER#BOOT.COUNT")?;
     Ok(SessionId {
         leader: station(leader)?,
         number: SessionNumber(unique(count)?),
     })
 }
 
-pub(super) fn unavailability(words: &[&str]) -> Result<Unavailability, Wrong> {
-    let all = [
-        Unavailability::LowBattery,
-        Unavailability::Teleoperated,
-        Unavailability::EmergencyStop,
-        Unavailability::LocalFault,
-        Unavailability::NotSafe,
-    ];
-    let text = words.join(" ");
-    let mut of_name = all.into_iter().filter(|it| it.to_string() == text);
-    let names = all.map(|it| it.to_string()).join(", ");
-    of_name.next().ok_or_else(|| wrong(&text, &names))
-}
-
 /// Values of settings, `KEY=VALUE`.
 pub(super) fn set(settings: &mut Settings, values: &[&str]) -> Result<(), Wrong> {
     for value in values {
-        let (key, value) = value
-            .split_once('=')
-            .ok_or_else(|| wrong(value, "KEY=VALUE"))?;
+        let (key, value) = pair(value, '=', "KEY=VALUE")?;
         let millis = || number(value).map(Millis);
         match key {
             "t_lock" => settings.t_lock = millis()?,
@@ -147,9 +141,9 @@ pub(super) fn event(street: &Street, who: StationId, words: &[&str]) -> Result<E
         ["all", "answered"] => Event::AllAnswered,
         ["sees", "a", "person"] => Event::PersonOnRoad,
         ["available"] => Event::AvailabilityChanged(Availability::Available),
-        ["unavailable", ref why @ ..] => {
-            Event::AvailabilityChanged(Availability::Unavailable(unavailability(why)?))
-        }
+        ["unavailable", ref why @ ..] => Event::AvailabilityChanged(Availability::Unavailable(
+            named(Unavailability::SAMPLES, &why.join(" "))?,
+        )),
         ["identity", new] => Event::IdentityChanged(StationId(number(new)?), None),
         ["identity", new, from] => {
             Event::IdentityChanged(StationId(number(new)?), Some(unique(from)?))
@@ -162,23 +156,11 @@ pub(super) fn event(street: &Street, who: StationId, words: &[&str]) -> Result<E
 /// Parts of a request for help, `KEY=VALUE`.
 pub(super) fn request_of(request: &mut HelpRequest, values: &[&str]) -> Result<(), Wrong> {
     for value in values {
-        match value
-            .split_once('=')
-            .ok_or_else(|| wrong(value, "KEY=VALUE"))?
-        {
+        match pair(value, '=', "KEY=VALUE")? {
             ("place", "unknown") => request.place = Place::UNKNOWN,
             ("place", place) => request.place = Place(number(place)?),
             ("tasks", of) => request.tasks = tasks(of)?,
-            ("urgency", urgency) => {
-                let all = [
-                    Urgency::Low,
-                    Urgency::Medium,
-                    Urgency::High,
-                    Urgency::Emergency,
-                ];
-                let mut of_name = all.into_iter().filter(|it| it.to_string() == urgency);
-                request.urgency = of_name.next().ok_or_else(|| wrong(urgency, "an urgency"))?;
-            }
+            ("urgency", urgency) => request.urgency = named(Urgency::SAMPLES, urgency)?,
             (key, _) => return Err(wrong(key, "place, tasks or urgency")),
         }
     }
@@ -284,18 +266,12 @@ pub(super) fn made_ram(words: &[&str]) -> Result<Input, Wrong> {
         }
     };
     let ended = |it: &str| {
-        let (count, ending) = it
-            .split_once(':')
-            .ok_or_else(|| wrong(it, "BOOT.COUNT:ENDING"))?;
-        let all = [Ending::Completed, Ending::Aborted];
-        let mut ending_of = all.into_iter().filter(|it| it.to_string() == ending);
-        let ending = ending_of.next().ok_or_else(|| wrong(ending, "an ending"))?;
+        let (count, ending) = pair(it, ':', "BOOT.COUNT:ENDING")?;
+        let ending = named(Ending::SAMPLES, ending)?;
         Ok(Some(Farewell::Ended(SessionNumber(unique(count)?), ending)))
     };
     let left = |it: &str| {
-        let (of, offer) = it
-            .split_once(':')
-            .ok_or_else(|| wrong(it, "SESSION:BOOT.COUNT"))?;
+        let (of, offer) = pair(it, ':', "SESSION:BOOT.COUNT")?;
         Ok(Some(Farewell::Left(
             session(of)?,
             OfferNumber(unique(offer)?),
@@ -313,32 +289,17 @@ pub(super) fn made_ram(words: &[&str]) -> Result<Input, Wrong> {
 
 /// `REQUEST:PROGRESS`.
 pub(super) fn report(word: &str) -> Result<Report, Wrong> {
-    let (request, progress) = word
-        .split_once(':')
-        .ok_or_else(|| wrong(word, "REQUEST:PROGRESS"))?;
-    let all = [
-        Progress::Executing,
-        Progress::InPosition,
-        Progress::Completed,
-        Progress::SafeIdle,
-    ];
-    let mut named = all
-        .into_iter()
-        .filter(|it| it.to_string().replace(' ', "-") == progress);
+    let (request, progress) = pair(word, ':', "REQUEST:PROGRESS")?;
     Ok(Report {
         request: RequestId(number(request)?),
-        progress: named
-            .next()
-            .ok_or_else(|| wrong(progress, &all.map(|it| it.to_string()).join(", ")))?,
+        progress: named(Progress::SAMPLES, &progress.replace('-', " "))?,
     })
 }
 
 /// `STATION:OFFER,...`.
 pub(super) fn followers(word: &str) -> Result<Followers, Wrong> {
     let one = |word: &str| {
-        let (who, offer) = word
-            .split_once(':')
-            .ok_or_else(|| wrong(word, "STATION:BOOT.COUNT"))?;
+        let (who, offer) = pair(word, ':', "STATION:BOOT.COUNT")?;
         Ok(Confirmation {
             station: station(who)?,
             offer: OfferNumber(unique(offer)?),
