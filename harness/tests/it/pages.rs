@@ -234,8 +234,9 @@ fn kept() -> BTreeMap<String, Vec<String>> {
     let mut kept = BTreeMap::<String, Vec<String>>::new();
     for path in sources {
         let file = path.file_stem().unwrap().to_string_lossy();
+        let text = std::fs::read_to_string(&path).unwrap();
         let mut function = "";
-        for line in std::fs::read_to_string(&path).unwrap().leak().lines() {
+        for line in text.lines() {
             if let Some((_, rest)) = line.split_once("fn ") {
                 let ends = |c: char| !c.is_alphanumeric() && c != '_';
                 function = rest.split(ends).next().unwrap_or(function);

@@ -129,7 +129,7 @@ macro_rules! marks {
 
 /// Declares the harnesses of a stage: the laws of one step from any valid state of it, with any input of
 /// one kind (to a proof each is a case of its own), and what must be able to come of it. Where all laws together are much
-/// to prove, a harness has some of them, and another the rest. Those that have the same marks stand in front, as lists.
+/// to prove, two harnesses share them. Harnesses with the same marks stand in front, as lists.
 macro_rules! steps {
     ($from:expr, $laws:expr;
         $(@each |$any:ident| $same:tt {
