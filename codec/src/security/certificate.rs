@@ -26,7 +26,7 @@ pub enum Issuer {
     Itself,
 }
 
-/// A certificate whose octets are in canonical form. Nothing is said of whether it can be trusted.
+/// A certificate. Its octets are in canonical form, whatever form was read. Nothing is said of whether it can be trusted.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Certificate {
     octets: Box<[u8]>,
@@ -100,14 +100,16 @@ impl Certificate {
         let before = reader.rest();
         let content = Content::read(reader, issuer)?;
         let to_be_signed = consumed(before, reader);
+        let unsigned = consumed(all, reader);
         let signature = Signature::read(reader)?;
-        let octets = consumed(all, reader);
+        // Its digest, and with it its name, is that of the canonical form (IEEE 1609.2, 6.4.3).
+        let octets = [unsigned, &signature.octets()].concat();
         if octets.len() > CERTIFICATE_LEN_MAX {
             let field = "certificate";
             return Err(Malformed::TooMany { field }.into());
         }
         Ok(Self {
-            digest: crypto::sha256(octets),
+            digest: crypto::sha256(&octets),
             to_be_signed: crypto::sha256(to_be_signed),
             octets: octets.into(),
             signature,

@@ -189,7 +189,8 @@ impl Signature {
         ecdsa::Signature::from_slice(octets).map(Self).ok()
     }
 
-    /// Reads a `Signature`. Of `rSig` only the form x-only is taken, the canonical one.
+    /// Reads a `Signature`, whose `rSig` may be x alone or a compressed point (IEEE 1609.2, 6.3.29). The parity of y
+    /// only saves time to a verifier that makes use of it, and no signature covers it: it is dropped.
     pub(super) fn read(reader: &mut OerReader) -> Result<Self, Rejected> {
         match reader.octet("signature")? {
             NIST_P256 => {}
@@ -200,10 +201,8 @@ impl Signature {
             }
         }
         match reader.octet("rSig")? {
-            X_ONLY => {}
-            COMPRESSED_Y_0 | COMPRESSED_Y_1 | 0x84 => {
-                return Err(Rejected::Unsupported("rSig in another form than x-only"));
-            }
+            X_ONLY | COMPRESSED_Y_0 | COMPRESSED_Y_1 => {}
+            0x84 => return Err(Rejected::Unsupported("rSig as an uncompressed point")),
             found => {
                 let field = "rSig";
                 return Err(Malformed::Value { field, found }.into());
@@ -228,7 +227,7 @@ impl Signature {
         Self(self.0.normalize_s())
     }
 
-    /// The octets of a `Signature`.
+    /// The octets of a `Signature` in canonical form, with x alone.
     pub(super) fn octets(&self) -> [u8; SIGNATURE_LEN] {
         let mut octets = [0; SIGNATURE_LEN];
         octets[0] = NIST_P256;

@@ -147,9 +147,19 @@ pub(crate) struct Envelope {
     pub(crate) fields: Vec<u8>,
     /// The bitmap of additions and what follows it.
     pub(crate) additions: Vec<u8>,
+    /// In canonical form.
     pub(crate) certificate: Vec<u8>,
     pub(crate) in_full: bool,
     pub(crate) key: u8,
+    /// Which alternatives of `EccP256CurvePoint` `rSig` of the envelope and of a certificate in full are.
+    pub(crate) r_forms: [u8; 2],
+}
+
+/// The same octets, which end with a signature, with another alternative for its `rSig`.
+fn with_r_form(mut octets: Vec<u8>, form: u8) -> Vec<u8> {
+    let at = octets.len() - 65;
+    octets[at] = form;
+    octets
 }
 
 impl Envelope {
@@ -165,12 +175,12 @@ impl Envelope {
         let mut octets = [&[3, 0x81, 0][..], &signed].concat();
         if self.in_full {
             octets.extend([0x81, 1, 1]);
-            octets.extend(&self.certificate);
+            octets.extend(with_r_form(self.certificate.clone(), self.r_forms[1]));
         } else {
             octets.push(0x80);
             octets.extend(hashed_id8(&self.certificate));
         }
         octets.extend(sign(&key(self.key), &signed, &self.certificate));
-        octets
+        with_r_form(octets, self.r_forms[0])
     }
 }

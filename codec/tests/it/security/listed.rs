@@ -50,7 +50,7 @@ fn taken(all: &mut Vectors) {
             it.certificate = pki.other(|it| it.region = circle(HERE, 500));
         },
     );
-    let first = envelope(&all.pki, Service::Ram, NOW);
+    let mut first = envelope(&all.pki, Service::Ram, NOW);
     let mut second = envelope(&all.pki, Service::Ram, after_ms(100));
     second.in_full = false;
     let both = vec![
@@ -62,6 +62,19 @@ fn taken(all: &mut Vectors) {
         of_profile,
         both,
     );
+    // One of the two is y's parity, and no signature covers it.
+    for (form, name) in [
+        (0x82, "rSig as a point with an even y"),
+        (0x83, "rSig as a point with an odd y"),
+    ] {
+        first.r_forms = [form; 2];
+        second.r_forms = [form; 2];
+        let both = vec![
+            heard(secured(&first.octets()), NOW, None),
+            heard(secured(&second.octets()), after_ms(100), None),
+        ];
+        all.add(name, "IEEE 1609.2 6.3 EccP256CurvePoint", both);
+    }
 }
 
 fn profiles(all: &mut Vectors) {
@@ -368,10 +381,15 @@ fn signatures(all: &mut Vectors) {
             it[at] = 0x81;
         },
     );
-    all.garbled(structure("rSig as a whole point"), "unsupported", |it| {
-        let at = it.len() - 65;
-        it[at] = 0x82;
-    });
+    for (form, name, cause) in [
+        (0x81, "rSig left out", malformed),
+        (0x84, "rSig as an uncompressed point", "unsupported"),
+    ] {
+        all.garbled(structure(name), cause, |it| {
+            let at = it.len() - 65;
+            it[at] = form;
+        });
+    }
     all.garbled(structure("a signature of zeros"), malformed, |it| {
         let at = it.len() - 64;
         it[at..].fill(0);

@@ -144,6 +144,7 @@ pub(crate) fn envelope(pki: &Pki, service: Service, at: Time64) -> Envelope {
         additions: Vec::new(),
         certificate: pki.ticket.clone(),
         in_full: true,
+        r_forms: [0x80; 2],
         key: SENDER,
     }
 }
