@@ -64,6 +64,21 @@ impl Service {
             .find(|service| service.port(identifiers) == port)
     }
 
+    /// The message of another service whose BTP-B port this is (TS 103 248, table 2); the kit does not decode these.
+    #[must_use]
+    pub const fn foreign_at_port(port: u16) -> Option<&'static str> {
+        Some(match port {
+            2_003 => "MAPEM",
+            2_004 => "SPATEM",
+            2_005 => "SAEM",
+            2_006 => "IVIM",
+            2_007 => "SREM",
+            2_008 => "SSEM",
+            2_013 => "RTCMEM",
+            _ => return None,
+        })
+    }
+
     /// How its messages are sent: to everybody in reach, with a lifetime of a second and the DCC
     /// profile of CAM; commands and answers go before them.
     #[must_use]

@@ -124,6 +124,7 @@ impl BasicHeader {
         let next = match reader.u8(HeaderField::BasicNextHeader)? {
             BASIC_COMMON => NextHeader::Common,
             BASIC_SECURED => NextHeader::Secured,
+            found if found >> 4 != 1 => return Err(GeonetError::Version(found >> 4)),
             found => {
                 return Err(GeonetError::Value {
                     field: HeaderField::BasicNextHeader,

@@ -82,6 +82,9 @@ pub enum GeonetError {
         /// Its value.
         found: u16,
     },
+    /// The packet is of another version of the protocol (EN 302 636-4-1, 9.6.2).
+    #[error("GeoNetworking of version {0}: version 1 is read")]
+    Version(u8),
     /// The packet is secured: a security envelope follows the basic header.
     #[error("a security envelope follows the basic header")]
     Secured,

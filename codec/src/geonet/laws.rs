@@ -23,6 +23,7 @@ pub fn decoding_is_total(packet: &[u8]) -> Result<(Headers, &[u8]), GeonetError>
             assert!(usize::from(*announced) != *present && *present <= packet.len());
         }
         Err(GeonetError::Secured) => assert!(packet[0] == 0x12),
+        Err(GeonetError::Version(version)) => assert!(*version == packet[0] >> 4 && *version != 1),
         Err(GeonetError::Value { .. }) => {}
     }
     decoded

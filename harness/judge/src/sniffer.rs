@@ -22,7 +22,7 @@ use crate::signature::{Signature, Signatures};
 pub struct Seen {
     /// Seconds since the first packet.
     pub at_s: f64,
-    /// What it is: the name of its message, or `?`.
+    /// The name of its message, also of messages that are not decoded (MAPEM, SPATEM and the like), or `?`.
     pub kind: &'static str,
     /// The station that sent the message.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -133,6 +133,13 @@ impl Sniffer {
             peek(packet).map_err(|why| (Cause::Discarded(why.cause()), why.to_string()))?;
         if let Some(service) = Service::at_port(&self.identifiers, headers.port) {
             seen.kind = service.name();
+        } else if let Some(name) = Service::foreign_at_port(headers.port) {
+            seen.kind = name;
+            // All begin with the same header.
+            let station = octets.get(2..).and_then(<[u8]>::first_chunk);
+            seen.station = station.map(|it| u32::from_be_bytes(*it));
+            seen.text = place_of_packet(&headers.source);
+            return Ok(());
         }
         let message = ItsMessage::decode(&self.identifiers, octets);
         let message = message.map_err(|error| (Cause::from(&error), error.to_string()))?;

@@ -1,6 +1,7 @@
 //! Packets in pcap files, as the field's tools read them: each in an Ethernet frame of ethertype 0x8947,
-//! which Wireshark takes apart down to BTP. Files of others are read in pcapng as well. A thread writes them, so that no robot waits for a disk.
+//! which Wireshark takes apart down to BTP. Files of others are read in pcapng and behind other link layers as well. A thread writes them, so that no robot waits for a disk.
 
+mod link;
 mod reader;
 
 pub use reader::{Captured, NoCapture, read};

@@ -74,11 +74,19 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         load: Load::default(),
         left: arguments.count.unwrap_or(u64::MAX),
     };
+    let mut is_read = Ok(());
     match (&arguments.file, link(arguments)) {
         (Some(path), _) => {
             for captured in capture::read(path).map_err(Failure::input)? {
-                let captured = captured.map_err(Failure::input)?;
-                if !printer.see(&captured.packet, captured.at)? {
+                // What was seen before the file turns bad is summed up.
+                let goes_on = match captured {
+                    Ok(captured) => printer.see(&captured.packet, captured.at)?,
+                    Err(error) => {
+                        is_read = Err(Failure::input(error));
+                        false
+                    }
+                };
+                if !goes_on {
                     break;
                 }
             }
@@ -92,7 +100,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             ));
         }
     }
-    printer.sum_up()
+    printer.sum_up()?;
+    is_read
 }
 
 fn link(arguments: &Arguments) -> Option<Link> {
@@ -180,6 +189,9 @@ impl Printer {
     fn sum_up(&self) -> Result<(), Failure> {
         if self.is_json {
             return Ok(());
+        }
+        if self.load.kinds.is_empty() {
+            print("no GeoNetworking packet")?;
         }
         for neighbour in self.sniffer.map().iter() {
             let user = &neighbour.user;

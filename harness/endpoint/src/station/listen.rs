@@ -1,7 +1,11 @@
 //! What any receiver can say of packets and messages, without verifying them: for sniffers, captures and charts.
 
+#[cfg(feature = "security")]
+use crossguard_codec::geonet::EnvelopeError;
+#[cfg(not(feature = "security"))]
+use crossguard_codec::geonet::GeonetError;
 use crossguard_codec::geonet::{
-    BasicHeader, Discarded, EgoPosition, GeonetError, Headers, Indication, NextHeader,
+    BasicHeader, Discarded, EgoPosition, Headers, Indication, NextHeader,
 };
 use crossguard_codec::its::ItsMessage;
 use crossguard_codec::{DecodeError, Heard, Identifiers, Position, Received, Service, Unheard};
@@ -101,22 +105,22 @@ pub fn peek(packet: &[u8]) -> Result<(Headers, &[u8]), Discarded> {
     let (basic, rest) = BasicHeader::decode(packet)?;
     let plain = match basic.next {
         NextHeader::Common => rest,
-        NextHeader::Secured => signed(rest).ok_or(Discarded::Headers(GeonetError::Secured))?,
+        NextHeader::Secured => signed(rest)?,
     };
     Ok(Headers::decode_behind(basic, plain)?)
 }
 
-/// What is signed in a security envelope.
+/// The payload of a security envelope, whose signature is not looked at.
 #[cfg(feature = "security")]
-fn signed(envelope: &[u8]) -> Option<&[u8]> {
+fn signed(envelope: &[u8]) -> Result<&[u8], Discarded> {
     let signed = crossguard_codec::security::SignedMessage::decode(envelope);
-    Some(signed.ok()?.payload)
+    Ok(signed.map_err(EnvelopeError::from)?.payload)
 }
 
 /// Nothing is known of security envelopes.
 #[cfg(not(feature = "security"))]
-const fn signed(_: &[u8]) -> Option<&[u8]> {
-    None
+const fn signed(_: &[u8]) -> Result<&[u8], Discarded> {
+    Err(Discarded::Headers(GeonetError::Secured))
 }
 
 /// The message in a packet, as [`peek`] has it; or the octets, where they are no packet.

@@ -5,13 +5,14 @@ use std::io::{self, BufReader, ErrorKind, Read, Seek};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crossguard_codec::geonet::ethernet;
 use pcap_file::pcap::PcapReader;
 use pcap_file::pcapng::blocks::interface_description::{
     InterfaceDescriptionBlock, InterfaceDescriptionOption,
 };
 use pcap_file::pcapng::{Block, PcapNgReader};
 use pcap_file::{DataLink, PcapError};
+
+use super::link;
 
 /// How a file of pcapng begins.
 const PCAPNG: [u8; 4] = [0x0a, 0x0d, 0x0d, 0x0a];
@@ -42,6 +43,20 @@ pub enum NoCapture {
     /// It ends before its last packet does.
     #[error("{}: no capture, or it ends within a packet", .0.display())]
     CutOff(PathBuf),
+    /// It has frames of a link layer in which no packets are found.
+    #[error(
+        "{}: {frames} frames of {link} were passed over: packets are found in frames of Ethernet, IEEE802_11, \
+         IEEE802_11_RADIOTAP, LINUX_SLL, LINUX_SLL2, RAW, IPV4 and IPV6",
+        path.display()
+    )]
+    OtherLink {
+        /// The file.
+        path: PathBuf,
+        /// The name of the link layer, or its number.
+        link: String,
+        /// How many frames there are of such layers.
+        frames: u64,
+    },
     /// It is no capture, or a damaged one.
     #[error("{}: neither pcap nor pcapng, or damaged: {cause}", path.display())]
     Damaged {
@@ -76,34 +91,44 @@ impl NoCapture {
     }
 }
 
-/// The `GeoNetworking` packets in the Ethernet frames of a file in pcap or pcapng; other frames are passed
-/// over.
+/// The `GeoNetworking` packets in the frames of a file in pcap or pcapng; other frames are passed over.
 ///
 /// # Errors
-/// When the file cannot be read or is no capture.
+/// When the file cannot be read or is no capture; at its end, when it has frames of a link layer that is not read.
 pub fn read(
     path: &Path,
 ) -> Result<impl Iterator<Item = Result<Captured, NoCapture>> + use<>, NoCapture> {
     let path = path.to_owned();
     let mut frames = Frames::open(&path)?;
+    let mut passed_over = None;
     Ok(std::iter::from_fn(move || {
-        loop {
-            let (at, frame) = match frames.next()? {
+        while let Some(frame) = frames.next() {
+            let (at, link, frame) = match frame {
                 Ok(frame) => frame,
                 Err(error) => return Some(Err(NoCapture::pcap(&path, error))),
             };
-            if let Some((_, packet)) = ethernet::packet(&frame) {
+            let Some(packet) = link::reader_of(link) else {
+                passed_over.get_or_insert((link, 0)).1 += 1;
+                continue;
+            };
+            if let Some(packet) = packet(&frame) {
                 let packet = packet.to_vec();
                 return Some(Ok(Captured { at, packet }));
             }
         }
+        let (link, frames) = passed_over.take()?;
+        Some(Err(NoCapture::OtherLink {
+            path: path.clone(),
+            link: format!("{link:?}"),
+            frames,
+        }))
     }))
 }
 
-/// A frame, and when it was on the link.
-type CapturedFrame = (Duration, Vec<u8>);
+/// A frame, its link layer, and when it was on the link.
+type CapturedFrame = (Duration, DataLink, Vec<u8>);
 
-/// The Ethernet frames of a file.
+/// The frames of a file.
 enum Frames {
     Pcap(PcapReader<BufReader<File>>),
     PcapNg(Box<PcapNgReader<BufReader<File>>>),
@@ -129,15 +154,16 @@ impl Frames {
     fn next(&mut self) -> Option<Result<CapturedFrame, PcapError>> {
         match self {
             Self::Pcap(reader) => {
+                let link = reader.header().datalink;
                 let packet = reader.next_packet()?;
-                Some(packet.map(|packet| (packet.timestamp, packet.data.to_vec())))
+                Some(packet.map(|packet| (packet.timestamp, link, packet.data.to_vec())))
             }
             Self::PcapNg(reader) => next_of_pcapng(reader),
         }
     }
 }
 
-/// The next Ethernet frame of a pcapng file, which has blocks of other kinds, and frames of other links.
+/// The next frame of a pcapng file, which has blocks of other kinds.
 fn next_of_pcapng(
     reader: &mut PcapNgReader<impl Read>,
 ) -> Option<Result<CapturedFrame, PcapError>> {
@@ -152,12 +178,9 @@ fn next_of_pcapng(
             Ok(_) => continue,
             Err(error) => return Some(Err(error)),
         };
-        let Some(link) = reader.interfaces().get(interface as usize) else {
-            return Some(Err(PcapError::InvalidInterfaceId(interface)));
-        };
-        if link.linktype == DataLink::ETHERNET {
-            return Some(Ok((time_of(ticks, link), frame)));
-        }
+        let of = reader.interfaces().get(interface as usize);
+        let interface = of.ok_or(PcapError::InvalidInterfaceId(interface));
+        return Some(interface.map(|of| (time_of(ticks, of), of.linktype, frame)));
     }
 }
 
@@ -183,12 +206,13 @@ fn time_of(ticks: u128, link: &InterfaceDescriptionBlock<'_>) -> Duration {
 mod tests {
     use std::borrow::Cow;
 
+    use crossguard_codec::geonet::ethernet;
     use pcap_file::pcapng::PcapNgWriter;
     use pcap_file::pcapng::blocks::enhanced_packet::EnhancedPacketBlock;
 
     use super::*;
 
-    fn link(
+    fn interface(
         linktype: DataLink,
         options: Vec<InterfaceDescriptionOption<'static>>,
     ) -> InterfaceDescriptionBlock<'static> {
@@ -201,7 +225,7 @@ mod tests {
 
     #[test]
     fn the_clock_of_an_interface_says_what_its_ticks_are() {
-        let shown = |ticks, options| time_of(ticks, &link(DataLink::ETHERNET, options));
+        let shown = |ticks, options| time_of(ticks, &interface(DataLink::ETHERNET, options));
         let resolution = |value| vec![InterfaceDescriptionOption::IfTsResol(value)];
         assert_eq!(shown(1_500_000, vec![]), Duration::from_millis(1_500));
         assert_eq!(shown(1_500, resolution(3)), Duration::from_millis(1_500));
@@ -213,13 +237,15 @@ mod tests {
     }
 
     #[test]
-    fn pcapng_is_read_without_the_frames_of_other_links() {
+    fn frames_of_other_links_are_told_of_at_the_end() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("some.pcapng");
         let mut writer = PcapNgWriter::new(File::create(&path).unwrap()).unwrap();
-        for linktype in [DataLink::ETHERNET, DataLink::RAW] {
+        for linktype in [DataLink::ETHERNET, DataLink::USB_LINUX] {
             let options = vec![InterfaceDescriptionOption::IfTsResol(6)];
-            writer.write_pcapng_block(link(linktype, options)).unwrap();
+            writer
+                .write_pcapng_block(interface(linktype, options))
+                .unwrap();
         }
         let frame = [&ethernet::header([2, 0, 0, 0, 0, 1])[..], &[1, 2, 3]].concat();
         for interface_id in [0, 1] {
@@ -233,10 +259,16 @@ mod tests {
             };
             writer.write_pcapng_block(block).unwrap();
         }
-        let again: Result<Vec<_>, _> = read(&path).unwrap().collect();
+        let mut again = read(&path).unwrap();
         let packet = vec![1, 2, 3];
         let at = Duration::from_millis(2_500);
-        assert_eq!(again.unwrap(), [Captured { at, packet }]);
+        assert_eq!(again.next().unwrap().unwrap(), Captured { at, packet });
+        let error = again.next().unwrap().unwrap_err().to_string();
+        assert!(
+            error.contains("1 frames of USB_LINUX were passed over"),
+            "{error}"
+        );
+        assert!(again.next().is_none());
     }
 
     #[test]
