@@ -1,11 +1,14 @@
-//! A small HTTP server for what a process tells of itself: it answers GET, and POST where it is served so.
+//! A small HTTP server for what a process tells of itself: it answers GET and HEAD, and POST where it is served so.
+//!
+//! A page of somebody else in a browser on this machine gets nothing: a name that was made to lead here is not answered, and a
+//! POST from another origin is not done.
 //!
 //! Each client is served by a thread of its own, so that one that asks nothing delays no other. There is a limit to
 //! how many are served at once, to how much is read of each, and to how long one may take.
 
 use std::borrow::Cow;
 use std::io::{ErrorKind, Read, Write};
-use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::net::{IpAddr, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -24,8 +27,6 @@ pub(crate) struct Request<'a> {
     pub(crate) path: &'a str,
     /// What stands after the question mark.
     pub(crate) query: &'a str,
-    /// The host that the client takes this server for, if it says one.
-    pub(crate) host: Option<&'a str>,
     /// What is sent along with POST; nothing with GET.
     pub(crate) body: &'a str,
 }
@@ -61,7 +62,8 @@ pub(crate) fn serve(
             let clients = Arc::new(());
             for client in listener.incoming() {
                 // A client that is not served sees that the connection ends.
-                let _ = client.and_then(|client| attend(client, name, body_max, &answer, &clients));
+                let _ = client
+                    .and_then(|client| attend(client, name, body_max, address, &answer, &clients));
             }
         })?;
     Ok(address)
@@ -72,6 +74,7 @@ fn attend<F>(
     client: TcpStream,
     name: &'static str,
     body_max: usize,
+    address: SocketAddr,
     answer: &Arc<F>,
     clients: &Arc<()>,
 ) -> std::io::Result<()>
@@ -84,7 +87,7 @@ where
     let (answer, slot) = (Arc::clone(answer), Arc::clone(clients));
     let serve = move || {
         // The client may have gone away.
-        let _ = converse(&client, body_max, &*answer);
+        let _ = converse(&client, body_max, address, &*answer);
         drop(slot);
     };
     let thread = std::thread::Builder::new().name(format!("{name} client"));
@@ -94,6 +97,7 @@ where
 fn converse(
     mut client: &TcpStream,
     body_max: usize,
+    address: SocketAddr,
     answer: impl Fn(&Request) -> Answer,
 ) -> std::io::Result<()> {
     client.set_write_timeout(Some(PATIENCE))?;
@@ -111,31 +115,29 @@ fn converse(
         })
     };
     let host = field("host");
+    // A page that is only looked at may be asked by any name where others than this machine reach it.
+    let is_open = body_max == 0 && !address.ip().is_loopback();
+    let same_origin = |origin: &str| origin.split_once("://").map(|(_, it)| it) == host;
     let length = field("content-length").map_or(Some(0), |length| length.parse().ok());
+    let ask = |body| answer(&Request { path, query, body });
     let Answer {
         status,
         content_type,
         headers,
         body,
     } = match (method, length) {
-        (Some("GET"), _) => {
-            let body = "";
-            answer(&Request {
-                path,
-                query,
-                host,
-                body,
-            })
+        _ if !is_open && !is_own(host, address) => refusal(
+            "421 Misdirected Request",
+            "",
+            "127.0.0.1, localhost and the address that is served are answered to\n",
+        ),
+        (Some("GET" | "HEAD"), _) => ask(""),
+        (Some("POST"), _) if field("origin").is_some_and(|it| !same_origin(it)) => {
+            refusal("403 Forbidden", "", "a page of another origin asks\n")
         }
         (Some("POST"), Some(length)) if body_max > 0 && length <= body_max => {
             let body = body(client, begun, length, until)?;
-            let body = &String::from_utf8_lossy(&body);
-            answer(&Request {
-                path,
-                query,
-                host,
-                body,
-            })
+            ask(&String::from_utf8_lossy(&body))
         }
         (Some("POST"), _) if body_max > 0 => refusal(
             "413 Content Too Large",
@@ -144,12 +146,13 @@ fn converse(
         ),
         _ if body_max > 0 => refusal(
             NOT_ALLOWED,
-            "Allow: GET, POST\r\n",
+            "Allow: GET, HEAD, POST\r\n",
             "GET and POST are possible\n",
         ),
-        _ => refusal(NOT_ALLOWED, "Allow: GET\r\n", "GET is possible\n"),
+        _ => refusal(NOT_ALLOWED, "Allow: GET, HEAD\r\n", "GET is possible\n"),
     };
     let length = body.len();
+    let body = if method == Some("HEAD") { "" } else { &body };
     write!(
         client,
         "HTTP/1.1 {status}\r\nContent-Type: {content_type}\r\nContent-Length: {length}\r\n{headers}\
@@ -170,6 +173,25 @@ fn refusal(
         headers: headers.into(),
         body: body.into(),
     }
+}
+
+/// Whether a client means this server, and not a name of somebody else that was made to lead here.
+fn is_own(host: Option<&str>, address: SocketAddr) -> bool {
+    let Some(host) = host else { return false };
+    let bracket = host.rfind(']').unwrap_or(0);
+    let name = match host.rfind(':').filter(|colon| *colon > bracket) {
+        Some(colon) => &host[..colon],
+        None => host,
+    };
+    let ip = address.ip();
+    let own = match ip {
+        IpAddr::V4(ip) => ip.to_string(),
+        IpAddr::V6(ip) => format!("[{ip}]"),
+    };
+    // At all addresses of a machine its own are meant, and a number is nobody's name.
+    let plain = name.trim_start_matches('[').trim_end_matches(']');
+    let is_number = ip.is_unspecified() && plain.parse::<IpAddr>().is_ok();
+    ["127.0.0.1", "[::1]", "localhost", &own].contains(&name) || is_number
 }
 
 /// A request up to the empty line that ends its head, all of which is read so that the client gets the answer, and
@@ -221,4 +243,29 @@ fn read_more(
     let length = client.read(&mut part)?;
     octets.extend_from_slice(&part[..length]);
     Ok(length > 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_others_are_not_answered() {
+        let local = "127.0.0.1:3100".parse().unwrap();
+        for host in ["127.0.0.1:3100", "localhost:9", "localhost", "[::1]:3100"] {
+            assert!(is_own(Some(host), local), "{host}");
+        }
+        for host in [
+            "evil.example:3100",
+            "127.0.0.1.evil.example",
+            "10.0.0.7:3100",
+            "",
+        ] {
+            assert!(!is_own(Some(host), local), "{host}");
+        }
+        assert!(!is_own(None, local));
+        let all = "0.0.0.0:3100".parse().unwrap();
+        assert!(is_own(Some("10.0.0.7:3100"), all));
+        assert!(!is_own(Some("evil.example:3100"), all));
+    }
 }

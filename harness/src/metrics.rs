@@ -282,16 +282,31 @@ mod tests {
                 .set(&Cause::from(Ignored::NothingNew).into(), 7);
         });
         let address = serve("127.0.0.1:0".parse().unwrap(), tally).unwrap();
-        let answer = ask(address, "GET /metrics HTTP/1.1\r\nHost: here\r\n\r\n");
+        let answer = ask(address, "GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n");
         let (head, body) = answer.split_once("\r\n\r\n").unwrap();
         assert!(head.starts_with("HTTP/1.1 200 OK\r\nContent-Type: text/plain; version=0.0.4"));
         assert!(head.contains(&format!("Content-Length: {}", body.len())));
         let line = r#"crossguard_without_effect_total{robot="A \"robot\"\n",layer="protocol",cause="nothing new"} 7"#;
         assert!(body.lines().any(|it| it == line), "{body}");
-        let asked = ask(address, "GET /metrics?x=1&y HTTP/1.1\r\nHost: here\r\n\r\n");
+        let asked = ask(
+            address,
+            "GET /metrics?x=1&y HTTP/1.1\r\nHost: localhost\r\n\r\n",
+        );
         assert_eq!(asked, answer);
-        assert!(ask(address, "GET /other HTTP/1.1\r\n\r\n").starts_with("HTTP/1.1 404"));
-        assert!(ask(address, "POST /metrics HTTP/1.1\r\n\r\n").starts_with("HTTP/1.1 405"));
+        let asked = ask(address, "HEAD /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n");
+        assert_eq!(asked.strip_suffix("\r\n\r\n"), Some(head));
+        for (request, code) in [
+            ("GET /other HTTP/1.1\r\nHost: localhost", "404"),
+            ("POST /metrics HTTP/1.1\r\nHost: localhost", "405"),
+            ("GET /metrics HTTP/1.1\r\nHost: evil.example", "421"),
+            ("GET /metrics HTTP/1.1", "421"),
+        ] {
+            let answer = ask(address, &format!("{request}\r\n\r\n"));
+            assert!(
+                answer.starts_with(&format!("HTTP/1.1 {code}")),
+                "{request}: {answer}"
+            );
+        }
     }
 
     #[test]
@@ -299,7 +314,7 @@ mod tests {
         let address = serve("127.0.0.1:0".parse().unwrap(), Shared::default()).unwrap();
         let connect = |_| TcpStream::connect(address).unwrap();
         let idle: Vec<_> = (0..5).map(connect).collect();
-        let answer = ask(address, "GET /metrics HTTP/1.1\r\nHost: here\r\n\r\n");
+        let answer = ask(address, "GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n");
         assert!(answer.starts_with("HTTP/1.1 200 OK"), "{answer}");
         let more: Vec<_> = (0..2 * CLIENTS_MAX).map(connect).collect();
         // The last ones are turned away before the first one has said nothing for too long.

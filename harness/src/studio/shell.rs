@@ -7,7 +7,7 @@
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
-use std::net::{IpAddr, SocketAddr};
+use std::net::SocketAddr;
 
 use super::Studio;
 use crate::http::{self, Answer, Request};
@@ -108,32 +108,8 @@ pub(super) fn value<'a>(query: &'a str, name: &str) -> Option<&'a str> {
 pub fn serve(address: SocketAddr, studio: Studio) -> std::io::Result<SocketAddr> {
     let views = studio.views();
     http::serve(address, "studio", QUESTION_MAX, move |request| {
-        if !is_own(request.host, address) {
-            let refusal =
-                "the studio answers to 127.0.0.1, localhost and the address that it is served at\n";
-            return answer("421 Misdirected Request", TEXT, refusal);
-        }
         respond(request, &views)
     })
-}
-
-/// Whether a client means this server, and not a name of somebody else that was made to lead here.
-fn is_own(host: Option<&str>, address: SocketAddr) -> bool {
-    let Some(host) = host else { return false };
-    let bracket = host.rfind(']').unwrap_or(0);
-    let name = match host.rfind(':').filter(|colon| *colon > bracket) {
-        Some(colon) => &host[..colon],
-        None => host,
-    };
-    let ip = address.ip();
-    let own = match ip {
-        IpAddr::V4(ip) => ip.to_string(),
-        IpAddr::V6(ip) => format!("[{ip}]"),
-    };
-    // At all addresses of a machine its own are meant, and a number is nobody's name.
-    let plain = name.trim_start_matches('[').trim_end_matches(']');
-    let is_number = ip.is_unspecified() && plain.parse::<IpAddr>().is_ok();
-    ["127.0.0.1", "[::1]", "localhost", &own].contains(&name) || is_number
 }
 
 fn respond(request: &Request, views: &[Box<dyn View>]) -> Answer {
@@ -335,30 +311,5 @@ fn answer(
         content_type,
         headers: HEADERS.into(),
         body: body.into(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_of_others_are_not_answered() {
-        let local = "127.0.0.1:3100".parse().unwrap();
-        for host in ["127.0.0.1:3100", "localhost:9", "localhost", "[::1]:3100"] {
-            assert!(is_own(Some(host), local), "{host}");
-        }
-        for host in [
-            "evil.example:3100",
-            "127.0.0.1.evil.example",
-            "10.0.0.7:3100",
-            "",
-        ] {
-            assert!(!is_own(Some(host), local), "{host}");
-        }
-        assert!(!is_own(None, local));
-        let all = "0.0.0.0:3100".parse().unwrap();
-        assert!(is_own(Some("10.0.0.7:3100"), all));
-        assert!(!is_own(Some("evil.example:3100"), all));
     }
 }

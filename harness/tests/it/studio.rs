@@ -62,11 +62,21 @@ fn the_server_answers_by_its_own_name_and_to_questions_of_limited_length() {
     assert!(page.contains(policy), "{page}");
     let port = own.rsplit(':').next().unwrap();
     let other = format!("evil.example:{port}");
+    let evil = format!("Origin: http://localhost:{port}1\r\n");
+    let same = format!("Origin: http://{own}\r\n");
     let far = "/after/api/moment?at=18446744073709551615&from=9&to=1";
     for (request, host, rest, code) in [
         ("GET /after/", own, "", "200"),
         ("GET /after/api/opening", &other, "", "421"),
         ("GET /", "", "", "421"),
+        ("POST /after/api/moment?at=1", own, &evil, "403"),
+        (
+            "POST /after/api/moment?at=1",
+            own,
+            "Origin: null\r\n",
+            "403",
+        ),
+        ("POST /after/api/moment?at=1", own, &same, "200"),
         ("PUT /after/api/moment", own, "", "405"),
         (
             "POST /after/api/moment",

@@ -70,7 +70,7 @@ impl Running {
     fn scrape(&self) -> String {
         let mut client = TcpStream::connect(&self.metrics).unwrap();
         client
-            .write_all(b"GET /metrics HTTP/1.1\r\nHost: here\r\n\r\n")
+            .write_all(b"GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n")
             .unwrap();
         let mut answer = String::new();
         client.read_to_string(&mut answer).unwrap();
