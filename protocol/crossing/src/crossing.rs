@@ -88,6 +88,8 @@ struct Task {
     is_completed: bool,
     /// Whether the body was told to wait for its person.
     waits: bool,
+    /// Whether somebody was on the road since it began: who waits at the kerb then is not waited for any more.
+    had_people: bool,
 }
 
 /// What a robot believes of its crossing, and what it is about to do.
@@ -437,6 +439,7 @@ impl<const N: usize> Crossing<N> {
             is_reported: false,
             is_completed: false,
             waits: false,
+            had_people: false,
         });
     }
 
@@ -456,7 +459,9 @@ impl<const N: usize> Crossing<N> {
             wait(waits, is_apart, out);
         }
         let is_behind = self.is_person_behind(setup);
+        let has_people = self.tracks.is_on_road();
         let Some(task) = &mut self.task else { return };
+        task.had_people |= has_people;
         let id = task.maneuver.id;
         let is_guarding = setup.guarding.contains(task.maneuver.task);
         if setup.holding.contains(task.maneuver.task) && task.has_arrived {
@@ -500,7 +505,8 @@ impl<const N: usize> Crossing<N> {
         people.any(|it| it.is_fresh() && it.is_on_road() && it.at().distance_cm(pose.at) > limit)
     }
 
-    /// Whether somebody who is escorted is too far behind the body.
+    /// Whether somebody who is escorted is too far behind the body: on the road, or at the kerb for as long as nobody
+    /// was on the road. Go may be over by then, and an escort that waited for the next one would stand on the road.
     fn is_person_behind(&self, setup: &Setup) -> bool {
         let (Some(task), Some((pose, _))) = (&self.task, self.pose) else {
             return false;
@@ -520,7 +526,7 @@ impl<const N: usize> Crossing<N> {
             return on_road.any(|track| is_behind(track.at()));
         }
         let mut waiting = self.tracks.iter().filter(|track| track.waits());
-        waiting.any(|track| is_behind(track.at()))
+        !task.had_people && waiting.any(|track| is_behind(track.at()))
     }
 
     fn notice(&mut self, setup: &Setup, notice: Notice, out: &mut Outputs) {

@@ -339,6 +339,27 @@ fn an_escort_stays_with_its_person() {
     assert_eq!(team.alone, 0);
 }
 
+/// Go is over by then: an escort that waited for the next one would stand on the road until its leader gives up.
+#[test]
+fn an_escort_does_not_wait_on_the_road_for_people_who_come_late() {
+    let mut team = team(plan(&[leg(TaskType::MOVE, Point::new(100, 800))]), true);
+    team.robots[1].setup.ground.waiting = street().ground.waiting;
+    team.people = vec![person(1, 100, -100)];
+    team.robots[1].body.at = Point::new(0, -100);
+    team.pass_until("go", Team::shows_go);
+    // Faster than the escort.
+    team.people[0] = walking(team.people[0], 0, 140);
+    team.pass(5_000);
+    assert!(team.robots[1].body.at.north_cm() < 600);
+    team.people.push(person(2, 100, -100));
+    team.pass_until("done", |it| {
+        it.told(1, |event| matches!(event, Event::ManeuverCompleted(_))) > 0
+    });
+    team.pass_until("a second call", |it| calls(it) == 2);
+    assert_eq!(team.told(0, |it| *it == Event::LeaveRequested), 0);
+    assert_eq!(team.alone, 0);
+}
+
 /// An escort that waits for everybody who guards, the leader too.
 #[test]
 fn a_stage_that_takes_people_on_the_road_waits_for_the_leader() {
