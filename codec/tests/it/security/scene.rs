@@ -94,13 +94,6 @@ impl Pki {
             ticket,
         }
     }
-
-    /// A ticket on other terms.
-    pub(crate) fn other(&self, change: impl FnOnce(&mut Terms)) -> Vec<u8> {
-        let mut terms = terms(SENDER);
-        change(&mut terms);
-        terms.signed(Some(&self.authority), AUTHORITY)
-    }
 }
 
 pub(crate) fn identifiers() -> Identifiers {
@@ -176,73 +169,4 @@ pub(crate) fn circle(centre: (i32, i32), metres: u16) -> Vec<u8> {
 pub(crate) struct Vectors {
     pub(crate) pki: Pki,
     pub(crate) all: Vec<Vector>,
-}
-
-impl Vectors {
-    pub(crate) fn add(&mut self, name: &'static str, clause: &'static str, heard: Vec<Heard>) {
-        self.all.push(Vector {
-            name,
-            clause,
-            heard,
-        });
-    }
-
-    /// A message that is taken.
-    pub(crate) fn takes(
-        &mut self,
-        (name, clause): (&'static str, &'static str),
-        service: Service,
-        change: impl FnOnce(&mut Envelope, &Pki),
-    ) {
-        self.one(name, clause, service, None, change);
-    }
-
-    /// A message that is refused.
-    pub(crate) fn refuses(
-        &mut self,
-        (name, clause): (&'static str, &'static str),
-        refused: &'static str,
-        service: Service,
-        change: impl FnOnce(&mut Envelope, &Pki),
-    ) {
-        self.one(name, clause, service, Some(refused), change);
-    }
-
-    pub(crate) fn one(
-        &mut self,
-        name: &'static str,
-        clause: &'static str,
-        service: Service,
-        refused: Option<&'static str>,
-        change: impl FnOnce(&mut Envelope, &Pki),
-    ) {
-        let mut envelope = envelope(&self.pki, service, NOW);
-        change(&mut envelope, &self.pki);
-        let packet = secured(&envelope.octets());
-        self.add(name, clause, vec![heard(packet, NOW, refused)]);
-    }
-
-    /// A RAM whose octets are changed after it was signed.
-    pub(crate) fn garbled(
-        &mut self,
-        (name, clause): (&'static str, &'static str),
-        refused: &'static str,
-        change: impl FnOnce(&mut Vec<u8>),
-    ) {
-        let mut octets = envelope(&self.pki, Service::Ram, NOW).octets();
-        change(&mut octets);
-        self.add(
-            name,
-            clause,
-            vec![heard(secured(&octets), NOW, Some(refused))],
-        );
-    }
-}
-
-pub(crate) fn heard(packet: Vec<u8>, at: Time64, refused: Option<&'static str>) -> Heard {
-    Heard {
-        packet,
-        at,
-        refused,
-    }
 }
