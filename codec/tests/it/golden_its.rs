@@ -2,16 +2,12 @@
 //! `broken_vectors.rs` breaks them systematically.
 
 use crate::support::{canonical, its_vectors, on};
-use crossguard_codec::asn1::cam::{
-    CAM, CauseCodeV2, HighFrequencyContainer, SpecialVehicleContainer,
-};
-use crossguard_codec::asn1::cdd::VruProfileAndSubprofile;
-use crossguard_codec::asn1::cdd211::{VruProfileAndSubprofile211, VruSubProfilePedestrian211};
-use crossguard_codec::asn1::cpm::{ObjectClass, Velocity3dWithConfidence};
-use crossguard_codec::its::{CpmContainer, ItsMessage};
+use crossguard_codec::asn1::cam::{CAM, CauseCodeV2, SpecialVehicleContainer};
+use crossguard_codec::its::ItsMessage;
 use crossguard_codec::{Dictionary, Identifiers, Identity, Kind, distance};
 use crossguard_protocol::Decimetres;
 use proptest::prelude::*;
+use serde_json::{Value, json};
 
 fn vectors() -> Vec<(&'static str, Identifiers, Vec<u8>)> {
     its_vectors().collect()
@@ -56,29 +52,30 @@ fn every_vector_comes_back_from_json() {
 }
 
 #[test]
-fn a_cam_has_the_values_that_it_was_made_of() {
-    let ItsMessage::Cam(cam) = message("C3") else {
-        panic!("not a CAM")
-    };
-    assert_eq!(cam.cam.generation_delta_time.0, 12_345);
-    let parameters = &cam.cam.cam_parameters;
-    assert_eq!(parameters.basic_container.station_type.0, 5);
-    let HighFrequencyContainer::basicVehicleContainerHighFrequency(motion) =
-        &parameters.high_frequency_container
-    else {
-        panic!("not a vehicle")
-    };
-    assert_eq!(motion.heading.heading_value.0, 900);
-    assert_eq!(motion.speed.speed_value.0, 1_389);
-    assert_eq!(motion.vehicle_length.vehicle_length_value.0, 42);
-    assert_eq!(motion.vehicle_width.0, 18);
-    let Some(SpecialVehicleContainer::emergencyContainer(emergency)) =
-        &parameters.special_vehicle_container
-    else {
-        panic!("not an emergency vehicle")
-    };
-    assert_eq!(emergency.light_bar_siren_in_use.0.count_ones(), 2);
-    assert!(emergency.incident_indication.is_none());
+fn every_vector_has_the_values_that_it_was_made_of() {
+    let all: Vec<_> = vectors()
+        .iter()
+        .map(|(name, ..)| (*name, json(&message(name))))
+        .collect();
+    let rows = include_str!("values.txt").lines();
+    for row in rows.filter(|row| !row.starts_with('#')) {
+        let cells: Vec<_> = row.splitn(3, ' ').collect();
+        let expected: Value = serde_json::from_str(cells[2]).expect(row);
+        let mut named = all
+            .iter()
+            .filter(|(name, _)| name.starts_with(cells[0]))
+            .peekable();
+        assert!(named.peek().is_some(), "{row}");
+        for (name, json) in named {
+            assert_eq!(json.pointer(cells[1]), Some(&expected), "{name}: {row}");
+        }
+    }
+}
+
+/// The components of a message, by their names.
+fn json(message: &ItsMessage) -> Value {
+    let json = serde_json::to_value(message).unwrap();
+    json.as_object().unwrap().values().next().unwrap().clone()
 }
 
 #[test]
@@ -102,68 +99,13 @@ fn a_cause_beyond_those_of_release_2_is_kept_in_a_cam() {
 }
 
 #[test]
-fn the_extension_container_of_a_cam_is_kept() {
-    let ItsMessage::Cam(cam) = message("C4") else {
-        panic!("not a CAM")
-    };
-    let containers = cam.cam.cam_parameters.extension_containers.unwrap();
-    assert_eq!(containers.0.len(), 1);
-    let data = &containers.0[0].container_data;
-    assert_eq!(&*data.0, [0x20, 0x60, 0x80]);
-}
-
-#[test]
-fn a_cpm_has_its_object() {
-    let ItsMessage::Cpm(cpm) = message("P2") else {
-        panic!("not a CPM")
-    };
-    assert_eq!(cpm.management_container.reference_time.0, 694_694_401_000);
-    let Some(CpmContainer::PerceivedObjectContainer(objects)) = cpm.cpm_containers.last() else {
-        panic!("no objects")
-    };
-    let object = &objects.perceived_objects.0[0];
-    assert_eq!(object.object_id.as_ref().unwrap().0, 5);
-    assert_eq!(object.measurement_delta_time.0, -10);
-    assert_eq!(object.position.x_coordinate.value.0, 1_000);
-    assert_eq!(object.position.y_coordinate.value.0, -500);
-    let Some(Velocity3dWithConfidence::cartesianVelocity(velocity)) = &object.velocity else {
-        panic!("no velocity")
-    };
-    assert_eq!(
-        (velocity.x_velocity.value.0, velocity.y_velocity.value.0),
-        (100, -200)
-    );
-    assert_eq!(object.object_age.as_ref().unwrap().0, 500);
-    let classes = &object.classification.as_ref().unwrap().0;
-    assert!(matches!(&classes[0].object_class, ObjectClass::vehicleSubClass(kind) if kind.0 == 5));
-    assert!(matches!(
-        &classes[1].object_class,
-        ObjectClass::vruSubClass(_)
-    ));
-}
-
-#[test]
 fn a_dictionary_makes_other_bits_of_the_same_road_user() {
-    let ItsMessage::Vam211(vam) = message("W2") else {
-        panic!("not a VAM of the older dictionary")
-    };
-    let slow = vam.vam.vam_parameters.vru_low_frequency_container.unwrap();
-    assert!(matches!(
-        slow.profile_and_subprofile,
-        VruProfileAndSubprofile211::pedestrian(VruSubProfilePedestrian211::ordinary_pedestrian)
-    ));
-    // Read with the other dictionary, it is a road worker: no header tells.
+    // W2 is an ordinary pedestrian. Read with the other dictionary, it is a road worker: no header tells.
     let all = vectors();
     let (_, _, octets) = all.iter().find(|(name, ..)| *name == "W2").unwrap();
     let misread = ItsMessage::decode(&on(Dictionary::V2_4_1), octets).unwrap();
-    let ItsMessage::Vam(vam) = misread.message else {
-        panic!("not a VAM")
-    };
-    let slow = vam.vam.vam_parameters.vru_low_frequency_container.unwrap();
-    assert!(matches!(
-        slow.profile_and_subprofile,
-        VruProfileAndSubprofile::pedestrian(kind) if kind.0 == 2
-    ));
+    let slow = &json(&misread.message)["vam"]["vamParameters"]["vruLowFrequencyContainer"];
+    assert_eq!(slow["profileAndSubprofile"], json!({ "pedestrian": 2 }));
 }
 
 #[test]
