@@ -19,8 +19,8 @@ use crate::core::ram::{
 };
 use crate::si;
 use crate::state::{
-    Battery, Capabilities, ConfidenceEllipse, Dimensions, DriveDirection, Lights, Measurement,
-    PastPosition, Position, PublicSignal, RobotState, SignalMeans, SignalsShown, SlowState,
+    Battery, Capabilities, ConfidenceEllipse, Dimensions, Lights, Measurement, PastPosition,
+    Position, RobotState, SignalMeans, SignalsShown, SlowState,
 };
 use crate::view::MapPlace;
 use crate::wire::{class, task_set, tasks_of};
@@ -197,7 +197,7 @@ pub(crate) fn high_frequency(state: &RobotState) -> RobotHighFrequencyContainer 
     RobotHighFrequencyContainer {
         heading: angle(state.heading),
         speed: speed(state.speed),
-        drive_direction: state.drive_direction.to_wire(),
+        drive_direction: state.drive_direction,
         longitudinal_acceleration: acceleration(state.longitudinal_acceleration),
         robot_dimensions: dimensions(&state.dimensions),
         curvature: state.curvature.map(curvature),
@@ -214,7 +214,7 @@ pub(crate) fn high_frequency(state: &RobotState) -> RobotHighFrequencyContainer 
 pub(crate) fn read_high_frequency(container: &RobotHighFrequencyContainer, state: &mut RobotState) {
     state.heading = angle_of(container.heading);
     state.speed = speed_of(container.speed);
-    state.drive_direction = DriveDirection::from_wire(container.drive_direction);
+    state.drive_direction = container.drive_direction;
     state.longitudinal_acceleration = acceleration_of(container.longitudinal_acceleration);
     state.lateral_acceleration = container.lateral_acceleration.and_then(acceleration_of);
     state.vertical_acceleration = container.vertical_acceleration.and_then(acceleration_of);
@@ -235,8 +235,8 @@ pub(crate) fn low_frequency(slow: &SlowState, reference: &Position) -> RobotLowF
         path_history: path_history(&[], reference),
         exterior_lights: slow.lights.map(|lights| ExteriorLights::new(lights.0)),
         signals_shown: slow.signals.map(|signals| ram::SignalsShown {
-            to_vehicles: signals.to_vehicles.to_wire(),
-            to_pedestrians: signals.to_pedestrians.to_wire(),
+            to_vehicles: signals.to_vehicles,
+            to_pedestrians: signals.to_pedestrians,
             means: ram::SignalMeans::new(signals.means.0),
         }),
         area_served: slow.area.map(MapPlace::to_wire),
@@ -256,8 +256,8 @@ pub(crate) fn slow_state_of(
         path: path_of(&container.path_history, reference),
         lights: lights.map(|lights| Lights(lights.bits())),
         signals: container.signals_shown.map(|signals| SignalsShown {
-            to_vehicles: PublicSignal::from_wire(signals.to_vehicles),
-            to_pedestrians: PublicSignal::from_wire(signals.to_pedestrians),
+            to_vehicles: signals.to_vehicles,
+            to_pedestrians: signals.to_pedestrians,
             means: SignalMeans(signals.means.bits()),
         }),
         area: container.area_served.map(MapPlace::from_wire),

@@ -1,16 +1,21 @@
 //! What a robot says of itself in its RAM, in SI units.
 //!
-//! Plain values for the application: nothing here depends on the wire. [`ram_from`](crate::ram_from)
-//! and [`state_of`](crate::state_of) convert by the tables of [`si`](crate::si).
+//! Plain values for the application, and the enumerations of the messages. [`ram_from`](crate::ram_from)
+//! and [`state_of`](crate::state_of) convert quantities by the tables of [`si`](crate::si).
 
 use ::core::fmt;
 
 use crossguard_protocol::{Availability, Config, Robot, State, TaskSet, Unavailability};
 use serde::{Deserialize, Serialize};
 
-use crate::core::{cdd, common, ram};
 use crate::view::MapPlace;
-use crate::wire::{bit_set, wire_enum};
+use crate::wire::bit_set;
+
+pub use crate::core::cdd::DriveDirection;
+pub use crate::core::common::TaskProgression;
+/// A traffic guard holds traffic back, an escort walks along with pedestrians, a patrol walks its rounds.
+pub use crate::core::ram::OperationalJobRole as JobRole;
+pub use crate::core::ram::{ControlMode, PublicSignal, RobotCategory};
 
 /// The state of a robot. What is `None` is unavailable.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
@@ -47,7 +52,7 @@ pub struct RobotState {
     pub task_progression: TaskProgression,
     /// Its battery's charge, and whether it is being charged.
     pub battery: Battery,
-    /// Who or what steers it.
+    /// Who or what steers it: nobody in an emergency stop or with a fault.
     pub control_mode: ControlMode,
     /// What changes slowly; absent from a RAM without low-frequency container.
     pub slow: Option<SlowState>,
@@ -220,112 +225,6 @@ impl fmt::Display for PublicSignal {
             Self::Go => "go",
             Self::Caution => "caution",
         })
-    }
-}
-
-wire_enum! {
-    /// Whether a robot moves forward or backward.
-    DriveDirection as cdd::DriveDirection {
-        /// Forward.
-        Forward,
-        /// Backward.
-        Backward,
-        /// Unavailable.
-        #[default]
-        Unavailable,
-    }
-}
-
-wire_enum! {
-    /// Build of a robot.
-    RobotCategory as ram::RobotCategory {
-        /// Not known.
-        #[default]
-        Unknown,
-        /// Two legs, two arms.
-        Humanoid,
-        /// Four legs.
-        Quadruped,
-        /// Wheels.
-        Wheeled,
-        /// Tracks.
-        Tracked,
-        /// Flies.
-        Aerial,
-        /// Anything else.
-        Other,
-    }
-}
-
-wire_enum! {
-    /// Job that a robot is there for.
-    JobRole as ram::OperationalJobRole {
-        /// None.
-        #[default]
-        None,
-        /// Holds traffic back.
-        TrafficGuard,
-        /// Walks along with pedestrians.
-        Escort,
-        /// Walks its rounds.
-        Patrol,
-        /// Carries goods.
-        Delivery,
-        /// Works on the street or its equipment.
-        Maintenance,
-        /// Anything else.
-        Other,
-    }
-}
-
-wire_enum! {
-    /// How far a robot is with its task.
-    TaskProgression as common::TaskProgression {
-        /// It has none.
-        #[default]
-        Idle,
-        /// It is at it, and on the way.
-        Executing,
-        /// It is at it, and holds the place from which it guards.
-        InPosition,
-        /// It has finished it.
-        Completed,
-        /// It could not do it.
-        Failed,
-        /// It has stopped because it lost contact with its leader.
-        SafeIdle,
-    }
-}
-
-wire_enum! {
-    /// Who or what steers a robot.
-    ControlMode as ram::ControlMode {
-        /// The robot itself.
-        Autonomous,
-        /// A person.
-        Teleoperated,
-        /// Nobody; the emergency stop is engaged.
-        EmergencyStop,
-        /// Nobody; the robot has a fault.
-        Fault,
-        /// Unavailable.
-        #[default]
-        Unavailable,
-    }
-}
-
-wire_enum! {
-    /// A signal that people understand.
-    PublicSignal as ram::PublicSignal {
-        /// None.
-        #[default]
-        None,
-        /// Stop.
-        Stop,
-        /// Go.
-        Go,
-        /// Take care.
-        Caution,
     }
 }
 

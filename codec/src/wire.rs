@@ -1,5 +1,4 @@
-//! What the mappings share: enumerations and bit sets with a counterpart on the wire, sessions, task
-//! sets, reasons.
+//! What the mappings share: bit sets with a counterpart on the wire, sessions, task sets, reasons.
 
 use crossguard_protocol::{
     Ending, SessionId, SessionNumber, StationId, TaskSet, TaskType, Unavailability, UniqueNumber,
@@ -8,53 +7,6 @@ use crossguard_protocol::{
 
 use crate::core::{cdd, common, ram};
 use crate::si::Ladder;
-
-/// Defines an enumeration and its conversion to and from an ENUMERATED that has the same names.
-macro_rules! wire_enum {
-    (
-        $(#[$attribute:meta])*
-        $name:ident as $wire:path {
-            $($(#[$variant_attribute:meta])* $variant:ident,)*
-        }
-    ) => {
-        $(#[$attribute])*
-        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
-        #[derive(serde::Serialize, serde::Deserialize)]
-        #[serde(rename_all = "camelCase")]
-        pub enum $name {
-            $($(#[$variant_attribute])* $variant,)*
-        }
-
-        impl $name {
-            /// The value with this number in the ENUMERATED.
-            #[must_use]
-            pub fn of_number(number: u8) -> Option<Self> {
-                use $wire as Wire;
-                Wire::ALL.get(usize::from(number)).copied().map(Self::from_wire)
-            }
-
-            /// Its number in the ENUMERATED.
-            #[must_use]
-            pub const fn number(self) -> u8 {
-                self.to_wire() as u8
-            }
-
-            pub(crate) const fn to_wire(self) -> $wire {
-                use $wire as Wire;
-                match self {
-                    $(Self::$variant => Wire::$variant,)*
-                }
-            }
-
-            pub(crate) const fn from_wire(wire: $wire) -> Self {
-                use $wire as Wire;
-                match wire {
-                    $(Wire::$variant => Self::$variant,)*
-                }
-            }
-        }
-    };
-}
 
 /// Defines a set whose member *n* is bit *n* of a BIT STRING of eight bits.
 macro_rules! bit_set {
@@ -88,7 +40,7 @@ macro_rules! bit_set {
     };
 }
 
-pub(crate) use {bit_set, wire_enum};
+pub(crate) use bit_set;
 
 /// Bit *n* stands for task type *n* on both sides.
 pub(crate) fn task_set(tasks: TaskSet) -> common::TaskSet {

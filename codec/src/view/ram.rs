@@ -16,7 +16,7 @@ use crate::core::ram::{
 use crate::error::ViewError;
 use crate::identifiers::Identifiers;
 use crate::message::header;
-use crate::state::{ControlMode, JobRole, RobotCategory, RobotState, TaskProgression};
+use crate::state::{RobotState, TaskProgression};
 use crate::wire::{reason, reason_of, station_of};
 
 /// The RAM of a robot in this `state` whose part in coordination is `view`.
@@ -40,11 +40,11 @@ pub fn ram_from(
     let farewell = view.farewell.map(farewell_from);
     let progression = reported_progression(view).unwrap_or(state.task_progression);
     let status = RobotStatusContainer {
-        robot_category: state.category.to_wire(),
-        operational_job_role: state.job_role.to_wire(),
-        task_progression: progression.to_wire(),
+        robot_category: state.category,
+        operational_job_role: state.job_role,
+        task_progression: progression,
         battery_status: battery(&state.battery),
-        control_mode: state.control_mode.to_wire(),
+        control_mode: state.control_mode,
         help_status: help_status(&view.coordination),
         unavailability: match availability {
             Availability::Available => None,
@@ -97,7 +97,7 @@ pub fn view_of_ram(ram: &RAM) -> Result<Ram, ViewError> {
     if found != expected {
         return Err(ViewError::HelpStatus { found, expected });
     }
-    let found = TaskProgression::from_wire(status.task_progression);
+    let found = status.task_progression;
     match reported_progression(&view) {
         Some(expected) if expected != found => Err(ViewError::TaskProgression { found, expected }),
         _ => Ok(view),
@@ -122,11 +122,11 @@ pub fn state_of(ram: &RAM) -> RobotState {
     let slow = parameters.robot_low_frequency_container.as_ref();
     let mut state = RobotState {
         position,
-        category: RobotCategory::from_wire(status.robot_category),
-        job_role: JobRole::from_wire(status.operational_job_role),
-        task_progression: TaskProgression::from_wire(status.task_progression),
+        category: status.robot_category,
+        job_role: status.operational_job_role,
+        task_progression: status.task_progression,
         battery: battery_of(status.battery_status),
-        control_mode: ControlMode::from_wire(status.control_mode),
+        control_mode: status.control_mode,
         slow: slow.map(|slow| slow_state_of(slow, &position)),
         ..RobotState::default()
     };

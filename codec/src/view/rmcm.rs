@@ -18,7 +18,7 @@ use crate::core::rmcm::{
 use crate::error::ViewError;
 use crate::identifiers::Identifiers;
 use crate::message::header;
-use crate::state::{Position, TaskProgression};
+use crate::state::Position;
 use crate::wire::{
     reason, reason_of, session, session_of, station, station_of, task_type, task_type_of,
 };
@@ -104,7 +104,7 @@ pub fn rmcm_from_answer(
         session: session(answer.session),
         job_advice_id: common::RequestId(answer.request.0),
         response,
-        execution_status: status.progression.to_wire(),
+        execution_status: status.progression,
         estimated_time_to_completion: status.time_to_completion.map(duration),
     };
     let container = ManeuverContainer::FollowerManeuverContainer(container);
@@ -162,7 +162,7 @@ pub fn execution_of(rmcm: &RMCM) -> Option<ExecutionStatus> {
         ManeuverContainer::FollowerManeuverContainer(container) => {
             let time = container.estimated_time_to_completion;
             Some(ExecutionStatus {
-                progression: TaskProgression::from_wire(container.execution_status),
+                progression: container.execution_status,
                 time_to_completion: time.map(|time| Millis(time.get())),
             })
         }

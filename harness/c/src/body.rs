@@ -15,6 +15,11 @@ pub(crate) fn known(quantity: f64) -> Option<f64> {
     (!quantity.is_nan()).then_some(quantity)
 }
 
+/// The value with this number among all of an enumeration.
+fn numbered<E: Copy>(all: &[E], number: u8) -> Option<E> {
+    all.get(usize::from(number)).copied()
+}
+
 /// The quantity, NaN if it is not known.
 pub(crate) fn or_nan(quantity: Option<f64>) -> f64 {
     quantity.unwrap_or(f64::NAN)
@@ -73,8 +78,8 @@ impl CrossguardHeard {
             unavailability: heard.availability.map_or(0, unavailability),
             on_duty: on_duty.into(),
             signal_means: shown.map_or(0, |shown| shown.means.0),
-            to_vehicles: shown.map_or(0, |shown| shown.to_vehicles.number()),
-            to_pedestrians: shown.map_or(0, |shown| shown.to_pedestrians.number()),
+            to_vehicles: shown.map_or(0, |shown| shown.to_vehicles as u8),
+            to_pedestrians: shown.map_or(0, |shown| shown.to_pedestrians as u8),
             map_kind: area.map_kind,
             has_map_region: area.has_map_region,
             map_region: area.map_region,
@@ -145,20 +150,20 @@ impl CrossguardBody {
                 width: known(self.width_m),
                 height: known(self.height_m),
             },
-            category: RobotCategory::of_number(self.category)?,
-            job_role: JobRole::of_number(self.job_role)?,
+            category: numbered(RobotCategory::ALL, self.category)?,
+            job_role: numbered(JobRole::ALL, self.job_role)?,
             battery: Battery {
                 state_of_charge: known(self.battery_percent),
                 charging: self.charging != 0,
             },
-            control_mode: ControlMode::of_number(self.control_mode)?,
+            control_mode: numbered(ControlMode::ALL, self.control_mode)?,
             slow: Some(SlowState {
                 capabilities: Capabilities(self.abilities),
                 signals: match self.signal_means {
                     0 => None,
                     means @ 1..=15 => Some(SignalsShown {
-                        to_vehicles: PublicSignal::of_number(self.to_vehicles)?,
-                        to_pedestrians: PublicSignal::of_number(self.to_pedestrians)?,
+                        to_vehicles: numbered(PublicSignal::ALL, self.to_vehicles)?,
+                        to_pedestrians: numbered(PublicSignal::ALL, self.to_pedestrians)?,
                         means: SignalMeans(means),
                     }),
                     _ => return None,
