@@ -1,188 +1,133 @@
-//! Strategies for what the application says of its robot.
+//! Random values of what the application says of its robot, also quantities that no message can tell.
 
+use std::ops::Range;
+
+use crossguard_codec::core::Source;
 use crossguard_codec::{
     Battery, Capabilities, ConfidenceEllipse, ControlMode, Dimensions, DriveDirection,
     ExecutionStatus, JobRole, Lights, MapPlace, Measurement, PastPosition, Position, PublicSignal,
     RobotCategory, RobotState, SignalMeans, SignalsShown, SlowState, TaskParameters,
     TaskProgression,
 };
-use crossguard_protocol::*;
-use proptest::option;
-use proptest::prelude::*;
-use proptest::sample::select;
+use crossguard_protocol::{Availability, Millis, TaskSet, Unavailability};
 
-fn tasks() -> impl Strategy<Value = TaskSet> {
-    any::<u16>().prop_map(TaskSet)
+use super::core::Random;
+
+/// One of these values.
+fn among<T: Copy>(random: &mut Random, all: &[T]) -> T {
+    all[random.index(0, all.len() - 1)]
 }
 
-fn unavailability() -> impl Strategy<Value = Unavailability> {
-    select(vec![
+fn maybe<T>(random: &mut Random, value: impl FnOnce(&mut Random) -> T) -> Option<T> {
+    random.flip().then(|| value(random))
+}
+
+fn octet(random: &mut Random) -> u8 {
+    random.octets(1)[0]
+}
+
+fn number(random: &mut Random) -> u16 {
+    u16::from_be_bytes([octet(random), octet(random)])
+}
+
+fn within(random: &mut Random, range: &Range<f64>) -> f64 {
+    let part = f64::from(number(random)) / f64::from(u16::MAX);
+    range.start + (range.end - range.start) * part
+}
+
+/// A quantity in a likely range, or one that is out of all ranges.
+fn quantity(random: &mut Random, likely: &Range<f64>) -> f64 {
+    match random.next() % 9 {
+        0 => among(random, &[0.0, -1e9, 1e9, f64::INFINITY, f64::NEG_INFINITY]),
+        _ => within(random, likely),
+    }
+}
+
+fn known(random: &mut Random, likely: Range<f64>) -> Option<f64> {
+    maybe(random, |it| quantity(it, &likely))
+}
+
+fn measurement(random: &mut Random, likely: Range<f64>) -> Option<Measurement> {
+    maybe(random, |it| Measurement {
+        value: quantity(it, &likely),
+        confidence: known(it, 0.0..2.0),
+    })
+}
+
+pub fn availability(random: &mut Random) -> Availability {
+    let why = [
         Unavailability::LowBattery,
         Unavailability::Teleoperated,
         Unavailability::EmergencyStop,
         Unavailability::LocalFault,
         Unavailability::NotSafe,
-    ])
+    ];
+    let why = maybe(random, |it| among(it, &why));
+    why.map_or(Availability::Available, Availability::Unavailable)
 }
 
-pub fn availability() -> impl Strategy<Value = Availability> {
-    option::of(unavailability())
-        .prop_map(|why| why.map_or(Availability::Available, Availability::Unavailable))
+fn position(random: &mut Random) -> Position {
+    Position {
+        latitude: known(random, 48.0..48.02),
+        longitude: known(random, 9.0..9.02),
+        altitude: known(random, -10.0..400.0),
+        ellipse: maybe(random, |it| ConfidenceEllipse {
+            semi_major: quantity(it, &(0.0..50.0)),
+            semi_minor: quantity(it, &(0.0..50.0)),
+            orientation: quantity(it, &(0.0..360.0)),
+        }),
+        altitude_confidence: known(random, 0.0..300.0),
+    }
 }
 
-/// A quantity in a likely range, or one that is out of all ranges.
-fn quantity(likely: std::ops::Range<f64>) -> BoxedStrategy<f64> {
-    let odd = select(vec![0.0, -1e9, 1e9, f64::INFINITY, f64::NEG_INFINITY]);
-    prop_oneof![8 => likely, 1 => odd].boxed()
-}
-
-fn measurement(likely: std::ops::Range<f64>) -> impl Strategy<Value = Option<Measurement>> {
-    let measurement = (quantity(likely), option::of(quantity(0.0..2.0)))
-        .prop_map(|(value, confidence)| Measurement { value, confidence });
-    option::of(measurement)
-}
-
-pub fn position() -> impl Strategy<Value = Position> {
-    let ellipse = (
-        quantity(0.0..50.0),
-        quantity(0.0..50.0),
-        quantity(0.0..360.0),
-    );
-    let ellipse = ellipse.prop_map(|(semi_major, semi_minor, orientation)| ConfidenceEllipse {
-        semi_major,
-        semi_minor,
-        orientation,
-    });
-    (
-        option::of(quantity(48.0..48.02)),
-        option::of(quantity(9.0..9.02)),
-        option::of(quantity(-10.0..400.0)),
-        option::of(ellipse),
-        option::of(quantity(0.0..300.0)),
-    )
-        .prop_map(
-            |(latitude, longitude, altitude, ellipse, altitude_confidence)| Position {
-                latitude,
-                longitude,
-                altitude,
-                ellipse,
-                altitude_confidence,
-            },
-        )
-}
-
-fn slow_state() -> impl Strategy<Value = SlowState> {
-    let past = (
-        48.0..48.02,
-        9.0..9.02,
-        option::of(quantity(-10.0..400.0)),
-        option::of(0.0..9.9),
-    );
-    let past = past.prop_map(|(latitude, longitude, altitude, duration)| PastPosition {
-        latitude,
-        longitude,
-        altitude,
-        duration,
-    });
-    let signal = || {
-        select(vec![
-            PublicSignal::None,
-            PublicSignal::Stop,
-            PublicSignal::Go,
-            PublicSignal::Caution,
-        ])
+fn slow_state(random: &mut Random) -> SlowState {
+    let past = |random: &mut Random| PastPosition {
+        latitude: within(random, &(48.0..48.02)),
+        longitude: within(random, &(9.0..9.02)),
+        altitude: known(random, -10.0..400.0),
+        duration: maybe(random, |it| within(it, &(0.0..9.9))),
     };
-    let signals =
-        (signal(), signal(), any::<u8>()).prop_map(|(vehicles, pedestrians, means)| SignalsShown {
-            to_vehicles: vehicles,
-            to_pedestrians: pedestrians,
-            means: SignalMeans(means),
-        });
-    let lights = option::of(any::<u8>().prop_map(Lights));
-    let path = prop::collection::vec(past, 0..30);
-    let shown = (lights, option::of(signals), option::of(place()));
-    (any::<u8>(), tasks(), path, shown).prop_map(
-        |(capabilities, supported_tasks, path, (lights, signals, area))| SlowState {
-            capabilities: Capabilities(capabilities),
-            supported_tasks,
-            path,
-            lights,
-            signals,
-            area,
-        },
-    )
+    SlowState {
+        capabilities: Capabilities(octet(random)),
+        supported_tasks: TaskSet(number(random)),
+        path: (0..random.index(0, 29)).map(|_| past(random)).collect(),
+        lights: maybe(random, |it| Lights(octet(it))),
+        signals: maybe(random, |it| SignalsShown {
+            to_vehicles: among(it, PublicSignal::ALL),
+            to_pedestrians: among(it, PublicSignal::ALL),
+            means: SignalMeans(octet(it)),
+        }),
+        area: maybe(random, place),
+    }
 }
 
-pub fn progression() -> impl Strategy<Value = TaskProgression> {
-    select(vec![
-        TaskProgression::Idle,
-        TaskProgression::Executing,
-        TaskProgression::InPosition,
-        TaskProgression::Completed,
-        TaskProgression::Failed,
-        TaskProgression::SafeIdle,
-    ])
-}
-
-pub fn state() -> impl Strategy<Value = RobotState> {
-    let direction = select(vec![
-        DriveDirection::Forward,
-        DriveDirection::Backward,
-        DriveDirection::Unavailable,
-    ]);
-    let motion = (
-        measurement(0.0..360.0),
-        measurement(0.0..3.0),
-        direction,
-        prop::array::uniform3(measurement(-3.0..3.0)),
-        measurement(-0.2..0.2),
-        measurement(-90.0..90.0),
-        measurement(0.0..360.0),
-    );
-    let size = prop::array::uniform3(option::of(quantity(0.1..2.0)));
-    let kind = (
-        select(vec![
-            RobotCategory::Humanoid,
-            RobotCategory::Quadruped,
-            RobotCategory::Other,
-        ]),
-        select(vec![JobRole::None, JobRole::TrafficGuard, JobRole::Escort]),
-        progression(),
-        (option::of(quantity(0.0..100.0)), any::<bool>()),
-        select(vec![
-            ControlMode::Autonomous,
-            ControlMode::Teleoperated,
-            ControlMode::Fault,
-        ]),
-    );
-    (position(), motion, size, kind, option::of(slow_state())).prop_map(
-        |(position, motion, [length, width, height], kind, slow)| RobotState {
-            position,
-            heading: motion.0,
-            speed: motion.1,
-            drive_direction: motion.2,
-            longitudinal_acceleration: motion.3[0],
-            lateral_acceleration: motion.3[1],
-            vertical_acceleration: motion.3[2],
-            curvature: motion.4,
-            yaw_rate: motion.5,
-            orientation: motion.6,
-            dimensions: Dimensions {
-                length,
-                width,
-                height,
-            },
-            category: kind.0,
-            job_role: kind.1,
-            task_progression: kind.2,
-            battery: Battery {
-                state_of_charge: kind.3.0,
-                charging: kind.3.1,
-            },
-            control_mode: kind.4,
-            slow,
+pub fn state(random: &mut Random) -> RobotState {
+    RobotState {
+        position: position(random),
+        heading: measurement(random, 0.0..360.0),
+        speed: measurement(random, 0.0..3.0),
+        drive_direction: among(random, DriveDirection::ALL),
+        longitudinal_acceleration: measurement(random, -3.0..3.0),
+        lateral_acceleration: measurement(random, -3.0..3.0),
+        vertical_acceleration: measurement(random, -3.0..3.0),
+        curvature: measurement(random, -0.2..0.2),
+        yaw_rate: measurement(random, -90.0..90.0),
+        orientation: measurement(random, 0.0..360.0),
+        dimensions: Dimensions {
+            length: known(random, 0.1..2.0),
+            width: known(random, 0.1..2.0),
+            height: known(random, 0.1..2.0),
         },
-    )
+        category: among(random, RobotCategory::ALL),
+        job_role: among(random, JobRole::ALL),
+        task_progression: among(random, TaskProgression::ALL),
+        battery: Battery {
+            state_of_charge: known(random, 0.0..100.0),
+            charging: random.flip(),
+        },
+        control_mode: among(random, ControlMode::ALL),
+        slow: maybe(random, slow_state),
+    }
 }
 
 /// The parameters at this place of the map.
@@ -193,19 +138,19 @@ pub const fn at(map_place: Option<MapPlace>, parameters: TaskParameters) -> Task
     }
 }
 
-pub fn place() -> impl Strategy<Value = MapPlace> {
-    let region = || option::of(any::<u16>());
-    prop_oneof![
-        (region(), any::<u16>()).prop_map(|(region, id)| MapPlace::RoadSegment { region, id }),
-        (region(), any::<u16>()).prop_map(|(region, id)| MapPlace::Intersection { region, id }),
-    ]
+pub fn place(random: &mut Random) -> MapPlace {
+    let (region, id) = (maybe(random, number), number(random));
+    if random.flip() {
+        MapPlace::RoadSegment { region, id }
+    } else {
+        MapPlace::Intersection { region, id }
+    }
 }
 
-pub fn execution() -> impl Strategy<Value = ExecutionStatus> {
-    (progression(), option::of(0..=86_400_000_u32)).prop_map(|(progression, time)| {
-        ExecutionStatus {
-            progression,
-            time_to_completion: time.map(Millis),
-        }
-    })
+pub fn execution(random: &mut Random) -> ExecutionStatus {
+    let time = maybe(random, |it| it.integer(0, 86_400_000));
+    ExecutionStatus {
+        progression: among(random, TaskProgression::ALL),
+        time_to_completion: time.map(|ms| Millis(u32::try_from(ms).unwrap())),
+    }
 }
