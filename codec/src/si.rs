@@ -125,6 +125,35 @@ impl Rounding {
     }
 }
 
+impl<N: Copy> Scale<N> {
+    /// The numbers from `min` to `max`, for so many steps per SI unit.
+    const fn new(steps_per_unit: f64, min: N, max: N, rounding: Rounding) -> Self {
+        Self {
+            steps_per_unit,
+            min,
+            max,
+            rounding,
+        }
+    }
+
+    /// The element with this number for *unavailable*, which saturates.
+    const fn with_unavailable(self, unavailable: N) -> Element<N> {
+        Element {
+            scale: self,
+            unavailable,
+            beyond: Beyond::Saturates,
+        }
+    }
+
+    /// The element with this number for *unavailable*, and for what is outside of the scale.
+    const fn unavailable_beyond(self, unavailable: N) -> Element<N> {
+        Element {
+            beyond: Beyond::IsUnavailable,
+            ..self.with_unavailable(unavailable)
+        }
+    }
+}
+
 impl<N: Copy + Into<i64> + TryFrom<i64>> Scale<N> {
     /// The number that stands for `quantity`; `None` for NaN. Saturates.
     pub fn encode(&self, quantity: f64) -> Option<N> {

@@ -7,12 +7,7 @@ const ANGLE_UNAVAILABLE: u16 = 3_601;
 /// Steps of a full turn; as a number it is not used.
 const FULL_TURN: u16 = 3_600;
 
-const ANGLE: Scale<u16> = Scale {
-    steps_per_unit: 10.0,
-    min: 0,
-    max: FULL_TURN,
-    rounding: Rounding::Nearest,
-};
+const ANGLE: Scale<u16> = Scale::new(10.0, 0, FULL_TURN, Rounding::Nearest);
 
 /// The number that stands for an angle in degrees: `Wgs84AngleValue` and `HeadingValue` clockwise from
 /// north, `CartesianAngleValue` counter-clockwise from the x axis.
@@ -53,12 +48,7 @@ const LONGITUDE_UNAVAILABLE: i32 = 1_800_000_001;
 /// The antimeridian; with a minus sign it is not used.
 const ANTIMERIDIAN: i32 = 1_800_000_000;
 
-const LONGITUDE: Scale<i32> = Scale {
-    steps_per_unit: 1e7,
-    min: -ANTIMERIDIAN,
-    max: ANTIMERIDIAN,
-    rounding: Rounding::Nearest,
-};
+const LONGITUDE: Scale<i32> = Scale::new(1e7, -ANTIMERIDIAN, ANTIMERIDIAN, Rounding::Nearest);
 
 /// The number that stands for a longitude in degrees, east positive: `Longitude`.
 ///
