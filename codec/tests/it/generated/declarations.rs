@@ -243,7 +243,7 @@ impl<'a> Core<'a> {
         let json = json_name(&member.name, &camel_of_snake(&rust));
         let ty = match type_of(&member.ty) {
             Some(ty) => ty,
-            None => named(sequence, &member.name).name,
+            None => named(sequence, &member.name).0,
         };
         let keyword = match &member.optionality {
             Optionality::Required => String::new(),
@@ -291,21 +291,22 @@ fn inner(definition: &ToplevelTypeDefinition) -> Vec<(&'static str, String)> {
         .iter()
         .filter(|one| type_of(&one.ty).is_none());
     let declarations = written_out.map(|member| {
-        let named = named(&definition.name, &member.name);
+        let (name, doc) = named(&definition.name, &member.name);
         let body = match &member.ty {
             ASN1Type::Integer(one) => integer(one, &[]),
-            ASN1Type::SequenceOf(one) => list(one, named.name),
+            ASN1Type::SequenceOf(one) => list(one, name),
             other => panic!("asn1! has no {} here", other.as_str()),
         };
-        (named.name, assignment(named.name, named.doc, &body))
+        (name, assignment(name, doc, &body))
     });
     declarations.collect()
 }
 
-fn named(sequence: &str, component: &str) -> &'static super::table::Named {
-    let found = NAMED
-        .iter()
-        .find(|named| named.component == (sequence, component));
+/// The name and the documentation of what a component writes out.
+fn named(sequence: &str, component: &str) -> (&'static str, &'static str) {
+    let wanted = format!("{sequence} {component} ");
+    let mut lines = NAMED.lines();
+    let found = lines.find_map(|line| line.strip_prefix(&wanted)?.split_once(' '));
     found.unwrap_or_else(|| panic!("give {component} of {sequence} a name in table.rs"))
 }
 
