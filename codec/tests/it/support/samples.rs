@@ -1,26 +1,17 @@
 //! Typical and largest messages.
 
 use crossguard_codec::core::cdd::{
-    AccelerationChange, AccelerationChangeIndication, CardinalNumber1B, CartesianCoordinate,
-    CartesianPosition3d, DeltaAltitude, DeltaLatitude, DeltaLongitude, DeltaReferencePosition,
-    DeltaTimeSecond, DeltaTimeTenthOfSecond, HeadingChangeIndication, HeadingValue, Identifier1B,
-    PathDeltaTime, PathDeltaTimeChoice, PathHistory, PathPoint, PathPointPredicted, PathPredicted,
-    PolygonCorners, PolygonalShape, PosConfidenceEllipse, SafeDistanceIndication, SemiAxisLength,
-    SequenceOfSafeDistanceIndication, SequenceOfTrajectoryInterceptionIndication, Shape,
-    StabilityChangeIndication, StabilityLossProbability, StandardLength9b, StandardLength12b,
-    StationId as WireStationId, TrajectoryInterceptionConfidence, TrajectoryInterceptionIndication,
-    TrajectoryInterceptionProbability, TurningDirection, VruClusterInformation, VruClusterProfiles,
+    AltitudeConfidence, DeltaAltitude, PathPointPredicted, PathPredicted,
 };
 use crossguard_codec::core::ram::RAM;
 use crossguard_codec::core::rmcm::RMCM;
-use crossguard_codec::core::vam::{VruClusterInformationContainer, VruMotionPredictionContainer};
-use crossguard_codec::core::{Uper, cdd, common, ram};
+use crossguard_codec::core::vam::VruMotionPredictionContainer;
+use crossguard_codec::core::{Source, Uper, common, ram};
 use crossguard_codec::{
     Battery, Capabilities, ConfidenceEllipse, ControlMode, Dimensions, DriveDirection, Identifiers,
-    JobRole, Lights, MapPlace, Measurement, Message, PATH_HISTORY_MAX, PATH_PREDICTION_MAX,
-    PastPosition, Position, PublicSignal, RobotCategory, RobotState, SignalMeans, SignalsShown,
-    SlowState, Target, TaskParameters, TaskProgression, ram_from, rmcm_from_answer,
-    rmcm_from_commands,
+    JobRole, Lights, MapPlace, Measurement, Message, PATH_PREDICTION_MAX, PastPosition, Position,
+    PublicSignal, RobotCategory, RobotState, SignalMeans, SignalsShown, SlowState, Target,
+    TaskParameters, TaskProgression, ram_from, rmcm_from_answer, rmcm_from_commands,
 };
 use crossguard_protocol::{
     Answer, Availability, Command, Confirmation, Coordination, Ending, Failure, Farewell,
@@ -251,101 +242,33 @@ pub fn largest_ram(identifiers: &Identifiers) -> RAM {
     let unavailable = Availability::Unavailable(Unavailability::NotSafe);
     let mut ram = ram_from(identifiers, &state, &view, unavailable, u16::MAX, true).unwrap();
     let parameters = &mut ram.ram.ram_parameters;
-    parameters.vru_cluster_information_container = Some(largest_cluster());
-    parameters.vru_motion_prediction_container = Some(largest_prediction());
+    parameters.vru_cluster_information_container = Some(Uper::arbitrary(&mut Highest));
+    // Whatever is not its default takes room.
+    let point = PathPointPredicted {
+        delta_altitude: DeltaAltitude::new(-12_700).unwrap(),
+        altitude_confidence: AltitudeConfidence::OutOfRange,
+        ..Uper::arbitrary(&mut Highest)
+    };
+    parameters.vru_motion_prediction_container = Some(VruMotionPredictionContainer {
+        path_prediction: PathPredicted::new(&[point; PATH_PREDICTION_MAX]),
+        ..Uper::arbitrary(&mut Highest)
+    });
     ram
+}
+
+/// Makes every number the highest, every list full, of every CHOICE the last alternative, and leaves nothing out.
+struct Highest;
+
+impl Source for Highest {
+    fn integer(&mut self, _: i64, high: i64) -> i64 {
+        high
+    }
 }
 
 /// The follower's RAM whose report is the longest.
 pub fn failed_view() -> Ram {
     let failure = Failure::Unavailable(Unavailability::LowBattery);
     reporting(Heartbeat(0), RequestId(255), Progress::Failed(failure))
-}
-
-fn largest_cluster() -> VruClusterInformationContainer {
-    let coordinate = CartesianCoordinate(-32_768);
-    let corner = CartesianPosition3d {
-        x_coordinate: coordinate,
-        y_coordinate: coordinate,
-        z_coordinate: Some(coordinate),
-    };
-    let polygon = PolygonalShape {
-        shape_reference_point: Some(corner),
-        polygon: PolygonCorners::new(&[corner; PolygonCorners::CAPACITY]).unwrap(),
-        height: StandardLength12b::new(4_095),
-    };
-    VruClusterInformationContainer {
-        vru_cluster_information: VruClusterInformation {
-            cluster_id: Some(Identifier1B(255)),
-            cluster_bounding_box_shape: Some(Shape::Polygonal(polygon)),
-            cluster_cardinality_size: CardinalNumber1B(255),
-            cluster_profiles: Some(VruClusterProfiles::LOWEST),
-        },
-    }
-}
-
-fn past_point() -> PathPoint {
-    PathPoint {
-        path_position: DeltaReferencePosition {
-            delta_latitude: DeltaLatitude::new(-131_071).unwrap(),
-            delta_longitude: DeltaLongitude::new(131_072).unwrap(),
-            delta_altitude: DeltaAltitude::new(12_800).unwrap(),
-        },
-        path_delta_time: PathDeltaTime::new(65_535),
-    }
-}
-
-fn predicted_point() -> PathPointPredicted {
-    PathPointPredicted {
-        delta_latitude: DeltaLatitude::new(131_072).unwrap(),
-        delta_longitude: DeltaLongitude::new(-131_071).unwrap(),
-        horizontal_position_confidence: Some(PosConfidenceEllipse {
-            semi_major_confidence: SemiAxisLength::new(4_095).unwrap(),
-            semi_minor_confidence: SemiAxisLength::new(0).unwrap(),
-            semi_major_orientation: HeadingValue::new(3_601).unwrap(),
-        }),
-        delta_altitude: DeltaAltitude::new(-12_700).unwrap(),
-        altitude_confidence: cdd::AltitudeConfidence::OutOfRange,
-        path_delta_time: DeltaTimeSecond::new(86_400).map(PathDeltaTimeChoice::DeltaTimeMidRange),
-        symmetric_area_offset: StandardLength9b::new(511),
-        asymmetric_area_offset: StandardLength9b::new(511),
-    }
-}
-
-fn largest_prediction() -> VruMotionPredictionContainer {
-    let tenths = DeltaTimeTenthOfSecond::new(127);
-    let action_delta_time = tenths.unwrap();
-    let subject_station = Some(WireStationId(u32::MAX));
-    let distance = SafeDistanceIndication {
-        subject_station,
-        safe_distance_indicator: true,
-        time_to_collision: tenths,
-    };
-    let interception = TrajectoryInterceptionIndication {
-        subject_station,
-        trajectory_interception_probability: TrajectoryInterceptionProbability::new(63).unwrap(),
-        trajectory_interception_confidence: TrajectoryInterceptionConfidence::new(3),
-    };
-    VruMotionPredictionContainer {
-        path_history: PathHistory::new(&[past_point(); PATH_HISTORY_MAX]),
-        path_prediction: PathPredicted::new(&[predicted_point(); PATH_PREDICTION_MAX]),
-        safe_distance: SequenceOfSafeDistanceIndication::new(&[distance; 8]),
-        trajectory_interception_indication: SequenceOfTrajectoryInterceptionIndication::new(
-            &[interception; 8],
-        ),
-        acceleration_change_indication: Some(AccelerationChangeIndication {
-            accel_or_decel: AccelerationChange::Decelerate,
-            action_delta_time,
-        }),
-        heading_change_indication: Some(HeadingChangeIndication {
-            direction: TurningDirection::Right,
-            action_delta_time,
-        }),
-        stability_change_indication: Some(StabilityChangeIndication {
-            loss_probability: StabilityLossProbability::new(63).unwrap(),
-            action_delta_time,
-        }),
-    }
 }
 
 /// An RMCM with everything in it.
