@@ -27,7 +27,7 @@ pub enum Issuer {
 }
 
 /// A certificate. Its octets are in canonical form, whatever form was read. Nothing is said of whether it can be trusted.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, Debug)]
 pub struct Certificate {
     octets: Box<[u8]>,
     digest: Digest,
@@ -35,29 +35,19 @@ pub struct Certificate {
     signature: Signature,
     content: Content,
     /// The point of its key; `None` in it, if there is no such point on the curve.
-    point: Derived<Option<Verifying>>,
+    point: OnceLock<Option<Verifying>>,
     /// What its mirror is called, in which n - s stands in the place of s.
-    mirror: Derived<HashedId8>,
+    mirror: OnceLock<HashedId8>,
 }
 
-/// What follows from the octets of a certificate, once it was needed.
-#[derive(Clone, Debug)]
-struct Derived<T>(OnceLock<T>);
-
-impl<T> Default for Derived<T> {
-    fn default() -> Self {
-        Self(OnceLock::new())
+impl PartialEq for Certificate {
+    /// Everything else follows from the octets.
+    fn eq(&self, other: &Self) -> bool {
+        self.octets == other.octets
     }
 }
 
-impl<T> PartialEq for Derived<T> {
-    /// Whether it was needed makes no difference.
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
-
-impl<T> Eq for Derived<T> {}
+impl Eq for Certificate {}
 
 /// What a certificate says.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -105,8 +95,7 @@ impl Certificate {
         // Its digest, and with it its name, is that of the canonical form (IEEE 1609.2, 6.4.3).
         let octets = [unsigned, &signature.octets()].concat();
         if octets.len() > CERTIFICATE_LEN_MAX {
-            let field = "certificate";
-            return Err(Malformed::TooMany { field }.into());
+            return Err(Malformed::TooMany("certificate").into());
         }
         Ok(Self {
             digest: crypto::sha256(&octets),
@@ -114,8 +103,8 @@ impl Certificate {
             octets: octets.into(),
             signature,
             content,
-            point: Derived::default(),
-            mirror: Derived::default(),
+            point: OnceLock::new(),
+            mirror: OnceLock::new(),
         })
     }
 
@@ -157,7 +146,7 @@ impl Certificate {
     }
 
     fn mirror(&self) -> HashedId8 {
-        *self.mirror.0.get_or_init(|| {
+        *self.mirror.get_or_init(|| {
             let signed = &self.octets[..self.octets.len() - SIGNATURE_LEN];
             let signature = self.signature.mirrored().octets();
             HashedId8::of(&crypto::sha256(&[signed, &signature].concat()))
@@ -170,10 +159,7 @@ impl Certificate {
 
     /// The point that signatures of its holder are verified with; `None`, if its key is on no curve.
     pub(super) fn point(&self) -> Option<&Verifying> {
-        let point = self
-            .point
-            .0
-            .get_or_init(|| Verifying::of(&self.content.key));
+        let point = self.point.get_or_init(|| Verifying::of(&self.content.key));
         point.as_ref()
     }
 
@@ -286,7 +272,7 @@ fn read_name(reader: &mut OerReader) -> Result<Option<String>, Rejected> {
     match reader.octet(field)? {
         0x81 => {
             let name = std::str::from_utf8(reader.opaque(field)?);
-            let name = name.map_err(|_| Malformed::NotCanonical { field })?;
+            let name = name.map_err(|_| Malformed::NotCanonical(field))?;
             Ok(Some(name.to_owned()))
         }
         0x83 => Ok(None),
@@ -384,7 +370,7 @@ fn read_issue_permission(reader: &mut OerReader) -> Result<IssuePermission, Reje
         let value = is_given.then(|| reader.small_integer("chainLength"));
         let value = value.transpose()?;
         if value == Some(default) {
-            return Err(Malformed::ExplicitDefault { field });
+            return Err(Malformed::ExplicitDefault(field));
         }
         Ok(value.unwrap_or(default))
     };
@@ -392,8 +378,8 @@ fn read_issue_permission(reader: &mut OerReader) -> Result<IssuePermission, Reje
     let for_applications = match (given & 0x20 != 0).then(|| reader.octet("eeType")) {
         None => true,
         Some(types) => match types? {
-            APPLICATIONS => return Err(Malformed::ExplicitDefault { field: "eeType" }.into()),
-            0 => return Err(Malformed::NotCanonical { field: "eeType" }.into()),
+            APPLICATIONS => return Err(Malformed::ExplicitDefault("eeType").into()),
+            0 => return Err(Malformed::NotCanonical("eeType").into()),
             types => types & APPLICATIONS != 0,
         },
     };
@@ -421,7 +407,7 @@ fn read_range(reader: &mut OerReader) -> Result<(u32, SspRange), Rejected> {
             let mask = inner.opaque("sspBitmask")?.to_vec();
             inner.finish("bitmapSspRange")?;
             if value.len() != mask.len() {
-                return Err(Malformed::NotCanonical { field }.into());
+                return Err(Malformed::NotCanonical(field).into());
             }
             SspRange::Bitmap { value, mask }
         }

@@ -26,7 +26,7 @@ impl<'a> OerReader<'a> {
         let (taken, rest) = self
             .0
             .split_at_checked(length)
-            .ok_or(Malformed::Truncated { field })?;
+            .ok_or(Malformed::Truncated(field))?;
         self.0 = rest;
         Ok(taken)
     }
@@ -36,7 +36,7 @@ impl<'a> OerReader<'a> {
         let (first, rest) = self
             .0
             .split_first_chunk()
-            .ok_or(Malformed::Truncated { field })?;
+            .ok_or(Malformed::Truncated(field))?;
         self.0 = rest;
         Ok(*first)
     }
@@ -80,11 +80,11 @@ impl<'a> OerReader<'a> {
             0x81 => usize::from(self.octet(field)?),
             0x82 => usize::from(self.u16(field)?),
             // Nothing that fits in a packet is longer than 65535 octets.
-            _ => return Err(Malformed::TooMany { field }),
+            _ => return Err(Malformed::TooMany(field)),
         };
         let shortest = if first == 0x81 { 0x80 } else { 0x100 };
         if length < shortest {
-            return Err(Malformed::NotCanonical { field });
+            return Err(Malformed::NotCanonical(field));
         }
         Ok(length)
     }
@@ -99,8 +99,8 @@ impl<'a> OerReader<'a> {
     pub(super) fn unsigned(&mut self, field: &'static str) -> OerRead<u32> {
         let octets = self.opaque(field)?;
         match octets {
-            [] | [0, _, ..] => Err(Malformed::NotCanonical { field }),
-            [_, _, _, _, _, ..] => Err(Malformed::TooMany { field }),
+            [] | [0, _, ..] => Err(Malformed::NotCanonical(field)),
+            [_, _, _, _, _, ..] => Err(Malformed::TooMany(field)),
             octets => Ok(octets.iter().fold(0, |n, octet| n << 8 | u32::from(*octet))),
         }
     }
@@ -109,8 +109,8 @@ impl<'a> OerReader<'a> {
     pub(super) fn small_integer(&mut self, field: &'static str) -> OerRead<i8> {
         match self.opaque(field)? {
             [octet] => Ok(i8::from_be_bytes([*octet])),
-            [] => Err(Malformed::NotCanonical { field }),
-            _ => Err(Malformed::TooMany { field }),
+            [] => Err(Malformed::NotCanonical(field)),
+            _ => Err(Malformed::TooMany(field)),
         }
     }
 
@@ -118,7 +118,7 @@ impl<'a> OerReader<'a> {
     pub(super) fn quantity(&mut self, max: u32, field: &'static str) -> OerRead<u32> {
         match self.unsigned(field)? {
             quantity if quantity <= max => Ok(quantity),
-            _ => Err(Malformed::TooMany { field }),
+            _ => Err(Malformed::TooMany(field)),
         }
     }
 
@@ -137,7 +137,7 @@ impl<'a> OerReader<'a> {
         };
         if bits.iter().all(|octet| *octet == 0) {
             // None is present: then there is no bitmap either.
-            return Err(Malformed::NotCanonical { field });
+            return Err(Malformed::NotCanonical(field));
         }
         let count = bits.len() * 8 - usize::from(unused);
         let mut additions = [None; N];
@@ -146,7 +146,7 @@ impl<'a> OerReader<'a> {
                 continue;
             }
             if at >= count {
-                return Err(Malformed::NotCanonical { field });
+                return Err(Malformed::NotCanonical(field));
             }
             let content = self.opaque(field)?;
             if let Some(addition) = additions.get_mut(at) {
@@ -161,7 +161,7 @@ impl<'a> OerReader<'a> {
         if self.0.is_empty() {
             Ok(())
         } else {
-            Err(Malformed::Trailing { field })
+            Err(Malformed::Trailing(field))
         }
     }
 }
@@ -209,7 +209,7 @@ mod tests {
             put_unsigned(value, &mut octets);
             assert_eq!(OerReader::new(&octets).unsigned("i"), Ok(value));
         }
-        let not_canonical = Err(Malformed::NotCanonical { field: "l" });
+        let not_canonical = Err(Malformed::NotCanonical("l"));
         for octets in [&[0x81, 0x7f][..], &[0x82, 0, 0xff]] {
             assert_eq!(OerReader::new(octets).length("l"), not_canonical);
         }
@@ -223,11 +223,11 @@ mod tests {
         let huge = [8, 0x7f, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff];
         assert_eq!(
             OerReader::new(&huge).quantity(8, "q"),
-            Err(Malformed::TooMany { field: "q" })
+            Err(Malformed::TooMany("q"))
         );
         assert_eq!(
             OerReader::new(&[0x84, 0xff, 0xff, 0xff, 0xff]).opaque("o"),
-            Err(Malformed::TooMany { field: "o" })
+            Err(Malformed::TooMany("o"))
         );
     }
 
@@ -247,7 +247,7 @@ mod tests {
         let beyond = [2, 6, 0x20, 1, 0];
         assert_eq!(
             OerReader::new(&beyond).additions::<2>("a"),
-            Err(Malformed::NotCanonical { field: "a" })
+            Err(Malformed::NotCanonical("a"))
         );
     }
 }

@@ -210,9 +210,8 @@ impl Signature {
         }
         let (r, s) = (reader.array("rSig")?, reader.array("sSig")?);
         let signature = ecdsa::Signature::from_scalars(r, s);
-        let field = "signature";
         Ok(Self(
-            signature.map_err(|_| Malformed::NotOnCurve { field })?,
+            signature.map_err(|_| Malformed::NotOnCurve("signature"))?,
         ))
     }
 
@@ -352,8 +351,7 @@ mod tests {
             let mut octets = [number; SIGNATURE_LEN];
             octets[..2].fill(0x80);
             let signature = Signature::read(&mut OerReader::new(&octets));
-            let field = "signature";
-            assert_eq!(signature, Err(Malformed::NotOnCurve { field }.into()));
+            assert_eq!(signature, Err(Malformed::NotOnCurve("signature").into()));
         }
     }
 }

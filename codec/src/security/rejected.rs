@@ -3,16 +3,13 @@
 use super::doubt::Doubt;
 use super::hashed_id::HashedId8;
 
-/// Octets that are not the canonical encoding of an envelope or certificate.
+/// Octets that are not the canonical encoding of an envelope or certificate, and in or behind which field.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Malformed {
     /// They end too early.
-    #[error("{field}: the octets end in it")]
-    Truncated {
-        /// In which field.
-        field: &'static str,
-    },
+    #[error("{0}: the octets end in it")]
+    Truncated(&'static str),
     /// An octet has a value that it cannot have.
     #[error("{field}: 0x{found:02x} is not possible")]
     Value {
@@ -22,35 +19,20 @@ pub enum Malformed {
         found: u8,
     },
     /// A value is not in its shortest form.
-    #[error("{field}: not in its canonical form")]
-    NotCanonical {
-        /// In which field.
-        field: &'static str,
-    },
+    #[error("{0}: not in its canonical form")]
+    NotCanonical(&'static str),
     /// A default that is spelled out.
-    #[error("{field}: the default is spelled out, which it must not be in canonical form")]
-    ExplicitDefault {
-        /// In which field.
-        field: &'static str,
-    },
+    #[error("{0}: the default is spelled out, which it must not be in canonical form")]
+    ExplicitDefault(&'static str),
     /// There is more of something than the kit takes.
-    #[error("{field}: more than is taken")]
-    TooMany {
-        /// In which field.
-        field: &'static str,
-    },
+    #[error("{0}: more than is taken")]
+    TooMany(&'static str),
     /// Something follows that is not announced.
-    #[error("{field}: octets follow it")]
-    Trailing {
-        /// Behind which field.
-        field: &'static str,
-    },
+    #[error("{0}: octets follow it")]
+    Trailing(&'static str),
     /// A point that is not on the curve, or a signature out of range.
-    #[error("{field}: not a point on the curve")]
-    NotOnCurve {
-        /// In which field.
-        field: &'static str,
-    },
+    #[error("{0}: not a point on the curve")]
+    NotOnCurve(&'static str),
 }
 
 /// Why a secured packet is rejected. The order is that of the checks.
@@ -191,7 +173,7 @@ impl Rejected {
     pub const fn cause(&self) -> &'static str {
         match self {
             Self::Unsecured => "not secured",
-            Self::Malformed(Malformed::ExplicitDefault { .. }) => "explicit default",
+            Self::Malformed(Malformed::ExplicitDefault(_)) => "explicit default",
             Self::Malformed(_) => "malformed envelope",
             Self::NotSigned => "not signed",
             Self::Unsupported(_) => "unsupported",
