@@ -5,12 +5,14 @@
 
 use crossguard_codec::asn1::cdd::Shape;
 use crossguard_codec::asn1::ram::RAM;
+use crossguard_codec::core::Source as _;
 use crossguard_codec::{Identifiers, PATH_HISTORY_MAX, PATH_PREDICTION_MAX, Pdu};
 use rasn::de::Error as _;
 use rasn::error::DecodeError;
 use rasn::types::{self, Constraints, Constructed, DecodeChoice, Enumerated, Tag, TagTree};
 use rasn::{Codec, Decode};
 
+use super::core::Random;
 use super::reference::Reference;
 
 type Result<T> = std::result::Result<T, DecodeError>;
@@ -28,13 +30,12 @@ pub fn foreign<M: Decode + Pdu>(seed: u64) -> M {
 fn with_header<M: Decode>((protocol_version, message_id): (u8, u8), seed: u64) -> M {
     // The first two numbers of a message are those of its header.
     let forced = vec![message_id.into(), protocol_version.into()];
-    M::decode(&mut Imagination { seed, forced }).expect("every type is supported")
+    M::decode(&mut Imagination::new(seed, forced)).expect("every type is supported")
 }
 
 /// A value of any type that `seed` stands for.
 pub fn any<T: Decode>(seed: u64) -> T {
-    let forced = Vec::new();
-    T::decode(&mut Imagination { seed, forced }).expect("every type is supported")
+    T::decode(&mut Imagination::new(seed, Vec::new())).expect("every type is supported")
 }
 
 /// The RAM that `seed` stands for, cut down to what the rules allow.
@@ -66,36 +67,29 @@ pub fn lawful(mut ram: RAM) -> RAM {
 }
 
 struct Imagination {
-    seed: u64,
+    random: Random,
     /// Numbers that come first, the next one last.
     forced: Vec<i128>,
 }
 
 impl Imagination {
-    /// The next number of the `SplitMix64` generator.
-    fn next(&mut self) -> u64 {
-        self.seed = self.seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.seed;
-        z = (z ^ z >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ z >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ z >> 31
+    const fn new(seed: u64, forced: Vec<i128>) -> Self {
+        let random = Random(seed);
+        Self { random, forced }
     }
 
     fn flip(&mut self) -> bool {
-        self.next() & 1 == 1
+        self.random.flip()
     }
 
     fn below(&mut self, count: usize) -> usize {
-        usize::try_from(self.next() % count as u64).unwrap()
+        self.random.index(0, count - 1)
     }
 
     /// Often the smallest or the largest one.
     fn within(&mut self, min: i128, max: i128) -> i128 {
-        match self.next() % 8 {
-            0 => min,
-            1 => max,
-            _ => min + i128::from(self.next()) % (max - min + 1),
-        }
+        let number = |bound: i128| i64::try_from(bound).expect("at most 64 bits");
+        self.random.integer(number(min), number(max)).into()
     }
 
     fn size(&mut self, constraints: &Constraints) -> usize {
@@ -297,8 +291,7 @@ impl rasn::Decoder for Imagination {
             Some(_) => self.size(constraints),
             None => 1 + self.below(200),
         };
-        let octets: Vec<u8> = (0..size).map(|_| self.next().to_be_bytes()[0]).collect();
-        Ok(T::from(octets))
+        Ok(T::from(self.random.octets(size)))
     }
 
     fn decode_set_of<D: Decode + Eq + std::hash::Hash>(
