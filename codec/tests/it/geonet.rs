@@ -1,44 +1,21 @@
 //! Headers against packets that Wireshark took apart, and the errors that name a field.
 
-use crate::support::from_hex;
+use crate::stack::{address, area, ego, sixty_seconds, vector};
+use crate::support::{flips, without_reserved_bits};
 use crossguard_codec::geonet::*;
 
-/// A packet of single-hop broadcast with traffic class 2 and BTP-B port 2001, without its CAM of 59
-/// octets; and a geo-broadcast with traffic class 1 to a circle of 100 m and port 2002, without its
-/// DENM of 51 octets. Both were checked with tshark 4.0.
-const SHB: &str =
-    "11001a0120500280003f01001400020000000001bf0353e81d1103b105702107856d03840000000007d10000";
-const GBC: &str = "11001a0a2040018000370a00000700001400020000000001bf0353e81d1103b105702107856d03841d1103b105702107006400000000000007d20000";
-
-fn octets(hex: &str, payload: usize) -> Vec<u8> {
-    let mut octets = from_hex(hex);
-    octets.resize(octets.len() + payload, 0xA5);
-    octets
-}
+/// Octets of the messages in G1, a single-hop broadcast with traffic class 2 and BTP-B port 2001, and G2, a geo-broadcast
+/// with traffic class 1 to a circle of 100 m and port 2002. Both packets were checked with tshark 4.0.
+const CAM_LEN: usize = 59;
+const DENM_LEN: usize = 51;
 
 fn source() -> LongPositionVector {
-    LongPositionVector {
-        address: Address {
-            is_manual: false,
-            station_type: 5,
-            country_code: 0,
-            link_layer: [2, 0, 0, 0, 0, 1],
-        },
-        timestamp: 0xBF03_53E8,
-        latitude: 487_654_321,
-        longitude: 91_234_567,
-        is_accurate: true,
-        speed: 1_389,
-        heading: 900,
-    }
+    ego().vector(address())
 }
 
 fn single_hop() -> Headers {
     Headers {
-        lifetime: Lifetime {
-            multiplier: 6,
-            base: LifetimeBase::TenSeconds,
-        },
+        lifetime: sixty_seconds(),
         remaining_hop_limit: 1,
         maximum_hop_limit: 1,
         traffic_class: TrafficClass {
@@ -55,14 +32,6 @@ fn single_hop() -> Headers {
 }
 
 fn geo_broadcast() -> Headers {
-    let area = Area {
-        shape: Shape::Circle,
-        latitude: 487_654_321,
-        longitude: 91_234_567,
-        distance_a: 100,
-        distance_b: 0,
-        angle: 0,
-    };
     Headers {
         remaining_hop_limit: 10,
         maximum_hop_limit: 10,
@@ -72,7 +41,7 @@ fn geo_broadcast() -> Headers {
         },
         transport: Transport::GeoBroadcast {
             sequence_number: 7,
-            area,
+            area: area(),
         },
         port: 2_002,
         ..single_hop()
@@ -81,8 +50,11 @@ fn geo_broadcast() -> Headers {
 
 #[test]
 fn golden_packets_decode_and_encode() {
-    for (hex, payload, headers) in [(SHB, 59, single_hop()), (GBC, 51, geo_broadcast())] {
-        let packet = octets(hex, payload);
+    for (name, payload, headers) in [
+        ("G1", CAM_LEN, single_hop()),
+        ("G2", DENM_LEN, geo_broadcast()),
+    ] {
+        let packet = vector(name);
         let (decoded, rest) = Headers::decode(&packet).unwrap();
         assert_eq!(decoded, headers);
         assert_eq!(rest.len(), payload);
@@ -94,7 +66,7 @@ fn golden_packets_decode_and_encode() {
 
 #[test]
 fn a_packet_that_ends_early_names_the_field_in_which_it_ends() {
-    let packet = octets(GBC, 0);
+    let packet = vector("G2");
     let cases = [
         (0, HeaderField::BasicNextHeader),
         (3, HeaderField::RemainingHopLimit),
@@ -116,7 +88,7 @@ fn each_shape_has_its_header_type_and_no_other_is_accepted() {
         (0x41, Shape::Rectangle),
         (0x42, Shape::Ellipse),
     ];
-    let mut packet = octets(GBC, 51);
+    let mut packet = vector("G2");
     for header_type in 0..=255 {
         packet[5] = header_type;
         let decoded = Headers::decode(&packet);
@@ -143,21 +115,23 @@ fn a_wrong_octet_names_its_field() {
         (5, 0x51, HeaderField::HeaderType),
     ];
     for (at, octet, wrong) in cases {
-        let mut packet = octets(SHB, 59);
+        let mut packet = vector("G1");
         packet[at] = octet;
         let Err(GeonetError::Value { field, .. }) = Headers::decode(&packet) else {
             panic!("octet {at} is accepted")
         };
         assert_eq!(field, wrong);
     }
-    let mut secured = octets(SHB, 59);
+    let mut secured = vector("G1");
     secured[0] = 0x12;
     assert_eq!(Headers::decode(&secured), Err(GeonetError::Secured));
     let short = GeonetError::PayloadLength {
         announced: 63,
         present: 62,
     };
-    assert_eq!(Headers::decode(&octets(SHB, 58)), Err(short));
+    let mut packet = vector("G1");
+    packet.pop();
+    assert_eq!(Headers::decode(&packet), Err(short));
     assert_eq!(
         short.to_string(),
         "PayloadLength is 63, and 62 octets follow the headers"
@@ -166,32 +140,21 @@ fn a_wrong_octet_names_its_field() {
 
 #[test]
 fn reserved_bits_are_ignored_whatever_they_are_and_sent_as_zero() {
-    let of_both = [(1, 0xFF), (4, 0x0F), (7, 0x7F), (11, 0xFF)];
-    let of_geo_broadcast = [(14, 0xFF), (15, 0xFF), (54, 0xFF), (55, 0xFF)];
-    for (plain, reserved) in [
-        (octets(SHB, 59), &of_both[..]),
-        (octets(GBC, 51), &[of_both, of_geo_broadcast].concat()[..]),
-    ] {
-        let (expected, rest) = Headers::decode(&plain).unwrap();
-        for &(at, bits) in reserved {
-            for bit in (0..8).map(|bit| 1 << bit).filter(|bit| bits & bit != 0) {
-                let mut packet = plain.clone();
-                packet[at] |= bit;
-                assert_ne!(packet, plain, "octet {at} is not zero as sent");
-                let (headers, payload) = Headers::decode(&packet).unwrap();
-                assert_eq!(
-                    (headers, payload),
-                    (expected, rest),
-                    "octet {at}, bit {bit:#x}"
-                );
-                let again = headers.encode(payload.len()).unwrap();
-                assert!(plain.starts_with(again.as_ref()));
-            }
+    for (plain, count) in [(vector("G1"), 27), (vector("G2"), 27 + 32)] {
+        let expected = Headers::decode(&plain).unwrap();
+        let reserved = flips(&plain).filter(|packet| without_reserved_bits(packet) == plain);
+        let reserved: Vec<_> = reserved.collect();
+        assert_eq!(reserved.len(), count, "they are zero as sent");
+        for packet in reserved {
+            let decoded = Headers::decode(&packet).unwrap();
+            assert_eq!(decoded, expected, "{packet:02x?}");
+            let again = decoded.0.encode(decoded.1.len()).unwrap();
+            assert!(plain.starts_with(again.as_ref()));
         }
         // The bits beside them count.
         let mut other = plain.clone();
         other[7] ^= 0x80;
-        assert_ne!(Headers::decode(&other).unwrap().0, expected);
+        assert_ne!(Headers::decode(&other).unwrap().0, expected.0);
     }
 }
 

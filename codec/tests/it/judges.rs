@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::support::reference::Reference;
-use crate::support::{arbitrary, from_hex, its_vectors, on, to_hex};
+use crate::support::{arbitrary, flipped, from_hex, its_vectors, on, to_hex};
 use crossguard_codec::asn1::denm::DENM;
 use crossguard_codec::asn1::rmcm;
 use crossguard_codec::its::ItsMessage;
@@ -58,8 +58,7 @@ fn of_others() -> Vec<(&'static str, Vec<u8>)> {
         };
         // Behind the header.
         for bit in 48..octets.len() * 8 {
-            let mut flipped = octets.clone();
-            flipped[bit / 8] ^= 0x80 >> (bit % 8);
+            let flipped = flipped(&octets, bit);
             let decoded = ItsMessage::decode(&identifiers, &flipped);
             if decoded.is_ok_and(|it| it.is_canonical && it.extended == 0) {
                 messages.push((kind, flipped));

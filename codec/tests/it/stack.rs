@@ -1,16 +1,16 @@
 //! Whole packets: golden ones, what is discarded and why, and hostile octets.
 
-use crate::support::{from_hex, golden, without_reserved_bits};
+use crate::support::{flips, from_hex, golden, without_reserved_bits};
 use crossguard_codec::geonet::*;
 use crossguard_codec::{Identifiers, MESSAGE_LEN_MAX, Service};
 use proptest::prelude::*;
 
-fn vector(name: &str) -> Vec<u8> {
+pub(crate) fn vector(name: &str) -> Vec<u8> {
     from_hex(golden::vector(golden::PACKETS, name))
 }
 
 /// The station of the vectors.
-fn address() -> Address {
+pub(crate) fn address() -> Address {
     Address {
         link_layer: [2, 0, 0, 0, 0, 1],
         ..Address::of_station(1, 5)
@@ -25,7 +25,7 @@ fn listener() -> Stack {
     stack_of(Address::of_station(77, 12))
 }
 
-fn ego() -> EgoPosition {
+pub(crate) fn ego() -> EgoPosition {
     EgoPosition {
         timestamp_its: 694_694_401_000,
         coordinates: Some((487_654_321, 91_234_567)),
@@ -35,7 +35,7 @@ fn ego() -> EgoPosition {
     }
 }
 
-fn area() -> Area {
+pub(crate) fn area() -> Area {
     Area {
         shape: Shape::Circle,
         latitude: 487_654_321,
@@ -46,7 +46,7 @@ fn area() -> Area {
     }
 }
 
-fn sixty_seconds() -> Lifetime {
+pub(crate) fn sixty_seconds() -> Lifetime {
     Lifetime {
         multiplier: 6,
         base: LifetimeBase::TenSeconds,
@@ -191,9 +191,7 @@ fn check(octets: &[u8]) {
 #[test]
 fn every_flipped_bit_and_every_truncation_is_understood_or_discarded() {
     for octets in [vector("G1"), vector("G2")] {
-        for bit in 0..octets.len() * 8 {
-            let mut flipped = octets.clone();
-            flipped[bit / 8] ^= 0x80 >> (bit % 8);
+        for flipped in flips(&octets) {
             check(&flipped);
         }
         for length in 0..octets.len() {

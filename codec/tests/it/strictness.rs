@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::support::{from_bits, samples, to_bits};
+use crate::support::{flips, from_bits, samples, to_bits};
 use crossguard_codec::{
     DecodeError, Fault, Identifiers, MESSAGE_LEN_MAX, Message, core, decode, encode,
 };
@@ -21,17 +21,11 @@ fn rams() -> Vec<Vec<u8>> {
         .collect()
 }
 
-fn flip(octets: &[u8], bit: usize) -> Vec<u8> {
-    let mut flipped = octets.to_vec();
-    flipped[bit / 8] ^= 0x80 >> (bit % 8);
-    flipped
-}
-
 #[test]
 fn what_is_wrong_is_named_with_its_field() {
     let octets = &rams()[0];
-    let errors = (0..octets.len() * 8).filter_map(|bit| {
-        let error = decode::<core::ram::RAM>(&identifiers(), &flip(octets, bit)).err()?;
+    let errors = flips(octets).filter_map(|flipped| {
+        let error = decode::<core::ram::RAM>(&identifiers(), &flipped).err()?;
         Some(error.to_string())
     });
     let errors: BTreeSet<String> = errors

@@ -4,6 +4,7 @@ use crossguard_codec::security::{Certificate, Rejected, SignedMessage};
 use proptest::prelude::*;
 
 use super::pki::{NOW, PAYLOAD, Pki, RAM, after_ms, hear};
+use crate::support::flips;
 
 /// A message with a certificate, one with a digest, and a receiver that knows the sender.
 fn said() -> (Pki, [Vec<u8>; 2]) {
@@ -21,9 +22,7 @@ fn every_flipped_bit_is_noticed() {
     hear(&mut knowing, NOW, &before).unwrap();
     let mut causes = std::collections::BTreeMap::<_, u32>::new();
     for envelope in &said {
-        for bit in 0..envelope.len() * 8 {
-            let mut changed = envelope.clone();
-            changed[bit / 8] ^= 0x80 >> (bit % 8);
+        for changed in flips(envelope) {
             let rejected = hear(&mut knowing, after_ms(1), &changed);
             let rejected = rejected.expect_err("a flipped bit");
             *causes.entry(rejected.cause()).or_default() += 1;

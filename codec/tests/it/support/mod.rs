@@ -51,6 +51,18 @@ pub fn canonical(identifiers: &Identifiers, octets: &[u8]) -> Result<(), DecodeE
     Ok(())
 }
 
+/// The octets with one bit flipped.
+pub fn flipped(octets: &[u8], bit: usize) -> Vec<u8> {
+    let mut flipped = octets.to_vec();
+    flipped[bit / 8] ^= 0x80 >> (bit % 8);
+    flipped
+}
+
+/// Every flip of one bit.
+pub fn flips(octets: &[u8]) -> impl Iterator<Item = Vec<u8>> {
+    (0..octets.len() * 8).map(|bit| flipped(octets, bit))
+}
+
 /// The octets that `text` stands for; white space is left out.
 pub fn from_hex(text: &str) -> Vec<u8> {
     let digits: Vec<u32> = text
