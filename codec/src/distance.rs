@@ -21,7 +21,8 @@ const ECCENTRICITY_SQUARED: f64 = 6.694_379_990_141_3e-3;
 /// to latitudes of 85 degrees.
 #[must_use]
 pub fn distance(from: &Position, to: &Position) -> Decimetres {
-    let metres = metres(from, to).filter(|&metres| metres < 6_553.45);
+    let metres = offset(from, to).map(|(x, y)| (x * x + y * y).sqrt());
+    let metres = metres.filter(|&metres| metres < 6_553.45);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -30,10 +31,6 @@ pub fn distance(from: &Position, to: &Position) -> Decimetres {
     metres.map_or(Decimetres::UNKNOWN, |metres| {
         Decimetres((metres * 10.0 + 0.5) as u16)
     })
-}
-
-fn metres(from: &Position, to: &Position) -> Option<f64> {
-    offset(from, to).map(|(x, y)| (x * x + y * y).sqrt())
 }
 
 /// How many metres `to` is east and north of `from`.

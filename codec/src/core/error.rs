@@ -125,9 +125,6 @@ pub enum Fault {
     /// More than 64 extension additions.
     #[error("it has more than 64 extension additions, which is not supported")]
     TooManyAdditions,
-    /// A character that the type of the string does not have, or octets that are no UTF-8.
-    #[error("it is not text of the characters of its type")]
-    Characters,
     /// Padding that is not zero.
     #[error("its padding is not zero")]
     Padding,
@@ -140,7 +137,4 @@ pub enum Fault {
     /// The buffer for the encoding ends too early.
     #[error("the buffer ends within it")]
     BufferFull,
-    /// A kind of type that no module of this crate uses.
-    #[error("its type is not supported")]
-    Unsupported,
 }

@@ -1,6 +1,6 @@
 //! Packets in Ethernet frames (TS 102 636-4-2): for raw sockets, and for files that Wireshark reads.
 
-use super::{Address, PACKET_LEN_MAX};
+use super::PACKET_LEN_MAX;
 
 /// The ethertype of `GeoNetworking`.
 pub const ETHERTYPE: u16 = 0x8947;
@@ -28,21 +28,14 @@ pub fn packet(frame: &[u8]) -> Option<([u8; 6], &[u8])> {
     (header[12..] == ETHERTYPE.to_be_bytes()).then_some((source, packet))
 }
 
-impl Address {
-    /// The link-layer address, which frames of the station come from.
-    #[must_use]
-    pub const fn link_layer(&self) -> [u8; 6] {
-        self.link_layer
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geonet::Address;
 
     #[test]
     fn a_packet_comes_back_from_its_frame() {
-        let source = Address::of_station(7, 5).link_layer();
+        let source = Address::of_station(7, 5).link_layer;
         let frame = [&header(source)[..], b"packet"].concat();
         assert_eq!(frame[..6], [0xFF; 6]);
         assert_eq!(packet(&frame), Some((source, &b"packet"[..])));
