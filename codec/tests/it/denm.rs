@@ -1,8 +1,10 @@
 //! DENM: what the event is called, what senders encode otherwise than we do, what is refused, and strings.
 
-use crate::support::{arbitrary, from_bits, from_hex, golden, to_bits};
+use crate::support::{from_bits, from_hex, golden, to_bits};
+use crossguard_codec::asn1::cam::DangerousGoodsBasic;
 use crossguard_codec::asn1::denm::{
-    CompanyName, DENM, PhoneNumber, StationaryVehicleContainer, Termination,
+    AlacarteContainer, CompanyName, DENM, DangerousGoodsExtended, PhoneNumber,
+    StationaryVehicleContainer, Termination,
 };
 use crossguard_codec::its::ItsMessage;
 use crossguard_codec::{DecodeError, EncodeError, Identifiers, Received, decode, encode};
@@ -151,46 +153,31 @@ fn a_cause_beyond_those_of_release_2_is_read_as_release_1_tells_it() {
     }
 }
 
-/// A vehicle with dangerous goods.
+/// A vehicle with the dangerous goods of a company.
 fn with_goods() -> DENM {
-    let vehicle = (0..10_000)
-        .map(arbitrary::any::<StationaryVehicleContainer>)
-        .find(|vehicle| {
-            let goods = vehicle.carrying_dangerous_goods.as_ref();
-            goods.is_some_and(|goods| goods.phone_number.is_some() && goods.company_name.is_some())
-        });
-    let mut denm = (0..10_000)
-        .map(arbitrary::any::<DENM>)
-        .find(|denm| denm.denm.alacarte.is_some())
-        .unwrap();
-    denm.header = self::denm().header;
-    denm.denm.location = None;
-    let alacarte = denm.denm.alacarte.as_mut().unwrap();
-    alacarte.road_works = None;
-    alacarte.stationary_vehicle = vehicle;
-    denm
-}
-
-fn company(name: &str) -> DENM {
-    let mut denm = with_goods();
-    let vehicle = denm
-        .denm
-        .alacarte
-        .as_mut()
-        .unwrap()
-        .stationary_vehicle
-        .as_mut();
-    let goods = vehicle.unwrap().carrying_dangerous_goods.as_mut().unwrap();
-    goods.company_name = Some(CompanyName(name.to_owned()));
-    goods.phone_number = Some(PhoneNumber(
-        NumericString::from_bytes(b"0123 456789").unwrap(),
-    ));
+    let phone = PhoneNumber(NumericString::from_bytes(b"0123 456789").unwrap());
+    let company = CompanyName("Gefahrgut Söhne 🚧".to_owned());
+    let kind = DangerousGoodsBasic::explosives1;
+    let goods = DangerousGoodsExtended::new(
+        kind,
+        1_203,
+        false,
+        false,
+        false,
+        None,
+        Some(phone),
+        Some(company),
+    );
+    let vehicle = StationaryVehicleContainer::new(None, None, Some(goods), None, None, None);
+    let alacarte = AlacarteContainer::new(None, None, None, None, None, Some(vehicle));
+    let mut denm = denm();
+    denm.denm.alacarte = Some(alacarte);
     denm
 }
 
 #[test]
 fn strings_come_back_and_are_text_in_json() {
-    let denm = company("Gefahrgut Söhne 🚧");
+    let denm = with_goods();
     assert_eq!(read(&write(&denm).unwrap()).unwrap().message, denm);
     let value = serde_json::to_value(&denm).unwrap();
     let vehicle = &value["denm"]["alacarte"]["stationaryVehicle"];

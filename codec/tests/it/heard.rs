@@ -1,12 +1,12 @@
 //! What a robot hears in a message is what the mapping has of it, for this robot and its place.
 
+use crate::support::samples;
 use crossguard_codec::{
     Heard, Identifiers, Position, RobotState, Service, Target, TaskParameters, Unheard, encode,
     ram_from, rmcm_from_commands,
 };
 use crossguard_protocol::{
-    Availability, Command, Coordination, Decimetres, Heartbeat, Input, Ram, RequestId, Rmcm, Robot,
-    SessionId, SessionNumber, StationId, TaskType, Unavailability, UniqueNumber,
+    Availability, Command, Decimetres, Input, Ram, Rmcm, Robot, StationId, Unavailability,
 };
 
 const ME: StationId = StationId(2);
@@ -48,28 +48,25 @@ fn a_ram_says_who_and_where_its_sender_is() {
 
 #[test]
 fn an_rmcm_says_what_its_leader_wants_of_each_and_where_this_robot_is_to_go() {
-    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
-    let leader = StationId(1);
     let command = |to, lane| {
-        let session = SessionId { leader, number };
         let command = Command {
-            session,
-            to: StationId(to),
-            request: RequestId(3),
-            task: TaskType::BLOCK,
+            to,
+            ..samples::command()
         };
-        let target = Some(Target::Lane(lane));
         let parameters = TaskParameters {
-            target,
+            target: Some(Target::Lane(lane)),
             ..TaskParameters::default()
         };
         (command, parameters)
     };
-    let commands = [command(5, 1), command(ME.0, 2)];
+    let commands = [command(StationId(5), 1), command(ME, 2)];
     let ids = Identifiers::default();
     let rmcm = rmcm_from_commands(&ids, &state().position, &commands, 0).unwrap();
     let heard = hear(&encode(&ids, &rmcm).unwrap()).unwrap();
-    assert_eq!((heard.service, heard.from), (Service::Rmcm, leader));
+    assert_eq!(
+        (heard.service, heard.from),
+        (Service::Rmcm, samples::LEADER)
+    );
     let inputs = commands.map(|(command, _)| Input::Rmcm(Rmcm::Command(command)));
     assert!(heard.inputs.iter().eq(&inputs));
     assert_eq!(heard.parameters, Some(commands[1].1));
@@ -85,19 +82,8 @@ fn what_says_nothing_says_why() {
     assert!(matches!(hear(&[]), Err(Unheard::Undecodable(_))));
     // A follower in a session of its own.
     let ids = Identifiers::default();
-    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
-    let leader = StationId(1);
-    let follower = Ram {
-        coordination: Coordination::Follower {
-            session: SessionId { leader, number },
-            echo: Heartbeat(0),
-            last: None,
-        },
-        ..view
-    };
-    let available = Availability::Available;
-    let mut ram = ram_from(&ids, &state(), &follower, available, 0, false).unwrap();
-    ram.header.station_id.0 = leader.0;
+    let mut ram = samples::typical_ram(&ids);
+    ram.header.station_id.0 = samples::LEADER.0;
     let contradictory = hear(&encode(&ids, &ram).unwrap());
     assert!(matches!(contradictory, Err(Unheard::Contradictory(_))));
 }

@@ -1,10 +1,10 @@
 //! No message is larger than the constants say, and the largest ones are exactly as large.
 
+use std::fmt::Debug;
+
 use crate::support::reference::Reference;
 use crate::support::{arbitrary, samples};
 use crossguard_codec::asn1::rmcm;
-use crossguard_codec::core::ram::RAM;
-use crossguard_codec::core::rmcm::RMCM;
 use crossguard_codec::{
     Identifiers, MESSAGE_LEN_MAX, Pdu, RAM_LEN_MAX, RMCM_LEN_MAX, decode, encode,
 };
@@ -13,24 +13,19 @@ use proptest::prelude::*;
 /// What a signed packet with its certificate adds to a message, rounded up.
 const ENVELOPE_LEN: usize = 300;
 
-#[test]
-fn the_largest_ram_is_as_large_as_the_constant_says() {
+fn is_as_large_as<M: Pdu + PartialEq + Debug>(message: &M, max: usize) {
     let identifiers = Identifiers::default();
-    let ram = samples::largest_ram(&identifiers);
-    let octets = encode(&identifiers, &ram).unwrap();
-    assert_eq!(octets.len(), RAM_LEN_MAX);
-    assert_eq!(RAM_LEN_MAX, RAM::LEN_MAX);
-    assert_eq!(decode::<RAM>(&identifiers, &octets).unwrap().message, ram);
+    let octets = encode(&identifiers, message).unwrap();
+    assert_eq!((octets.len(), max), (max, M::LEN_MAX), "{}", M::NAME);
+    let decoded = decode::<M>(&identifiers, &octets).unwrap().message;
+    assert_eq!(&decoded, message);
 }
 
 #[test]
-fn the_largest_rmcm_is_as_large_as_the_constant_says() {
+fn the_largest_messages_are_as_large_as_the_constants_say() {
     let identifiers = Identifiers::default();
-    let rmcm = samples::largest_rmcm(&identifiers);
-    let octets = encode(&identifiers, &rmcm).unwrap();
-    assert_eq!(octets.len(), RMCM_LEN_MAX);
-    assert_eq!(RMCM_LEN_MAX, RMCM::LEN_MAX);
-    assert_eq!(decode::<RMCM>(&identifiers, &octets).unwrap().message, rmcm);
+    is_as_large_as(&samples::largest_ram(&identifiers), RAM_LEN_MAX);
+    is_as_large_as(&samples::largest_rmcm(&identifiers), RMCM_LEN_MAX);
 }
 
 #[test]
