@@ -1,8 +1,6 @@
 //! What strangers can make a station spend on their signatures.
 
-use crossguard_codec::security::{
-    Issuer, Rejected, Station, Ticket, Tolerances, Validity, issue, issue::Terms,
-};
+use crossguard_codec::security::{Rejected, Station, Tolerances, Validity, issue::Terms};
 
 use super::pki::{NOW, PAYLOAD, Pki, RAM, after_ms, hear, key, ticket_terms, validity};
 
@@ -13,16 +11,7 @@ fn forger(pki: &Pki, number: u32) -> Station {
         validity: validity(start - number, duration),
         ..ticket_terms()
     };
-    let (own, foreign) = (key(20), key(9));
-    let certificate = issue::certificate(
-        Issuer::Certificate(pki.authority.id()),
-        pki.authority.octets(),
-        &foreign,
-        own.public_key(),
-        &terms,
-    );
-    let ticket = Ticket::new(certificate.unwrap(), own).unwrap();
-    Station::new(pki.trust(), vec![ticket], Tolerances::default(), NOW).unwrap()
+    pki.forger(20, &terms, &pki.authority, &key(9))
 }
 
 #[test]

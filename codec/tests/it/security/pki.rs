@@ -1,9 +1,9 @@
 //! A small PKI, and stations of it, with keys that are the same in every run.
 
 use crossguard_codec::security::{
-    Certificate, Duration, IssuePermission, Permission, PrivateKey, Rejected, SignedMessage, Ssp,
-    SspRange, Station, Subjects, Ticket, Time64, Tolerances, TrustStore, Validity, Verified, issue,
-    issue::Terms,
+    Certificate, Duration, IssuePermission, Issuer, Permission, PrivateKey, Rejected,
+    SignedMessage, Ssp, SspRange, Station, Subjects, Ticket, Time64, Tolerances, TrustStore,
+    Validity, Verified, issue, issue::Terms,
 };
 
 /// ITS-AIDs of RAM and RMCM, and one that no ticket here is for.
@@ -120,6 +120,21 @@ impl Pki {
     pub(crate) fn station_with(&self, number: u8, terms: &Terms, now: Time64) -> Station {
         let tickets = vec![self.ticket(number, terms)];
         Station::new(self.trust(), tickets, Tolerances::default(), now).unwrap()
+    }
+
+    /// A station whose ticket names this issuer, and is signed with this key, whether that is the issuer's or not.
+    pub(crate) fn forger(
+        &self,
+        number: u8,
+        terms: &Terms,
+        issuer: &Certificate,
+        signing: &PrivateKey,
+    ) -> Station {
+        let (key, issuer_id) = (key(number), Issuer::Certificate(issuer.id()));
+        let holder = key.public_key();
+        let forged = issue::certificate(issuer_id, issuer.octets(), signing, holder, terms);
+        let tickets = vec![Ticket::new(forged.unwrap(), key).unwrap()];
+        Station::new(self.trust(), tickets, Tolerances::default(), NOW).unwrap()
     }
 
     /// A station with one ordinary pseudonym.

@@ -251,18 +251,8 @@ fn a_foreign_root_is_foreign_whatever_it_is_called() {
     assert_eq!(hear(&mut receiver, NOW, &envelope), rejected);
 
     // A ticket that names the right authority, but was signed by another.
-    let key = key(10);
-    let forged = issue::certificate(
-        Issuer::Certificate(pki.authority.id()),
-        pki.authority.octets(),
-        &foreign.authority_key,
-        key.public_key(),
-        &ticket_terms(),
-    )
-    .unwrap();
-    let rejected = Err(Rejected::CertificateSignature(forged.id()));
-    let ticket = Ticket::new(forged, key).unwrap();
-    let mut sender = Station::new(pki.trust(), vec![ticket], Tolerances::default(), NOW).unwrap();
+    let mut sender = pki.forger(10, &ticket_terms(), &pki.authority, &foreign.authority_key);
+    let rejected = Err(Rejected::CertificateSignature(sender.pseudonym()));
     let envelope = sender.seal(NOW, RAM, PAYLOAD).unwrap();
     assert_eq!(hear(&mut receiver, NOW, &envelope), rejected);
     assert_eq!(receiver.verifier().known_tickets(), 0);
@@ -294,16 +284,8 @@ fn a_ticket_permits_what_it_lists() {
 
 #[test]
 fn a_root_issues_no_tickets() {
-    let (pki, key) = (Pki::new(1), key(10));
-    let certificate = issue::certificate(
-        Issuer::Certificate(pki.root.id()),
-        pki.root.octets(),
-        &pki.authority_key,
-        key.public_key(),
-        &ticket_terms(),
-    );
-    let ticket = Ticket::new(certificate.unwrap(), key).unwrap();
-    let mut sender = Station::new(pki.trust(), vec![ticket], Tolerances::default(), NOW).unwrap();
+    let pki = Pki::new(1);
+    let mut sender = pki.forger(10, &ticket_terms(), &pki.root, &pki.authority_key);
     let envelope = sender.seal(NOW, RAM, PAYLOAD).unwrap();
     let rejected = Err(Rejected::ForeignIssuer(pki.root.id()));
     assert_eq!(hear(&mut pki.station(11), NOW, &envelope), rejected);
