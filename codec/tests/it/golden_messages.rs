@@ -3,10 +3,7 @@
 //! asn1c, asn1tools and pycrate have compiled the modules and made the same octets of them. After a
 //! deliberate change, `cargo xtask bless messages.json` writes the file.
 
-use std::path::Path;
-use std::{env, fs};
-
-use crate::support::{from_hex, samples, to_hex};
+use crate::support::{blessed, from_hex, samples, to_hex};
 use crossguard_codec::{Identifiers, Message};
 use serde::{Deserialize, Serialize};
 
@@ -17,29 +14,23 @@ struct Golden {
     message: Message,
 }
 
-fn path() -> impl AsRef<Path> {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/messages.json")
-}
-
 fn golden() -> Vec<Golden> {
-    let text = fs::read_to_string(path()).expect("the golden file can be read");
+    let text = blessed("tests/golden/messages.json", || {
+        let identifiers = Identifiers::default();
+        let samples = samples::golden(&identifiers).into_iter();
+        let golden = samples.map(|(name, message)| Golden {
+            name: name.into(),
+            octets: to_hex(&message.encode(&identifiers).unwrap()),
+            message,
+        });
+        serde_json::to_string_pretty(&golden.collect::<Vec<_>>()).unwrap() + "\n"
+    });
     serde_json::from_str(&text).expect("the golden file is JSON")
 }
 
 #[test]
 fn the_samples_are_the_golden_messages() {
-    let identifiers = Identifiers::default();
-    let samples = samples::golden(&identifiers);
-    if env::var_os("CROSSGUARD_BLESS").is_some() {
-        let golden = samples.into_iter().map(|(name, message)| Golden {
-            name: name.into(),
-            octets: to_hex(&message.encode(&identifiers).unwrap()),
-            message,
-        });
-        let text = serde_json::to_string_pretty(&golden.collect::<Vec<_>>()).unwrap();
-        fs::write(path(), text + "\n").expect("the golden file can be written");
-        return;
-    }
+    let samples = samples::golden(&Identifiers::default());
     let golden = golden();
     assert_eq!(golden.len(), samples.len());
     for (golden, (name, sample)) in golden.iter().zip(&samples) {

@@ -11,33 +11,23 @@ mod syntax;
 mod table;
 
 use std::path::{Path, PathBuf};
-use std::{env, fs};
+
+use crate::support::blessed;
 
 /// In the order of their imports.
 const MODULES: [&str; 9] = [
     "CDD", "Common", "VAM", "RAM", "RMCM", "CAM", "CPM", "CDD211", "DENM",
 ];
 
-/// Set to write the generated files instead of comparing them.
-const BLESS: &str = "CROSSGUARD_BLESS";
-
-fn manifest_dir() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
 fn module_paths() -> Vec<PathBuf> {
-    let path = |name| manifest_dir().join(format!("asn1/Crossguard-{name}.asn"));
+    let asn1 = Path::new(env!("CARGO_MANIFEST_DIR")).join("asn1");
+    let path = |name| asn1.join(format!("Crossguard-{name}.asn"));
     MODULES.into_iter().map(path).collect()
 }
 
-/// Compares a file with what was generated for it, or writes it.
+/// Compares a file with what was generated for it.
 fn compare(path: &str, generated: &str) {
-    let file = manifest_dir().join(path);
-    if env::var_os(BLESS).is_some() {
-        fs::write(&file, generated).expect("the generated file can be written");
-        return;
-    }
-    let present = fs::read_to_string(&file).unwrap_or_default();
+    let present = blessed(path, || generated.to_owned());
     assert!(
         generated == present,
         "{path} is out of date; run: cargo xtask bless generated.rs"

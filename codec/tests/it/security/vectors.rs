@@ -3,10 +3,6 @@
 //! They are in `codec/tests/golden/security.json` for other implementations, with the certificates that the receiver
 //! trusts. `cargo xtask bless security.json` writes the file. Nothing of the kit encodes or signs what is in it.
 
-use std::path::Path;
-use std::sync::Once;
-use std::{env, fs};
-
 use crossguard_codec::Service;
 use crossguard_codec::geonet::{Demand, Envelope as Around, Secured, Stack};
 use crossguard_codec::security::{Certificate, Station, Ticket, Time64, Tolerances, TrustStore};
@@ -20,7 +16,7 @@ use super::scene::{
     AUTHORITY, CAM, DENM, HERE, Heard, Pki, RAM, RECEIVER, RMCM, ROOT, SENDER, VAM, Vector,
     Vectors, authority_terms, ego, envelope, identifiers, secured, terms,
 };
-use crate::support::{from_hex, to_hex};
+use crate::support::{blessed, from_hex, to_hex};
 
 /// A receiver that trusts these certificates and has heard nothing.
 fn receiver(root: &[u8], authority: &[u8]) -> Stack {
@@ -51,10 +47,6 @@ fn signatures_of(receiver: &Stack) -> u64 {
 
 fn octets_of(text: &Value) -> Vec<u8> {
     from_hex(text.as_str().unwrap())
-}
-
-fn path() -> impl AsRef<Path> {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/security.json")
 }
 
 fn as_json(vectors: &Vectors) -> Value {
@@ -89,16 +81,12 @@ fn as_json(vectors: &Vectors) -> Value {
     })
 }
 
-/// What is in the file, which is written before if that is wanted.
+/// What is in the file.
 fn file() -> Value {
-    static BLESSED: Once = Once::new();
-    BLESSED.call_once(|| {
-        if env::var_os("CROSSGUARD_BLESS").is_some() {
-            let text = serde_json::to_string_pretty(&as_json(&vectors())).unwrap();
-            fs::write(path(), text + "\n").unwrap();
-        }
+    let text = blessed("tests/golden/security.json", || {
+        serde_json::to_string_pretty(&as_json(&vectors())).unwrap() + "\n"
     });
-    serde_json::from_str(&fs::read_to_string(path()).unwrap()).unwrap()
+    serde_json::from_str(&text).unwrap()
 }
 
 #[test]

@@ -14,8 +14,25 @@ pub mod samples;
 pub mod types;
 pub mod views;
 
+use std::path::Path;
+use std::sync::Mutex;
+use std::{env, fs};
+
 use crossguard_codec::its::ItsMessage;
 use crossguard_codec::{DecodeError, Dictionary, Identifiers};
+
+/// The text of a file of this crate, which is written before by `cargo xtask bless`.
+pub fn blessed(path: &str, make: impl FnOnce() -> String) -> String {
+    // Another test may read what one writes.
+    static ONE: Mutex<()> = Mutex::new(());
+    let _one = ONE.lock();
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    if env::var_os("CROSSGUARD_BLESS").is_some() {
+        fs::write(&file, make()).expect(path);
+    }
+    let read = fs::read_to_string(&file);
+    read.unwrap_or_else(|error| panic!("{path}: {error}; cargo xtask bless writes it"))
+}
 
 /// The golden vectors of other stations' messages with their names, and what is to be known to read them.
 pub fn its_vectors() -> impl Iterator<Item = (&'static str, Identifiers, Vec<u8>)> {
