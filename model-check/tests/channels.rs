@@ -63,52 +63,32 @@ fn pair(monotone: bool) -> Scenario {
     scenario
 }
 
-/// Asserts that a weakening breaks in one session of a pair on a monotone channel whatever it breaks with
-/// one delayed message, and that it breaks something.
-fn assert_finds_as_much<R: Rules + 'static>(rules: fn() -> R) {
-    let with_delay = violated(pair(false), rules(), &[]);
-    assert!(!with_delay.is_empty());
-    // What the whole graph alone can tell is found in the whole graph.
-    let is_liveness = with_delay.iter().any(|id| id.starts_with('L'));
-    let ids = PropertyId::ALL.into_iter();
-    let broken = ids.filter(|id| with_delay.contains(&id.to_string()));
-    let until_found: Vec<_> = broken.filter(|_| !is_liveness).collect();
-    let monotone = violated(pair(true), rules(), &until_found);
-    let missed: Vec<_> = with_delay
-        .iter()
-        .filter(|id| !monotone.contains(id))
-        .collect();
-    assert!(missed.is_empty(), "{missed:?} of {with_delay:?}");
+/// A weakening that breaks something in one session of a pair with one delayed message breaks as much of it on a monotone
+/// channel.
+macro_rules! finds_as_much {
+    ($($name:ident($rules:expr);)*) => {$(
+        #[test]
+        fn $name() {
+            let with_delay = violated(pair(false), $rules, &[]);
+            assert!(!with_delay.is_empty());
+            // What the whole graph alone can tell is found in the whole graph.
+            let is_liveness = with_delay.iter().any(|id| id.starts_with('L'));
+            let ids = PropertyId::ALL.into_iter();
+            let broken = ids.filter(|id| with_delay.contains(&id.to_string()));
+            let until_found: Vec<_> = broken.filter(|_| !is_liveness).collect();
+            let monotone = violated(pair(true), $rules, &until_found);
+            assert!(with_delay.iter().all(|id| monotone.contains(id)), "{monotone:?} of {with_delay:?}");
+        }
+    )*};
 }
 
-#[test]
-fn a_monotone_channel_finds_a_robot_that_needs_no_confirmation() {
-    assert_finds_as_much(|| NeedsNoConfirmation);
-}
-
-#[test]
-fn a_monotone_channel_finds_repeated_commands_that_are_started() {
-    assert_finds_as_much(|| StartsRepeatedCommands);
-}
-
-#[test]
-fn a_monotone_channel_finds_older_commands_that_are_started() {
-    assert_finds_as_much(|| StartsOlderCommands);
-}
-
-#[test]
-fn a_monotone_channel_finds_acknowledgements_of_other_commands() {
-    assert_finds_as_much(|| TakesAnyAcknowledgement);
-}
-
-#[test]
-fn a_monotone_channel_finds_progress_of_other_commands() {
-    assert_finds_as_much(|| TakesAnyProgress);
-}
-
-#[test]
-fn a_monotone_channel_finds_followers_that_wait_for_ever() {
-    assert_finds_as_much(|| FollowersWaitForEver);
+finds_as_much! {
+    a_monotone_channel_finds_a_robot_that_needs_no_confirmation(NeedsNoConfirmation);
+    a_monotone_channel_finds_repeated_commands_that_are_started(StartsRepeatedCommands);
+    a_monotone_channel_finds_older_commands_that_are_started(StartsOlderCommands);
+    a_monotone_channel_finds_acknowledgements_of_other_commands(TakesAnyAcknowledgement);
+    a_monotone_channel_finds_progress_of_other_commands(TakesAnyProgress);
+    a_monotone_channel_finds_followers_that_wait_for_ever(FollowersWaitForEver);
 }
 
 #[test]

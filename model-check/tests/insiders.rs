@@ -5,15 +5,6 @@ use crossguard_model_check::model::Model;
 use crossguard_model_check::properties::{Insider, PropertyId};
 use crossguard_model_check::scenario::Scenario;
 
-/// The scenarios with an insider, and where it stands in them. One that is to become a follower is a stranger before.
-const LYING: [(&str, &[Insider]); 4] = [
-    ("lying-follower", &[Insider::Follower, Insider::Stranger]),
-    ("lying-helper", &[Insider::Stranger]),
-    ("lying-leader", &[Insider::Leader, Insider::Stranger]),
-    // Who joins it is led by it.
-    ("lying-bystander", &[Insider::Stranger, Insider::Leader]),
-];
-
 fn can_break(id: PropertyId, insiders: &[Insider]) -> bool {
     let liars = id.authentication().liars();
     liars.iter().any(|liar| insiders.contains(liar))
@@ -41,28 +32,22 @@ fn assert_claims_what_it_cannot_break(name: &str, insiders: &[Insider]) {
     assert!(claimed.iter().all(|id| judged.contains(id)), "{name}");
 }
 
-#[test]
-fn a_follower_that_lies_breaks_nothing_that_assumes_no_truth_of_it() {
-    let (name, insiders) = LYING[0];
-    assert_claims_what_it_cannot_break(name, insiders);
+/// A test for each scenario with an insider, and where it stands in it. One that is to become a follower is a stranger before.
+macro_rules! insiders {
+    ($($test:ident($name:literal, [$($insider:ident),*]);)*) => {$(
+        #[test]
+        fn $test() {
+            assert_claims_what_it_cannot_break($name, &[$(Insider::$insider),*]);
+        }
+    )*};
 }
 
-#[test]
-fn a_helper_that_lies_breaks_nothing_that_assumes_no_truth_of_it() {
-    let (name, insiders) = LYING[1];
-    assert_claims_what_it_cannot_break(name, insiders);
-}
-
-#[test]
-fn a_leader_that_lies_breaks_nothing_that_assumes_no_truth_of_it() {
-    let (name, insiders) = LYING[2];
-    assert_claims_what_it_cannot_break(name, insiders);
-}
-
-#[test]
-fn a_bystander_that_lies_breaks_nothing_that_assumes_no_truth_of_it() {
-    let (name, insiders) = LYING[3];
-    assert_claims_what_it_cannot_break(name, insiders);
+insiders! {
+    a_follower_that_lies_breaks_nothing_that_assumes_no_truth_of_it("lying-follower", [Follower, Stranger]);
+    a_helper_that_lies_breaks_nothing_that_assumes_no_truth_of_it("lying-helper", [Stranger]);
+    a_leader_that_lies_breaks_nothing_that_assumes_no_truth_of_it("lying-leader", [Leader, Stranger]);
+    // Who joins it is led by it.
+    a_bystander_that_lies_breaks_nothing_that_assumes_no_truth_of_it("lying-bystander", [Stranger, Leader]);
 }
 
 /// What an insider is said to break it does break.

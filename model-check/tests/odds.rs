@@ -170,11 +170,9 @@ fn more_loss_makes_everything_less_likely_and_slower() {
     );
 }
 
-/// A leader that never repeats a command.
-struct Unrepeating;
-
-impl Rules for Unrepeating {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+crossguard_testkit::weakenings! {
+    /// A leader that never repeats a command.
+    Unrepeating(robot, config, input) {
         let outputs = robot.step(config, input);
         let is_repetition = |output: &&Output| {
             matches!(input, Input::Elapsed(_))

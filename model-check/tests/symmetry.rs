@@ -1,6 +1,7 @@
 //! Symmetric robots: the verdicts are those of the scenario without symmetry, the counterexamples are
 //! real runs, and a claim of symmetry that is none is refused with its line.
 
+use crate::scenario_files::assert_refused;
 use crossguard_model_check::check::{Options, check};
 use crossguard_model_check::model::Model;
 use crossguard_model_check::node::{Protocol, Rules};
@@ -74,61 +75,18 @@ fn followers_that_are_stuck_are_found() {
 #[test]
 fn a_claim_of_symmetry_that_is_none_is_refused_with_its_line() {
     let claim = "symmetric = [2, 3]";
-    // What is replaced by what, the line that is wrong, and why.
-    let cases = [
-        (
-            claim,
-            "symmetric = [2, 7]",
-            "symmetric",
-            "no robot has station id 7",
-        ),
+    #[rustfmt::skip]
+    let mistakes = [
+        (claim, "symmetric = [2, 7]", "symmetric", "no robot has station id 7"),
         (claim, "symmetric = [1, 2]", "symmetric", "robot 1 detects"),
-        (
-            claim,
-            "symmetric = [3, 3]",
-            "symmetric",
-            "robot 3 is named twice",
-        ),
-        (
-            claim,
-            "symmetric = [3]",
-            "symmetric",
-            "robot 3 is the only symmetric one",
-        ),
-        (
-            "followers = 2",
-            "followers = 1",
-            "followers = 1",
-            "symmetric robots need followers = 2",
-        ),
-        (
-            "commands = 1",
-            "commands = 1\ndisturbances = 1",
-            "disturbances",
-            "need disturbances = 0",
-        ),
-        (
-            "\"I18\"",
-            "\"I18\",\n\"L4\"",
-            "\"L4\"",
-            "L4 assumes fairness to each robot by itself",
-        ),
-        (
-            "[protocol]",
-            "[timed]\ntick_ms = 50\ndelay_ms = 0\n[protocol]",
-            "symmetric",
-            "no place in a timed scenario",
-        ),
+        (claim, "symmetric = [3, 3]", "symmetric", "robot 3 is named twice"),
+        (claim, "symmetric = [3]", "symmetric", "robot 3 is the only symmetric one"),
+        ("followers = 2", "followers = 1", "", "symmetric robots need followers = 2"),
+        ("commands = 1", "commands = 1\ndisturbances = 1", "disturbances", "need disturbances = 0"),
+        ("\"I18\"", "\"I18\",\n\"L4\"", "\"L4\"", "L4 assumes fairness to each robot by itself"),
+        ("[protocol]", "[timed]\ntick_ms = 50\ndelay_ms = 0\n[protocol]", "symmetric", "no place in a timed scenario"),
     ];
-    for (from, to, wrong, message) in cases {
-        let valid = symmetric();
-        assert!(valid.contains(from), "no line '{from}'");
-        let text = valid.replacen(from, to, 1);
-        let error = Scenario::parse("my.toml", &text).unwrap_err().to_string();
-        assert!(error.contains(message), "{error}");
-        let line = text.lines().position(|line| line.contains(wrong)).unwrap() + 1;
-        assert!(error.starts_with(&format!("my.toml:{line}: ")), "{error}");
-    }
+    assert_refused(&symmetric(), &mistakes);
 }
 
 #[test]

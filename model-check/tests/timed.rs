@@ -3,6 +3,7 @@
 //!
 //! `cargo run --release -- check timed-pair timed-trio` is the same check with its report.
 
+use crate::scenario_files::assert_refused;
 use crate::timing::*;
 use crossguard_model_check::check::Options;
 use crossguard_model_check::report::{CheckVerdict, CutOff, ScenarioReport};
@@ -195,61 +196,28 @@ fn an_exploration_that_was_cut_off_proves_nothing() {
 
 #[test]
 fn what_has_no_meaning_in_a_timed_scenario_is_named_with_its_line() {
-    let cases = [
-        (
-            "tick_ms = 55",
-            "tick_ms = 56",
-            "a tick of 56 ms: between 1 ms and 'delay_max' (55 ms)",
-        ),
-        (
-            "delay_ms = 55",
-            "delay_ms = 60",
-            "messages under way for up to 60 ms",
-        ),
-        (
-            "drift_ppm = 90910",
-            "drift_ppm = 100",
-            "a drift of 100 ppm is less than 1 ms",
-        ),
-        (
-            "loss = true",
-            "delayed = 1\nloss = true",
-            "'delayed' has no place",
-        ),
-        ("crashes = 1", "restarts = 1", "'restarts' has no place"),
-        ("\"I16\"", "\"I17\"", "no timed property 'I17': I10, I11"),
-        (
-            "free = true",
-            "late_ms = 60",
-            "'late_ms' is for endpoints that look when they like",
-        ),
-        ("crashes = 1", "hangs = 1", "hangs of up to 0 ms"),
-        (
-            "tick_ms = 55",
-            "hang_ms = 100\ntick_ms = 55",
-            "hangs of up to 100 ms",
-        ),
-        ("tick_ms = 55", "tack_ms = 55", "unknown field `tack_ms`"),
+    #[rustfmt::skip]
+    let mistakes = [
+        ("tick_ms = 55", "tick_ms = 56", "", "a tick of 56 ms: between 1 ms and 'delay_max' (55 ms)"),
+        ("delay_ms = 55", "delay_ms = 60", "", "messages under way for up to 60 ms"),
+        ("drift_ppm = 90910", "drift_ppm = 100", "", "a drift of 100 ppm is less than 1 ms"),
+        ("loss = true", "delayed = 1\nloss = true", "", "'delayed' has no place"),
+        ("crashes = 1", "restarts = 1", "", "'restarts' has no place"),
+        ("\"I16\"", "\"I17\"", "", "no timed property 'I17': I10, I11"),
+        ("free = true", "late_ms = 60", "", "'late_ms' is for endpoints that look when they like"),
+        ("crashes = 1", "hangs = 1", "", "hangs of up to 0 ms"),
+        ("tick_ms = 55", "hang_ms = 100\ntick_ms = 55", "", "hangs of up to 100 ms"),
+        ("tick_ms = 55", "tack_ms = 55", "", "unknown field `tack_ms`"),
+        ("t_lease = 90", "t_lease = 110", "", "the settings break 'lease-within-safety'"),
     ];
-    for (from, to, message) in cases {
-        let line = PAIR.lines().position(|line| line.contains(from)).unwrap() + 1;
-        let error = Scenario::parse("my.toml", &PAIR.replacen(from, to, 1))
-            .unwrap_err()
-            .to_string();
-        assert!(error.contains(message), "{error}");
-        let named =
-            error.contains(&format!("my.toml:{line}: ")) || error.contains(&format!("line {line}"));
-        assert!(named, "line {line}: {error}");
-    }
-}
-
-#[test]
-fn a_failure_where_two_teams_meet_is_refused() {
+    assert_refused(PAIR, &mistakes);
     let rivals = include_str!("../scenarios/timed-rivals.toml");
-    let text = changed(rivals, &[("commands = 2", "commands = 2\ncrashes = 1")]);
-    let error = Scenario::parse("my.toml", &text).unwrap_err().to_string();
-    assert!(
-        error.contains("'crashes' has no place in a timed scenario with two teams"),
-        "{error}"
+    let crashes = "'crashes' has no place in a timed scenario with two teams";
+    let mistake = (
+        "commands = 2",
+        "commands = 2\ncrashes = 1",
+        "crashes = 1",
+        crashes,
     );
+    assert_refused(rivals, &[mistake]);
 }

@@ -228,11 +228,9 @@ const NEVER_REPEATS: WaitsForEver = WaitsForEver {
     timer: |timer| matches!(timer, Timer::Acknowledgement(_) | Timer::IdentityLock),
 };
 
-/// A requester does not listen to others, and does not give up.
-struct InsistsOnItsRequest;
-
-impl Rules for InsistsOnItsRequest {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+crossguard_testkit::weakenings! {
+    /// A requester does not listen to others, and does not give up.
+    InsistsOnItsRequest(robot, config, input) {
         let is_deaf = match input {
             Input::Ram { ram, .. } => matches!(ram.coordination, Coordination::NeedHelp { .. }),
             Input::Expired(Timer::Help | Timer::IdentityLock) => true,
@@ -245,13 +243,9 @@ impl Rules for InsistsOnItsRequest {
         }
         robot.step(config, input)
     }
-}
 
-/// A command that is repeated while it is executed is started once more.
-struct StartsRepeatedWhileRunning;
-
-impl Rules for StartsRepeatedWhileRunning {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// A command that is repeated while it is executed is started once more.
+    StartsRepeatedWhileRunning(robot, config, input) {
         let running = match robot.phase() {
             Phase::Following(following) => following.executing(),
             _ => None,
@@ -268,13 +262,9 @@ impl Rules for StartsRepeatedWhileRunning {
             _ => outputs,
         }
     }
-}
 
-/// After the last repetition, silence is taken for an acknowledgement.
-struct TakesSilenceForAnAnswer;
-
-impl Rules for TakesSilenceForAnAnswer {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// After the last repetition, silence is taken for an acknowledgement.
+    TakesSilenceForAnAnswer(robot, config, input) {
         if let (Phase::Leading(leading), Input::Expired(Timer::Acknowledgement(from))) =
             (robot.phase(), input)
             && let Some(outstanding) = leading.member(from).and_then(|m| m.outstanding)
@@ -290,13 +280,9 @@ impl Rules for TakesSilenceForAnAnswer {
         }
         robot.step(config, input)
     }
-}
 
-/// A leader with nothing outstanding has no timers.
-struct LeadsWithoutTimers;
-
-impl Rules for LeadsWithoutTimers {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// A leader with nothing outstanding has no timers.
+    LeadsWithoutTimers(robot, config, input) {
         if let (Phase::Leading(leading), Input::Expired(_)) = (robot.phase(), input)
             && leading.members.iter().all(|m| m.outstanding.is_none())
         {
@@ -306,13 +292,9 @@ impl Rules for LeadsWithoutTimers {
         }
         robot.step(config, input)
     }
-}
 
-/// A follower that fails reports what only its leader can know.
-struct ReportsTheLeadersLimit;
-
-impl Rules for ReportsTheLeadersLimit {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// A follower that fails reports what only its leader can know.
+    ReportsTheLeadersLimit(robot, config, input) {
         let outputs = robot.step(config, input);
         let has_failed = match robot.phase() {
             Phase::Following(following) => following

@@ -15,11 +15,9 @@ use proptest::test_runner::{RngAlgorithm, TestRng};
 
 type Law = fn(&Config, &Taken);
 
-/// A requester waits all of `T_help` from each offer on.
-struct BeginsItsRequestAnew;
-
-impl Rules for BeginsItsRequestAnew {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+crossguard_testkit::weakenings! {
+    /// A requester waits all of `T_help` from each offer on.
+    BeginsItsRequestAnew(robot, config, input) {
         let offers = |robot: &Robot| match robot.phase() {
             Phase::Requesting(requesting) => requesting.offers.len(),
             _ => 0,
@@ -33,13 +31,9 @@ impl Rules for BeginsItsRequestAnew {
         }
         outputs
     }
-}
 
-/// A leader does not count how often it repeats a command.
-struct RepeatsForEver;
-
-impl Rules for RepeatsForEver {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// A leader does not count how often it repeats a command.
+    RepeatsForEver(robot, config, input) {
         let outputs = robot.step(config, input);
         if matches!(input, Input::Expired(_) | Input::Elapsed(_))
             && matches!(robot.phase(), Phase::Leading(_))
@@ -55,13 +49,9 @@ impl Rules for RepeatsForEver {
         }
         outputs
     }
-}
 
-/// A follower without contact stays for as long as it hears anything.
-struct StaysWhereItHears;
-
-impl Rules for StaysWhereItHears {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// A follower without contact stays for as long as it hears anything.
+    StaysWhereItHears(robot, config, input) {
         let outputs = robot.step(config, input);
         if let (Input::Ram { .. }, Phase::Following(following)) = (input, robot.phase())
             && matches!(following.contact, Contact::Lost(_))
@@ -72,13 +62,9 @@ impl Rules for StaysWhereItHears {
         }
         outputs
     }
-}
 
-/// A leader waits anew for a follower without a lease with each RAM that it hears.
-struct WaitsForTheLost;
-
-impl Rules for WaitsForTheLost {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// A leader waits anew for a follower without a lease with each RAM that it hears.
+    WaitsForTheLost(robot, config, input) {
         let outputs = robot.step(config, input);
         if matches!(input, Input::Ram { .. }) && matches!(robot.phase(), Phase::Leading(_)) {
             with_state(robot, |state| {
@@ -92,13 +78,9 @@ impl Rules for WaitsForTheLost {
         }
         outputs
     }
-}
 
-/// A leader waits for a whole period from what it hears on, so that a heartbeat seems to be younger than it is.
-struct BeatsWhenItHears;
-
-impl Rules for BeatsWhenItHears {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// A leader waits for a whole period from what it hears on, so that a heartbeat seems to be younger than it is.
+    BeatsWhenItHears(robot, config, input) {
         let outputs = robot.step(config, input);
         if matches!(input, Input::Ram { .. }) && matches!(robot.phase(), Phase::Leading(_)) {
             with_state(robot, |state| {
@@ -145,37 +127,13 @@ fn hold(scenario: &str, rules: &dyn Rules, laws: &[Law], seeds: std::ops::Range<
     steps
 }
 
+#[rustfmt::skip]
 const LAWS: [(&str, Law, &str, &dyn Rules); 5] = [
-    (
-        "L1",
-        budgets::a_request_gets_no_more_time,
-        "trio",
-        &BeginsItsRequestAnew,
-    ),
-    (
-        "L2",
-        budgets::a_command_gets_no_more_time,
-        "pair",
-        &RepeatsForEver,
-    ),
-    (
-        "L4, L5",
-        budgets::a_lost_leader_gets_no_more_time,
-        "pair",
-        &StaysWhereItHears,
-    ),
-    (
-        "L5",
-        budgets::a_silent_follower_gets_no_more_time,
-        "pair",
-        &WaitsForTheLost,
-    ),
-    (
-        "I10",
-        |_, step| lease::heartbeats_count_time_alone(step),
-        "pair",
-        &BeatsWhenItHears,
-    ),
+    ("L1", budgets::a_request_gets_no_more_time, "trio", &BeginsItsRequestAnew),
+    ("L2", budgets::a_command_gets_no_more_time, "pair", &RepeatsForEver),
+    ("L4, L5", budgets::a_lost_leader_gets_no_more_time, "pair", &StaysWhereItHears),
+    ("L5", budgets::a_silent_follower_gets_no_more_time, "pair", &WaitsForTheLost),
+    ("I10", |_, step| lease::heartbeats_count_time_alone(step), "pair", &BeatsWhenItHears),
 ];
 
 #[test]

@@ -28,35 +28,25 @@ fn after_an_echo(
     outputs
 }
 
-/// A leader takes each RAM of a follower for an echo of its newest heartbeat.
-pub(crate) struct CountsWhatWasNotEchoed;
-
-impl Rules for CountsWhatWasNotEchoed {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+crossguard_testkit::weakenings! {
+    /// A leader takes each RAM of a follower for an echo of its newest heartbeat.
+    pub(crate) CountsWhatWasNotEchoed(robot, config, input) {
         after_an_echo(robot, config, input, |member, newest| {
             member["echoed"] = newest.clone();
         })
     }
-}
 
-/// A lease counts from the arrival of an echo.
-pub(crate) struct CountsFromTheArrival;
-
-impl Rules for CountsFromTheArrival {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// A lease counts from the arrival of an echo.
+    pub(crate) CountsFromTheArrival(robot, config, input) {
         after_an_echo(robot, config, input, |member, _| {
             if member["lease"]["stands"].is_number() {
                 member["lease"]["stands"] = config.settings().t_lease.0.into();
             }
         })
     }
-}
 
-/// A follower echoes the heartbeat after the one that it has heard.
-pub(crate) struct HearsWhatWasNotSent;
-
-impl Rules for HearsWhatWasNotSent {
-    fn step(&self, robot: &mut Robot, config: &Config, mut input: Input) -> Outputs {
+    /// A follower echoes the heartbeat after the one that it has heard.
+    pub(crate) HearsWhatWasNotSent(robot, config, mut input) {
         if let Input::Ram { ram, .. } = &mut input
             && let Coordination::Leader { heartbeat, .. } = &mut ram.coordination
         {
@@ -64,13 +54,9 @@ impl Rules for HearsWhatWasNotSent {
         }
         robot.step(config, input)
     }
-}
 
-/// A follower has half of `T_safety` left once it hears something old.
-pub(crate) struct LosesContactEarly;
-
-impl Rules for LosesContactEarly {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
+    /// A follower has half of `T_safety` left once it hears something old.
+    pub(crate) LosesContactEarly(robot, config, input) {
         let outputs = robot.step(config, input);
         let is_old = outputs
             .iter()

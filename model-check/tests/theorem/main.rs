@@ -112,92 +112,28 @@ fn breaks(scenario: &str, rules: &dyn Rules, what: &str) -> bool {
 fn it_does_not_hold_without_a_rule_that_it_rests_on() {
     let disagree = "state and facts disagree";
     let on_heartbeats = "I10: state and facts disagree on heartbeats";
+    #[rustfmt::skip]
     let weakenings: [(&str, &dyn Rules, &str, &str); 19] = [
         ("I2, I15", &ConfirmsByStationAlone, "pair-reboot", disagree),
-        (
-            "I2",
-            &NeedsNoConfirmation,
-            "pair",
-            "I2, I3, I6, I10: facts disagree",
-        ),
-        (
-            "I3",
-            &ObeysCommandsOfAnySession,
-            "pair-reboot",
-            "I3: starts what was not commanded",
-        ),
-        (
-            "I4, I9",
-            &StartsRepeatedCommands,
-            "pair",
-            "I4, I9: starts twice",
-        ),
+        ("I2", &NeedsNoConfirmation, "pair", "I2, I3, I6, I10: facts disagree"),
+        ("I3", &ObeysCommandsOfAnySession, "pair-reboot", "I3: starts what was not commanded"),
+        ("I4, I9", &StartsRepeatedCommands, "pair", "I4, I9: starts twice"),
         // A leader waits for the answer to each command, so that an older one was started before.
         ("I5", &StartsOlderCommands, "pair", "I4, I9: starts twice"),
-        (
-            "I6",
-            &StartsBeforeItAcknowledges,
-            "pair",
-            "I6: starts before it accepts",
-        ),
-        (
-            "I6, I7",
-            &TakesAnyAcknowledgement,
-            "pair",
-            "I6: counts as accepted",
-        ),
+        ("I6", &StartsBeforeItAcknowledges, "pair", "I6: starts before it accepts"),
+        ("I6, I7", &TakesAnyAcknowledgement, "pair", "I6: counts as accepted"),
         ("I8", &TakesAnyProgress, "pair", "I8: counts as in position"),
         ("I14", &NEVER_STOPS, "pair", disagree),
-        (
-            "I1, I2, I6",
-            &TakesItsLeadersPseudonym,
-            "pair",
-            "a fact of another robot",
-        ),
-        (
-            "C2",
-            &CountsOneForAll,
-            "trio",
-            "I17: another robot touches the record",
-        ),
+        ("I1, I2, I6", &TakesItsLeadersPseudonym, "pair", "a fact of another robot"),
+        ("C2", &CountsOneForAll, "trio", "I17: another robot touches the record"),
         ("C3", &AdmitsWhoSaysThatItFollows, "trio", disagree),
-        (
-            "I17",
-            &LosesTwoForOne,
-            "trio",
-            "I17: another robot touches the record",
-        ),
-        (
-            "I10",
-            &leases::CountsWhatWasNotEchoed,
-            "pair",
-            on_heartbeats,
-        ),
-        (
-            "I10",
-            &leases::HearsWhatWasNotSent,
-            "pair",
-            "I2, I3, I6, I10: facts disagree",
-        ),
+        ("I17", &LosesTwoForOne, "trio", "I17: another robot touches the record"),
+        ("I10", &leases::CountsWhatWasNotEchoed, "pair", on_heartbeats),
+        ("I10", &leases::HearsWhatWasNotSent, "pair", "I2, I3, I6, I10: facts disagree"),
         ("I10, I11", &ReadsNoProgress, "pair", on_heartbeats),
-        (
-            "I10",
-            &leases::CountsFromTheArrival,
-            "pair",
-            "I10: a lease outlasts the heartbeat that it counts from",
-        ),
-        (
-            "I10",
-            &leases::LosesContactEarly,
-            "pair",
-            "I10: contact is shortened",
-        ),
-        (
-            "I18",
-            &NEVER_LOCKS_ITS_IDENTITY,
-            "offer-race",
-            "I18: the station id is not locked",
-        ),
+        ("I10", &leases::CountsFromTheArrival, "pair", "I10: a lease outlasts the heartbeat that it counts from"),
+        ("I10", &leases::LosesContactEarly, "pair", "I10: contact is shortened"),
+        ("I18", &NEVER_LOCKS_ITS_IDENTITY, "offer-race", "I18: the station id is not locked"),
     ];
     for (properties, rules, scenario, what) in weakenings {
         assert!(breaks(scenario, rules, what), "{properties}, in {scenario}");
