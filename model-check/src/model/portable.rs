@@ -19,7 +19,7 @@ use smallvec::SmallVec;
 use super::{Action, Draft, Model, ModelState};
 use crate::check::chart;
 use crate::network::{Message, Network, Transmission};
-use crate::scenario::{Bounds, MAX_ROBOTS};
+use crate::scenario::MAX_ROBOTS;
 use crate::sequence::ChartStep;
 use crate::symmetry::Symmetry;
 
@@ -51,11 +51,8 @@ pub struct Part {
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct PackedState {
-    nodes: [u32; MAX_ROBOTS],
-    history: u32,
-    broken: u32,
-    left: Bounds,
-    hung: u8,
+    /// Without its network, which is what follows.
+    state: ModelState,
     on_air: Vec<Transmission>,
     delayed: Vec<Transmission>,
     sent: u32,
@@ -96,11 +93,10 @@ impl Packer {
             serde_json::to_string(&sent)
         });
         PackedState {
-            nodes: state.nodes,
-            history: state.history,
-            broken: state.broken,
-            left: state.left,
-            hung: state.hung,
+            state: ModelState {
+                network: 0,
+                ..state.clone()
+            },
             on_air: network.on_air().collect(),
             delayed: network.delayed().collect(),
             sent: network.sent,
@@ -167,10 +163,11 @@ impl Unpacker {
     /// # Errors
     /// A part of it was not sent before.
     pub fn unpack(&self, model: &Model, packed: PackedState) -> Result<ModelState, UnknownPart> {
-        let mut nodes = packed.nodes;
-        for node in &mut nodes[..model.0.scenario.robots.len()] {
+        let mut state = packed.state;
+        for node in &mut state.nodes[..model.0.scenario.robots.len()] {
             *node = self.number(PartKind::Node, *node)?;
         }
+        state.history = self.number(PartKind::History, state.history)?;
         let mut network = Network::EMPTY;
         for sent in self.own(packed.on_air)? {
             network.send(sent);
@@ -179,14 +176,6 @@ impl Unpacker {
             network.delay(delayed);
         }
         network.sent = self.number(PartKind::Sent, packed.sent)?;
-        let state = ModelState {
-            nodes,
-            history: self.number(PartKind::History, packed.history)?,
-            broken: packed.broken,
-            left: packed.left,
-            hung: packed.hung,
-            network: 0,
-        };
         Ok(model.interned(model.representative_of(Draft { state, network })))
     }
 
