@@ -74,6 +74,23 @@ pub struct Bounds {
 }
 
 impl Bounds {
+    /// All of them with their names; 0 where nothing is said.
+    fn each(&self) -> [(&'static str, u8); 11] {
+        [
+            ("detections", self.detections),
+            ("commands", self.commands),
+            ("disturbances", self.disturbances),
+            ("crashes", self.crashes),
+            ("restarts", self.restarts),
+            ("losses", self.losses.unwrap_or_default()),
+            ("hangs", self.hangs),
+            ("drifts", self.drifts),
+            ("sightings", self.sightings),
+            ("heartbeats", self.heartbeats.unwrap_or_default()),
+            ("offers", self.offers.unwrap_or_default()),
+        ]
+    }
+
     /// Takes an event off what may still happen. One without a bound may happen at any time: a bound that is forgotten
     /// makes the state space larger.
     pub(crate) fn spend(&mut self, event: Event) {
@@ -108,58 +125,17 @@ pub struct ChannelSetup {
 }
 
 impl Hash for Bounds {
-    /// All bounds at once: states are hashed by the million.
+    /// All bounds at once: states are hashed by the million. A bound of 0 and none at all share a hash, and no state has
+    /// both.
     fn hash<H: Hasher>(&self, state: &mut H) {
-        let Self {
-            detections,
-            commands,
-            disturbances,
-            crashes,
-            restarts,
-            losses,
-            hangs,
-            drifts,
-            sightings,
-            heartbeats,
-            offers,
-        } = *self;
-        // A bound of 255 and none at all may share a hash.
-        let [losses, heartbeats, offers] =
-            [losses, heartbeats, offers].map(|bound| bound.unwrap_or(u8::MAX));
-        state.write(&[
-            detections,
-            commands,
-            disturbances,
-            crashes,
-            restarts,
-            losses,
-            hangs,
-            drifts,
-            sightings,
-            heartbeats,
-            offers,
-        ]);
+        state.write(&self.each().map(|(_, bound)| bound));
     }
 }
 
 impl fmt::Display for Bounds {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let bounds = [
-            ("detections", self.detections),
-            ("commands", self.commands),
-            ("disturbances", self.disturbances),
-            ("crashes", self.crashes),
-            ("restarts", self.restarts),
-            ("losses", self.losses.unwrap_or_default()),
-            ("hangs", self.hangs),
-            ("drifts", self.drifts),
-            ("sightings", self.sightings),
-            ("heartbeats", self.heartbeats.unwrap_or_default()),
-            ("offers", self.offers.unwrap_or_default()),
-        ];
+        let bounds = self.each().into_iter().filter(|(_, bound)| *bound > 0);
         let allowed: Vec<_> = bounds
-            .iter()
-            .filter(|(_, bound)| *bound > 0)
             .map(|(name, bound)| format!("{name} <= {bound}"))
             .collect();
         f.write_str(&allowed.join(", "))
