@@ -147,11 +147,36 @@ pub fn check() -> ScenarioReport {
     let start = Instant::now();
     let explored = [explore(PAIR), explore(CURRENT), explore(TRIO)];
     let (found, on_road) = (counterexamples(), broken_on_road());
-    let is_p0_broken = explored.iter().any(|e| e.is_p0_broken);
-    let is_wait_endless = explored.iter().any(|e| e.is_wait_endless);
+    let is_found = |what: fn(&Exploration) -> bool| explored.iter().any(what);
+    let is_p0_broken = is_found(|e| e.is_p0_broken);
+    let is_wait_endless = is_found(|e| e.is_wait_endless);
     let sum = |count: fn(&Exploration) -> usize| explored.iter().map(count).sum();
-    let is_crossing_found = explored.iter().any(|e| e.is_crossing_found);
-    let mut properties = what_holds(is_p0_broken, is_wait_endless, is_crossing_found);
+    let holds = |id, kind, is_broken, statement| {
+        let verdict = CheckVerdict::of_property(is_broken, None);
+        PropertyReport::plain(id, kind, verdict, statement)
+    };
+    let is_crossed = CheckVerdict::of_premise(is_found(|e| e.is_crossing_found), None);
+    // P0 and its premise, since the model is not one in which anything can happen, or nothing; and P10.
+    let mut properties = vec![
+        holds(
+            model::HOLDS,
+            "S",
+            is_p0_broken,
+            "a follower starts only what its leader commanded it",
+        ),
+        PropertyReport::plain(
+            model::PREMISE,
+            "premise",
+            is_crossed,
+            "a crossing of two maneuvers goes well, and all robots are idle again",
+        ),
+        holds(
+            model::CLOSED,
+            "L",
+            is_wait_endless,
+            "no leader waits for ever for a follower that is there and follows it",
+        ),
+    ];
     properties.extend(Hazard::ALL.map(|hazard| {
         let kind = if hazard.is_without_end() { "L" } else { "S" };
         must_fail_report(hazard.text(), kind, &found)
@@ -197,34 +222,6 @@ pub fn fails_as_it_must(report: &ScenarioReport) -> bool {
     report.exhaustive && fine && report.violated().eq(must_fail)
 }
 
-/// P0 and its premise, since the model is not one in which anything can happen, or nothing; and P10.
-fn what_holds(
-    is_p0_broken: bool,
-    is_wait_endless: bool,
-    is_crossing_found: bool,
-) -> Vec<PropertyReport> {
-    vec![
-        PropertyReport::plain(
-            model::HOLDS,
-            "S",
-            CheckVerdict::of_property(is_p0_broken, None),
-            "a follower starts only what its leader commanded it",
-        ),
-        PropertyReport::plain(
-            model::PREMISE,
-            "premise",
-            CheckVerdict::of_premise(is_crossing_found, None),
-            "a crossing of two maneuvers goes well, and all robots are idle again",
-        ),
-        PropertyReport::plain(
-            model::CLOSED,
-            "L",
-            CheckVerdict::of_property(is_wait_endless, None),
-            texts::CLOSED_STATEMENT,
-        ),
-    ]
-}
-
 fn must_fail_report(text: Text, kind: &str, found: &[Counterexample]) -> PropertyReport {
     let counterexample = found.iter().find(|found| found.text.id == text.id);
     let verdict = CheckVerdict::of_property(counterexample.is_some(), None);
@@ -267,13 +264,18 @@ fn assumptions() -> Vec<String> {
     assumptions
 }
 
-fn explore(cast: Cast) -> Exploration {
-    let question = Question {
+/// A question about the text as it stands.
+const fn literally(cast: Cast, about: Inquiry) -> Question {
+    let reading = Reading::Literal;
+    Question {
         cast,
-        reading: Reading::Literal,
-        about: Inquiry::Rest,
-    };
-    let checker = question.checker().spawn_bfs().join();
+        reading,
+        about,
+    }
+}
+
+fn explore(cast: Cast) -> Exploration {
+    let checker = literally(cast, Inquiry::Rest).checker().spawn_bfs().join();
     Exploration {
         unique_states: checker.unique_state_count(),
         // stateright counts the initial state.
@@ -300,9 +302,8 @@ fn find(hazard: Hazard, reading: Reading) -> Option<Counterexample> {
         _ => PAIR,
     };
     let question = Question {
-        cast,
         reading,
-        about: Inquiry::Hazard(hazard),
+        ..literally(cast, Inquiry::Hazard(hazard))
     };
     let text = hazard.text();
     Some(Counterexample {
@@ -341,17 +342,12 @@ fn broken_on_road() -> Vec<Counterexample> {
 }
 
 fn find_on_road(property: RoadProperty, cast: Cast) -> Option<Counterexample> {
-    let question = Question {
-        cast,
-        reading: Reading::Literal,
-        about: Inquiry::Road(property),
-    };
     let is_escorted = cast.plan.contains(&PaperTask::Move);
     Some(Counterexample {
         text: texts::on_road(property, is_escorted),
         is_without_end: property.is_without_end(),
         cast,
-        steps: shortest(question, model::ON_ROAD)?,
+        steps: shortest(literally(cast, Inquiry::Road(property)), model::ON_ROAD)?,
     })
 }
 

@@ -66,26 +66,18 @@ pub(super) enum Inquiry {
 /// What happens.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum PaperAction {
-    Detect(RobotIndex),
+    /// A robot's application, body or timer does something.
+    Local(RobotIndex, PaperInput),
     /// The current, periodic RAM is heard.
     Hear {
         from: RobotIndex,
         to: RobotIndex,
     },
-    Command(RobotIndex),
-    /// The leader sends its pending command again.
-    Reissue(RobotIndex),
     /// A message under way arrives; `again` if a copy of it stays under way.
     Arrive {
         flight: PaperFlight,
         again: bool,
     },
-    Finish(RobotIndex),
-    CompleteTask(RobotIndex),
-    SafetyTimeout(RobotIndex),
-    LeaderTimeout(RobotIndex),
-    AskForLeave(RobotIndex),
-    GrantLeave(RobotIndex),
     /// The current, periodic RAM is delayed.
     Delay {
         from: RobotIndex,
@@ -151,27 +143,31 @@ impl Cast {
         let may_send = world.memory.given < self.commands;
         for (place, robot) in world.robots() {
             let may_detect = place < self.detecting && world.detections < self.detections;
-            let is_planned = usize::from(robot.commanded) < self.plan.len();
+            let planned = self.plan.get(usize::from(robot.commanded)).copied();
             let waits = robot.waits_for_nothing();
-            let mut may =
-                |is_so: bool, action: PaperAction| actions.extend(is_so.then_some(action));
+            let given = world.memory.given;
+            let mut may = |is_so: bool, input: PaperInput| {
+                actions.extend(is_so.then_some(PaperAction::Local(place, input)));
+            };
             may(
                 robot.state == Stage::Idle && may_detect,
-                PaperAction::Detect(place),
+                PaperInput::Detected,
             );
-            may(waits && is_planned && may_send, PaperAction::Command(place));
-            may(robot.may_reissue() && may_send, PaperAction::Reissue(place));
+            if let Some(task) = planned {
+                may(waits && may_send, PaperInput::Commanded(task, given));
+            }
+            may(robot.may_reissue() && may_send, PaperInput::Reissued(given));
             let finishes = robot.executing().is_some();
-            may(finishes && is_road_free, PaperAction::Finish(place));
-            let is_done = waits && !is_planned;
-            may(is_done && is_road_free, PaperAction::CompleteTask(place));
+            may(finishes && is_road_free, PaperInput::Finished);
+            let is_done = waits && planned.is_none();
+            may(is_done && is_road_free, PaperInput::TaskCompleted);
             let times_out = robot.may_time_out() && self.faults;
-            may(times_out, PaperAction::SafetyTimeout(place));
+            may(times_out, PaperInput::SafetyTimeout);
             let leader_does = world.may_time_out_as_leader(robot);
-            may(leader_does, PaperAction::LeaderTimeout(place));
-            may(robot.may_ask_for_leave(), PaperAction::AskForLeave(place));
+            may(leader_does, PaperInput::LeaderTimeout);
+            may(robot.may_ask_for_leave(), PaperInput::LeaveAsked);
             let grants = robot.is_asked_for_leave && is_road_free;
-            may(grants, PaperAction::GrantLeave(place));
+            may(grants, PaperInput::LeaveGranted);
         }
     }
 
@@ -209,16 +205,16 @@ impl Cast {
     }
 }
 
-fn successor(cast: &Cast, world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
+fn successor(world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
     let mut next = world.clone();
     next.memory.brought_about = 0;
     if let Some(road) = &mut next.road {
         road.forget_broken();
     }
     match action {
-        PaperAction::Detect(place) => {
-            next.detections += 1;
-            next.step(place, PaperInput::Detected)?;
+        PaperAction::Local(place, input) => {
+            next.detections += u8::from(input == PaperInput::Detected);
+            next.step(place, input)?;
         }
         PaperAction::Hear { from, to } => {
             let ram = world.robot(from)?.ram();
@@ -228,25 +224,12 @@ fn successor(cast: &Cast, world: &PaperWorld, action: PaperAction) -> Option<Pap
             }
             next.step(to, PaperInput::Ram(from, ram))?;
         }
-        PaperAction::Command(place) => {
-            let task = cast.plan[usize::from(world.robot(place)?.commanded)];
-            next.step(place, PaperInput::Commanded(task, world.memory.given))?;
-        }
-        PaperAction::Reissue(place) => {
-            next.step(place, PaperInput::Reissued(world.memory.given))?;
-        }
         PaperAction::Arrive { flight, again } => {
             if !again {
                 next.land(flight);
             }
             next.step(flight.to, world.content(flight)?.input(flight.from))?;
         }
-        PaperAction::Finish(place) => next.step(place, PaperInput::Finished)?,
-        PaperAction::CompleteTask(place) => next.step(place, PaperInput::TaskCompleted)?,
-        PaperAction::SafetyTimeout(place) => next.step(place, PaperInput::SafetyTimeout)?,
-        PaperAction::LeaderTimeout(place) => next.step(place, PaperInput::LeaderTimeout)?,
-        PaperAction::AskForLeave(place) => next.step(place, PaperInput::LeaveAsked)?,
-        PaperAction::GrantLeave(place) => next.step(place, PaperInput::LeaveGranted)?,
         PaperAction::Delay { from, to } => {
             let ram = world.robot(from)?.ram();
             next.send(from, to, Content::Ram(ram))?;
@@ -269,27 +252,17 @@ fn successor(cast: &Cast, world: &PaperWorld, action: PaperAction) -> Option<Pap
 /// One hazard at a time: with several, stateright goes on after the first, shortest counterexample and
 /// keeps the last.
 fn properties(question: &Question) -> Vec<Property<Question>> {
-    let holds = Property::always(HOLDS, |_, world: &PaperWorld| {
-        world.memory.brought_about & HOLDS_BIT == 0
-    });
+    let is_absent = |question: &Question, world: &PaperWorld| !is_found(question, world);
     match question.about {
-        Inquiry::Hazard(hazard) => {
-            let is_absent = |question: &Question, world: &PaperWorld| !is_found(question, world);
-            vec![Property::always(hazard.text().id, is_absent)]
-        }
-        Inquiry::Road(_) => {
-            let is_kept = |question: &Question, world: &PaperWorld| !is_found(question, world);
-            vec![Property::always(ON_ROAD, is_kept)]
-        }
-        Inquiry::Rest => {
-            let is_closed = |_: &Question, world: &PaperWorld| is_closed(world);
-            let is_crossed = |_: &Question, world: &PaperWorld| is_crossed(world);
-            vec![
-                holds,
-                Property::always(CLOSED, is_closed),
-                Property::sometimes(PREMISE, is_crossed),
-            ]
-        }
+        Inquiry::Hazard(hazard) => vec![Property::always(hazard.text().id, is_absent)],
+        Inquiry::Road(_) => vec![Property::always(ON_ROAD, is_absent)],
+        Inquiry::Rest => vec![
+            Property::always(HOLDS, |_, world: &PaperWorld| {
+                world.memory.brought_about & HOLDS_BIT == 0
+            }),
+            Property::always(CLOSED, |_, world| is_closed(world)),
+            Property::sometimes(PREMISE, |_, world| is_crossed(world)),
+        ],
     }
 }
 
@@ -335,7 +308,7 @@ impl stateright::Model for Question {
     }
 
     fn next_state(&self, world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
-        successor(&self.cast, world, action)
+        successor(world, action)
     }
 
     fn properties(&self) -> Vec<Property<Self>> {

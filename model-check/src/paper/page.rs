@@ -7,7 +7,7 @@ use crossguard_protocol::State as Stage;
 use super::hazards::Passage;
 use super::model::PaperAction;
 use super::road::Move;
-use super::robot::{self, HelpStatus, PaperRmcm, PaperRobot, PaperTask, Progression};
+use super::robot::{self, HelpStatus, PaperInput, PaperRmcm, PaperRobot, PaperTask, Progression};
 use super::world::{Content, FlightKind, PaperFlight, PaperWorld};
 use super::{Counterexample, Transition, broken_on_road, counterexamples};
 use crate::sequence::{Chart, ChartPlace, ChartStep, Fate};
@@ -194,15 +194,7 @@ impl Counterexample {
                 let place = between(flight.from, flight.to, Fate::Lost);
                 (place, content(before, flight))
             }
-            PaperAction::Detect(robot) => at(robot, "pedestrian detected"),
-            PaperAction::Command(robot) => at(robot, "gives a command"),
-            PaperAction::Reissue(robot) => at(robot, "reissues its command"),
-            PaperAction::Finish(robot) => at(robot, "maneuver finished"),
-            PaperAction::CompleteTask(robot) => at(robot, "task completed"),
-            PaperAction::SafetyTimeout(robot) => at(robot, "safety timeout"),
-            PaperAction::LeaderTimeout(robot) => at(robot, "execution timeout"),
-            PaperAction::AskForLeave(robot) => at(robot, "wants to leave"),
-            PaperAction::GrantLeave(robot) => at(robot, "grants the leave"),
+            PaperAction::Local(robot, input) => at(robot, said(input)),
             PaperAction::Crash(robot) => at(robot, "breaks down"),
             PaperAction::Road(Move::StepOn(_)) if self.cast.plan.contains(&PaperTask::Move) => {
                 at(0, "the pedestrian steps on the road beside the escort")
@@ -214,6 +206,22 @@ impl Counterexample {
             PaperAction::Road(Move::Across) => at(0, "the pedestrian is across"),
             PaperAction::Road(Move::EndFallback(robot)) => at(robot, "has finished its fallback"),
         }
+    }
+}
+
+/// What a robot takes in that is no message.
+const fn said(input: PaperInput) -> &'static str {
+    match input {
+        PaperInput::Detected => "pedestrian detected",
+        PaperInput::Commanded(..) => "gives a command",
+        PaperInput::Reissued(_) => "reissues its command",
+        PaperInput::Finished => "maneuver finished",
+        PaperInput::TaskCompleted => "task completed",
+        PaperInput::SafetyTimeout => "safety timeout",
+        PaperInput::LeaderTimeout => "execution timeout",
+        PaperInput::LeaveAsked => "wants to leave",
+        PaperInput::LeaveGranted => "grants the leave",
+        PaperInput::Ram(..) | PaperInput::Rmcm(..) => "hears a message",
     }
 }
 

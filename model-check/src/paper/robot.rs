@@ -105,7 +105,7 @@ pub(super) enum PaperRmcm {
 }
 
 /// What a robot takes in.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum PaperInput {
     Ram(RobotIndex, PaperRam),
     Rmcm(RobotIndex, PaperRmcm),

@@ -28,10 +28,6 @@ pub struct Text {
     pub other_reading: Option<OtherReading>,
 }
 
-/// P10: what the text closes itself.
-pub(super) const CLOSED_STATEMENT: &str =
-    "no leader waits for ever for a follower that is there and follows it";
-
 const fn passage(section: &'static str, paragraph: &'static str, words: &'static str) -> Passage {
     Passage {
         section,
