@@ -14,9 +14,7 @@ use crate::graph::{Graph, Keep};
 use crate::model::{Action, Delivery, Model, ModelState};
 use crate::network::Transmission;
 use crate::parallel::map_chunks;
-use crate::properties::{
-    Claim, LivenessRule, LivenessSubject, PropertyId, Rule, View, for_each_property,
-};
+use crate::properties::{Claim, LivenessRule, PropertyId, Rule, View, for_each_property};
 use crate::report::{CutOff, PropertyReport, ScenarioReport};
 use crate::runs::Runs;
 use crate::scenario::{LyingPart, RobotSetup, Scenario, Size};
@@ -260,14 +258,17 @@ impl Findings<'_> {
         }
         let runs = self.runs();
         let fairness = Classifier(self.model).fairness();
-        let look = |state, rule: fn(&View, LivenessSubject) -> bool, subject| {
-            let look = |view: &View| rule(view, subject);
-            self.model.look(&self.graph.state(state), look)
-        };
         for subject in rule.subjects.among(self.model.scenario().robots.len()) {
-            let from = |state| look(state, rule.from, subject);
-            // What comes after a broken step property was not explored.
-            let to = |state| look(state, rule.to, subject) || self.graph.state(state).is_broken();
+            let from = |number| {
+                let state = self.graph.state(number);
+                self.model.look(&state, |view| (rule.from)(view, subject))
+            };
+            let to = |number| {
+                let state = self.graph.state(number);
+                let is_reached = |view: &View| rule.is_reached(view, subject);
+                // What comes after a broken step property was not explored.
+                self.model.look(&state, is_reached) || state.is_broken()
+            };
             match leads_to(&runs, fairness, from, to) {
                 LeadsTo::Vacuous => {}
                 LeadsTo::Holds => self.model.note_premise(id),

@@ -8,13 +8,7 @@ property! {
     "L1", Authentication::NAMES;
     untimed L "HelpRequested leads to RoleEstablished or Idle",
         Some("a robot is in HelpRequested"),
-        Rule::Live(LivenessRule {
-            subjects: LivenessSubjects::Robots,
-            from: in_help_requested,
-            to: |view, subject| !in_help_requested(view, subject),
-            needs_cooperation: false,
-            broken_by_old_requests: false,
-        }),
+        Rule::Live(LivenessRule::ends(LivenessSubjects::Robots, in_help_requested)),
         "ASKS_FOR_EVER";
     timed L "a request has roles or is given up within the bound",
         Some("a requester gets roles; and one gives up"),

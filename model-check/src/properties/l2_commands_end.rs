@@ -6,13 +6,7 @@ property! {
     "L2", Authentication::NAMES;
     untimed L "an outstanding command is acknowledged or given up at some time",
         Some("a command is outstanding"),
-        Rule::Live(LivenessRule {
-            subjects: LivenessSubjects::Pairs,
-            from: is_outstanding,
-            to: |view, subject| !is_outstanding(view, subject),
-            needs_cooperation: false,
-            broken_by_old_requests: false,
-        }),
+        Rule::Live(LivenessRule::ends(LivenessSubjects::Pairs, is_outstanding)),
         "NEVER_REPEATS";
 }
 

@@ -2,7 +2,7 @@
 //!
 //! What that means here is said by [`Scenario::cooperative`](crate::scenario::Scenario::cooperative).
 
-use crossguard_protocol::{Member, Phase};
+use crossguard_protocol::Member;
 
 use super::prelude::*;
 
@@ -11,18 +11,15 @@ property! {
     untimed L "if everything around the robots cooperates, a request leads to a completed task",
         Some("a robot asks for help"),
         Rule::Live(LivenessRule {
-            subjects: LivenessSubjects::Robots,
-            from: asks,
-            to: has_completed,
+            to: Some(has_completed),
             needs_cooperation: true,
-            broken_by_old_requests: false,
+            ..LivenessRule::ends(LivenessSubjects::Robots, asks)
         }),
         "ReadsNoProgress";
 }
 
-fn asks(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
-    let robot = view.node(robot).robot.as_ref();
-    robot.is_some_and(|robot| matches!(robot.phase(), Phase::Requesting(_)))
+pub(super) fn asks(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
+    view.node(robot).is_requesting()
 }
 
 fn has_completed(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {

@@ -8,13 +8,7 @@ property! {
     "L4", Authentication::NAMES;
     untimed L "the end of a session leads to every former member being idle",
         Some("a robot follows in a session that no robot leads"),
-        Rule::Live(LivenessRule {
-            subjects: LivenessSubjects::Robots,
-            from: is_orphaned,
-            to: |view, subject| !is_orphaned(view, subject),
-            needs_cooperation: false,
-            broken_by_old_requests: false,
-        }),
+        Rule::Live(LivenessRule::ends(LivenessSubjects::Robots, is_orphaned)),
         "FollowersWaitForEver";
 }
 

@@ -9,13 +9,10 @@ property! {
     untimed L "a permanent crash of a leader leads to its followers being stopped and idle",
         Some("a robot follows one that has crashed for good"),
         Rule::Live(LivenessRule {
-            subjects: LivenessSubjects::Robots,
-            from: has_lost_its_leader,
-            to: |view, LivenessSubject { robot, .. }| {
+            to: Some(|view, LivenessSubject { robot, .. }| {
                 view.node(robot).is_idle() && view.node(robot).actuation.running().is_none()
-            },
-            needs_cooperation: false,
-            broken_by_old_requests: false,
+            }),
+            ..LivenessRule::ends(LivenessSubjects::Robots, has_lost_its_leader)
         }),
         "FollowersWaitForEver";
     timed L "after the leader's crash a follower stops, and is idle, within the bounds",

@@ -12,11 +12,8 @@ property! {
     untimed L "two robots that ask or lead at one place do not both do so for ever",
         Some("two robots ask or lead"),
         Rule::Live(LivenessRule {
-            subjects: LivenessSubjects::Pairs,
-            from: both_claim,
-            to: |view, subject| !both_claim(view, subject),
-            needs_cooperation: false,
             broken_by_old_requests: true,
+            ..LivenessRule::ends(LivenessSubjects::Pairs, both_claim)
         }),
         "InsistsOnItsRequest";
 }

@@ -112,11 +112,36 @@ pub(crate) struct StepRule {
 pub(crate) struct LivenessRule {
     pub(crate) subjects: LivenessSubjects,
     pub(crate) from: fn(&View, LivenessSubject) -> bool,
-    pub(crate) to: fn(&View, LivenessSubject) -> bool,
+    /// Where nothing is said, it is that `from` is over.
+    pub(crate) to: Option<fn(&View, LivenessSubject) -> bool>,
     /// Whether it speaks about cooperative scenarios only.
     pub(crate) needs_cooperation: bool,
     /// Whether old requests that arrive again and again break it, as they may on a monotone channel.
     pub(crate) broken_by_old_requests: bool,
+}
+
+impl LivenessRule {
+    /// Something that does not last for ever.
+    pub(crate) const fn ends(
+        subjects: LivenessSubjects,
+        from: fn(&View, LivenessSubject) -> bool,
+    ) -> Self {
+        Self {
+            subjects,
+            from,
+            to: None,
+            needs_cooperation: false,
+            broken_by_old_requests: false,
+        }
+    }
+
+    /// Whether a state that comes after one in which `from` is so is what it leads to.
+    pub(crate) fn is_reached(&self, view: &View, subject: LivenessSubject) -> bool {
+        match self.to {
+            Some(to) => to(view, subject),
+            None => !(self.from)(view, subject),
+        }
+    }
 }
 
 /// Something that holds of every step of the timed model.

@@ -2,8 +2,7 @@
 //!
 //! What that means here is said by [`Scenario::cooperative`](crate::scenario::Scenario::cooperative).
 
-use crossguard_protocol::Phase;
-
+use super::l3_help_helps::asks;
 use super::prelude::*;
 
 property! {
@@ -11,14 +10,9 @@ property! {
     untimed L "if everything around the robots cooperates, a request leads to a finished crossing",
         Some("a robot asks for help"),
         Rule::Live(LivenessRule {
-            subjects: LivenessSubjects::Robots,
-            from: |view, LivenessSubject { robot, .. }| {
-                let robot = view.node(robot).robot.as_ref();
-                robot.is_some_and(|robot| matches!(robot.phase(), Phase::Requesting(_)))
-            },
-            to: |view, _| view.history.pedestrian == Pedestrian::Across,
+            to: Some(|view, _| view.history.pedestrian == Pedestrian::Across),
             needs_cooperation: true,
-            broken_by_old_requests: false,
+            ..LivenessRule::ends(LivenessSubjects::Robots, asks)
         }),
         "ReadsNoProgress";
 }
