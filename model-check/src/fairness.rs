@@ -10,6 +10,8 @@
 //! message, so that of what is sent again and again something arrives; and applications do at some
 //! time what is theirs to do.
 
+use std::ops::Range;
+
 use crossguard_protocol::{Coordination, Event, StationId, Timer};
 
 use crate::fair::{Classes, Fairness};
@@ -68,8 +70,7 @@ impl Numbers<'_> {
     }
 
     fn all_timers(self) -> Classes {
-        let count = self.robots() * self.timers_per_robot();
-        (0..count).fold(Classes::NONE, |all, number| all | Classes::one(number))
+        all(0..self.on_air())
     }
 
     fn on_air(self) -> u32 {
@@ -81,11 +82,15 @@ impl Numbers<'_> {
     }
 
     fn all_resumes(self) -> Classes {
-        (0..self.robots()).fold(Classes::NONE, |all, robot| all | self.resume(robot))
+        all(self.on_air() + 1..self.first_event())
     }
 
     fn first_event(self) -> u32 {
         self.on_air() + 1 + self.robots()
+    }
+
+    fn first_delivery(self) -> u32 {
+        self.first_event() + self.robots() * EVENTS
     }
 
     fn event(self, robot: u32, event: Event) -> Option<Classes> {
@@ -98,18 +103,16 @@ impl Numbers<'_> {
             Event::RoadClear => 5,
             _ => return None,
         };
-        Some(Classes::one(self.first_event() + robot * EVENTS + number))
+        Some(self.of_application(robot, number))
     }
 
-    /// What the pedestrian does at the sign of a robot.
-    fn pedestrian(self, robot: u32, number: u32) -> Classes {
+    /// An event of this number, or what the pedestrian does at the sign of a robot.
+    fn of_application(self, robot: u32, number: u32) -> Classes {
         Classes::one(self.first_event() + robot * EVENTS + number)
     }
 
     fn all_events(self) -> Classes {
-        let first = self.first_event();
-        (first..first + self.robots() * EVENTS)
-            .fold(Classes::NONE, |all, number| all | Classes::one(number))
+        all(self.first_event()..self.first_delivery())
     }
 
     fn delivery(self, transmission: Transmission, message: &Message) -> Option<Classes> {
@@ -126,15 +129,18 @@ impl Numbers<'_> {
         // No robot sends to itself.
         let to = u32::from(transmission.to - u8::from(transmission.to > transmission.from));
         let way = u32::from(transmission.from) * (self.robots() - 1) + to;
-        let first = self.first_event() + self.robots() * EVENTS;
-        Some(Classes::one(first + way * RAM_KINDS + kind))
+        Some(Classes::one(self.first_delivery() + way * RAM_KINDS + kind))
     }
 
     fn all_deliveries(self) -> Classes {
-        let first = self.first_event() + self.robots() * EVENTS;
-        (first..first + self.robots() * (self.robots() - 1) * RAM_KINDS)
-            .fold(Classes::NONE, |all, number| all | Classes::one(number))
+        let (first, ways) = (self.first_delivery(), self.robots() * (self.robots() - 1));
+        all(first..first + ways * RAM_KINDS)
     }
+}
+
+/// The classes of these numbers.
+fn all(numbers: Range<u32>) -> Classes {
+    numbers.fold(Classes::NONE, |all, number| all | Classes::one(number))
 }
 
 /// Which transitions of a model belong to which class.
@@ -188,8 +194,8 @@ impl Classifier<'_> {
             Action::Local(robot, event) if cooperative => {
                 numbers.event(robot.into(), event).unwrap_or_default()
             }
-            Action::StepOnRoad(robot) if cooperative => numbers.pedestrian(robot.into(), 6),
-            Action::Across(robot) if cooperative => numbers.pedestrian(robot.into(), 7),
+            Action::StepOnRoad(robot) if cooperative => numbers.of_application(robot.into(), 6),
+            Action::Across(robot) if cooperative => numbers.of_application(robot.into(), 7),
             Action::Resume(robot) => numbers.resume(robot.into()),
             Action::Local(..)
             | Action::Deliver { .. }
