@@ -26,6 +26,11 @@ impl<T> Numbered<T> {
         self.values.len()
     }
 
+    /// All of them, in order.
+    pub(crate) fn values(&self) -> &[T] {
+        &self.values
+    }
+
     /// The value of a number that was given out.
     pub(crate) fn get(&self, number: u32) -> &T {
         &self.values[number as usize]

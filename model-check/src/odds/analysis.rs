@@ -101,7 +101,7 @@ impl OddsModel {
         let of_all = if joint { &stages[..] } else { &stages[..1] };
         let mut odds = self.go_through(losses, of_all, 1, stop, &mut counted)?;
         if again > 0 {
-            let links = self.setup().followers();
+            let links = self.setup().followers;
             self.0.look_at_one_link(true);
             let one = self.go_through(losses, &stages, links, stop, &mut counted);
             self.0.look_at_one_link(false);
@@ -123,11 +123,7 @@ impl OddsModel {
         let mut sizes = Vec::new();
         for &stage in stages {
             let limits = self.limits(stage);
-            let frame = Frame {
-                grid: self.setup().grid(),
-                latest: self.latest(),
-                links,
-            };
+            let frame = self.frame(links);
             let mut space = StageSpace::new(&mut self.0, stage);
             for interim in &mut interim {
                 counted.tell(stage, interim.loss);
@@ -163,11 +159,7 @@ impl OddsModel {
         let mut interim = Interim::at(loss);
         for before in Stage::ALL.into_iter().take_while(|it| *it != stage) {
             let limits = self.limits(before);
-            let frame = Frame {
-                grid: self.setup().grid(),
-                latest: self.latest(),
-                links: 1,
-            };
+            let frame = self.frame(1);
             let mut space = StageSpace::new(&mut self.0, before);
             interim.go_through(&mut space, limits, frame, stop)?;
         }
@@ -198,30 +190,35 @@ impl OddsModel {
     }
 
     fn limits(&self, stage: Stage) -> FlowLimits {
-        let (setup, settings) = (self.setup(), self.setup().config().settings());
-        let ticks = |time| Some(setup.grid().ticks(time));
+        let (setup, settings) = (self.setup(), self.setup().config.settings());
+        let ticks = |time| setup.grid().ticks(time);
         FlowLimits {
-            horizon: (stage == Stage::Holding)
-                .then(|| ticks(setup.hold()))
-                .flatten(),
+            horizon: (stage == Stage::Holding).then(|| ticks(setup.hold())),
             width: self.0.width() / 3.0,
-            help: (stage == Stage::Gathering)
-                .then(|| ticks(settings.t_help))
-                .flatten(),
+            help: (stage == Stage::Gathering).then(|| ticks(settings.t_help)),
+        }
+    }
+
+    /// What the figures of a stage are told by, where one of `links` independent links is looked at.
+    fn frame(&self, links: u8) -> Frame {
+        Frame {
+            grid: self.setup().grid(),
+            latest: self.latest(),
+            links,
         }
     }
 
     /// A time after which neither of the first two stages goes on: a request, a member that does not join, the
     /// repetitions of a command, a lease and a follower without one all come to an end.
     fn latest(&self) -> Millis {
-        let (setup, settings) = (self.setup(), self.setup().config().settings());
+        let (setup, settings) = (self.setup(), self.setup().config.settings());
         let repeated = settings
             .t_ack
             .0
             .saturating_mul(u32::from(settings.n_ack) + 1);
         let times = [
             settings.t_help,
-            setup.config().t_lost(),
+            setup.config.t_lost(),
             Millis(repeated),
             settings.t_lease,
             // Each of them up to a tick late, and messages on their way.

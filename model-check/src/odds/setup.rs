@@ -15,12 +15,16 @@ const BURST_WIDTHS: [f64; FOLLOWERS_MAX as usize] = [1e-9, 1e-3, 1e-2];
 /// A team and what surrounds it. The loss rate is no part of it: which states there are does not depend on it.
 #[derive(Clone, Debug)]
 pub struct OddsSetup {
-    config: Config,
-    followers: u8,
+    /// The settings of every robot.
+    pub(super) config: Config,
+    /// How many followers there are.
+    pub(super) followers: u8,
     grid: TimeGrid,
-    burst: Option<Millis>,
+    /// The mean length of a burst of losses; `None` where losses are independent.
+    pub(super) burst: Option<Millis>,
     hold: Millis,
-    width: f64,
+    /// How far apart the bounds of a probability may be.
+    pub(super) width: f64,
     coupling: Coupling,
 }
 
@@ -234,12 +238,6 @@ impl OddsSetup {
         self
     }
 
-    /// How far apart the bounds of a probability may be.
-    #[must_use]
-    pub const fn width(&self) -> f64 {
-        self.width
-    }
-
     /// Whether there is such a channel at this loss rate.
     ///
     /// # Errors
@@ -263,22 +261,10 @@ impl OddsSetup {
         &self.config
     }
 
-    /// How many followers there are.
-    #[must_use]
-    pub const fn followers(&self) -> u8 {
-        self.followers
-    }
-
     /// The grid of time.
     #[must_use]
     pub const fn grid(&self) -> TimeGrid {
         self.grid
-    }
-
-    /// The mean length of a burst of losses; `None` where losses are independent.
-    #[must_use]
-    pub const fn burst(&self) -> Option<Millis> {
-        self.burst
     }
 
     /// How long the maneuver takes.
@@ -313,34 +299,19 @@ mod tests {
     #[test]
     fn what_does_not_fit_is_refused_by_its_cause() {
         assert!(setup((50, 50), None, 21_600).is_ok());
-        assert!(matches!(
-            setup((0, 50), None, 100),
-            Err(OddsImpossibility::Grid { .. })
-        ));
-        assert!(matches!(
-            setup((30, 60), None, 100),
-            Err(OddsImpossibility::Grid { .. })
-        ));
-        assert!(matches!(
-            setup((100, 100), None, 100),
-            Err(OddsImpossibility::Grid { .. })
-        ));
-        assert!(matches!(
-            setup((50, 0), None, 100),
-            Err(OddsImpossibility::Delay { .. })
-        ));
-        assert!(matches!(
-            setup((50, 50), Some(49), 100),
-            Err(OddsImpossibility::Burst { .. })
-        ));
-        assert!(matches!(
-            setup((50, 50), None, 49),
-            Err(OddsImpossibility::Hold { .. })
-        ));
-        assert!(matches!(
-            setup((50, 50), None, 60_001),
-            Err(OddsImpossibility::Hold { .. })
-        ));
+        let refused = [
+            ((0, 50), None, 100, "a grid of 0 ms"),
+            ((30, 60), None, 100, "a grid of 30 ms"),
+            ((100, 100), None, 100, "a grid of 100 ms"),
+            ((50, 0), None, 100, "a delay of 0 ms"),
+            ((50, 50), Some(49), 100, "bursts of 49 ms"),
+            ((50, 50), None, 49, "a maneuver of 49 ms"),
+            ((50, 50), None, 60_001, "a maneuver of 60001 ms"),
+        ];
+        for (grid, burst, hold, cause) in refused {
+            let refused = setup(grid, burst, hold).unwrap_err().to_string();
+            assert!(refused.starts_with(cause), "{cause}: {refused}");
+        }
     }
 
     #[test]

@@ -51,7 +51,7 @@ impl<'a> StageSpace<'a> {
     }
 
     /// How many products of chances have been found.
-    pub(super) fn products(&self) -> usize {
+    pub(super) const fn products(&self) -> usize {
         self.chances.len()
     }
 

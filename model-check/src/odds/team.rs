@@ -106,19 +106,19 @@ impl TeamModel {
     /// How far apart bounds may be. One link alone has so few states that they need not be as far apart as for all.
     pub(super) fn width(&self) -> f64 {
         if self.lossless == 0 {
-            self.setup.width()
+            self.setup.width
         } else {
-            self.setup.width().min(WIDTHS[0])
+            self.setup.width.min(WIDTHS[0])
         }
     }
 
     /// One bit for each follower.
     fn links(&self) -> u8 {
-        (1 << self.setup.followers()) - 1
+        (1 << self.setup.followers) - 1
     }
 
     fn team_size(&self) -> u8 {
-        self.setup.followers() + 1
+        self.setup.followers + 1
     }
 
     /// How many ticks a message takes.
@@ -149,14 +149,14 @@ impl TeamModel {
         let mut draft = TickDraft::from(state);
         let request = HelpRequest {
             urgency: Urgency::Medium,
-            followers: self.setup.followers(),
+            followers: self.setup.followers,
             tasks: TaskSet::of(&[TaskType::MOVE]),
             place: Place(1),
         };
         let detected = Event::PedestrianDetected(request);
         self.take_in(&mut draft, LEADER, TimedCause::Event(detected));
         self.canonicalize(&mut draft.state);
-        if self.setup.burst().is_none() {
+        if self.setup.burst.is_none() {
             return vec![(draft.chances, draft.state)];
         }
         self.bad_links()
@@ -240,7 +240,7 @@ impl TeamModel {
 
     /// The links at the end of a tick, where losses come in bursts.
     fn links_change(&self, state: &TeamState) -> Vec<TickDraft> {
-        if self.setup.burst().is_none() {
+        if self.setup.burst.is_none() {
             return vec![TickDraft::from(state.clone())];
         }
         let was_bad = state.bad;
@@ -272,7 +272,7 @@ impl TeamModel {
             }
             // Followers have no link of their own to each other: what they say is lost where either is cut off.
             let links = link(broadcast.from) | link(to);
-            if self.setup.burst().is_some() || links & !self.lossless == 0 {
+            if self.setup.burst.is_some() || links & !self.lossless == 0 {
                 if lost.state.bad & links == 0 {
                     self.take_in(&mut lost, to, cause);
                 }
@@ -354,7 +354,7 @@ impl TeamModel {
             return known.clone();
         }
         let input = self.robots.input(cause);
-        let stepped = self.robots.step(self.setup.config(), node, input);
+        let stepped = self.robots.step(&self.setup.config, node, input);
         let step = match stepped {
             Some((after, outputs)) => self.stepped(&after, &outputs),
             // No robot is ever down here.
@@ -375,7 +375,7 @@ impl TeamModel {
             .any(|output| matches!(output, Output::FallBack(..)));
         let held = robot.map(|robot| {
             after.renamed(&mut Held {
-                config: self.setup.config(),
+                config: &self.setup.config,
                 robot,
                 holds_help: true,
             })

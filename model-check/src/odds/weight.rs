@@ -3,9 +3,8 @@
 //! Which states there are and which follow which does not depend on the loss rate. So a transition keeps how often
 //! something is lost, arrives, or a channel changes in it, and one set of states serves all loss rates.
 
-use rustc_hash::FxHashMap;
-
 use super::setup::OddsSetup;
+use crate::numbered::Numbered;
 
 /// How often what happens in one transition.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
@@ -48,7 +47,7 @@ impl LinkOdds {
     /// Of a link that loses this share of messages. The chain of a bursty one has `loss` as its stationary
     /// probability to be bad, and leaves a burst after its mean length.
     fn new(setup: &OddsSetup, loss: f64) -> Self {
-        let Some(burst) = setup.burst() else {
+        let Some(burst) = setup.burst else {
             return Self {
                 loss,
                 worsens: 0.0,
@@ -66,10 +65,7 @@ impl LinkOdds {
 
 /// The products that occur, each once, by number.
 #[derive(Default)]
-pub(super) struct ChanceTable {
-    products: Vec<Chances>,
-    numbers: FxHashMap<Chances, u16>,
-}
+pub(super) struct ChanceTable(Numbered<Chances>);
 
 impl ChanceTable {
     /// The number of a product.
@@ -77,21 +73,18 @@ impl ChanceTable {
     /// # Panics
     /// When there are more than 65,536, which the few messages and links of a tick cannot make up.
     pub(super) fn number(&mut self, chances: Chances) -> u16 {
-        *self.numbers.entry(chances).or_insert_with(|| {
-            self.products.push(chances);
-            u16::try_from(self.products.len() - 1).expect("fewer than 65,536 products")
-        })
+        u16::try_from(self.0.add(chances)).expect("fewer than 65,536 products")
     }
 
     /// How many products there are.
-    pub(super) fn len(&self) -> usize {
-        self.products.len()
+    pub(super) const fn len(&self) -> usize {
+        self.0.len()
     }
 
     /// The probability of each product at this loss rate, by number.
     pub(super) fn at(&self, setup: &OddsSetup, loss: f64) -> Vec<f64> {
         let odds = LinkOdds::new(setup, loss);
-        let products = self.products.iter();
+        let products = self.0.values().iter();
         products.map(|product| product.probability(&odds)).collect()
     }
 }
