@@ -25,63 +25,46 @@ const PERSON: Street = Street::PERSON;
 /// A street, settings that are weaker, and the rule that these break alone.
 type Weakening = (Street, fn(&mut Setup), Rule);
 
+const DRIFTING: Street = Street {
+    drifts: 1,
+    ..PERSON
+};
+const WITH_VEHICLE: Street = Street {
+    vehicle: true,
+    ..PERSON
+};
+
+/// One empty frame is enough, and nobody lingers.
+fn trusts_one_frame(setup: &mut Setup) {
+    setup.sensors.miss_max = 0;
+    setup.sensors.linger = Millis(0);
+}
+
+/// Drivers need no time, and brakes are perfect.
+fn trusts_drivers(setup: &mut Setup) {
+    setup.traffic.reaction = Millis(0);
+    setup.traffic.deceleration_cmps2 = 60_000;
+}
+
+/// Nobody is ever known to be across, and the leader has patience.
+fn never_ends(setup: &mut Setup) {
+    setup.sensors.linger = Millis(60_000);
+    if let Some(plan) = &mut setup.plan {
+        plan.patience = Millis(60_000);
+    }
+}
+
+#[rustfmt::skip]
 const WEAKENINGS: &[Weakening] = &[
-    // One empty frame is enough, and nobody lingers.
-    (
-        PERSON,
-        |setup| {
-            setup.sensors.miss_max = 0;
-            setup.sensors.linger = Millis(0);
-        },
-        Rule::P1,
-    ),
+    (PERSON, trusts_one_frame, Rule::P1),
     // A guard is in position wherever it is.
-    (
-        Street {
-            drifts: 1,
-            ..PERSON
-        },
-        |setup| setup.position.tolerance_cm = 10_000,
-        Rule::P2,
-    ),
+    (DRIFTING, |setup| setup.position.tolerance_cm = 10_000, Rule::P2),
     // It is for a minute after its last position.
-    (
-        Street {
-            drifts: 1,
-            ..PERSON
-        },
-        |setup| setup.position.lease = Millis(60_000),
-        Rule::P2,
-    ),
-    // Drivers need no time, and brakes are perfect.
-    (
-        Street {
-            vehicle: true,
-            ..PERSON
-        },
-        |setup| {
-            setup.traffic.reaction = Millis(0);
-            setup.traffic.deceleration_cmps2 = 60_000;
-        },
-        Rule::P3,
-    ),
+    (DRIFTING, |setup| setup.position.lease = Millis(60_000), Rule::P2),
+    (WITH_VEHICLE, trusts_drivers, Rule::P3),
     // People have to wait for long.
-    (
-        PERSON,
-        |setup| setup.waiting.dwell = Millis(10_000),
-        Rule::P5,
-    ),
-    // Nobody is ever known to be across, and the leader has patience.
-    (
-        PERSON,
-        |setup| {
-            setup.sensors.linger = Millis(60_000);
-            if let Some(plan) = &mut setup.plan {
-                plan.patience = Millis(60_000);
-            }
-        },
-        Rule::P6,
-    ),
+    (PERSON, |setup| setup.waiting.dwell = Millis(10_000), Rule::P5),
+    (PERSON, never_ends, Rule::P6),
 ];
 
 #[test]

@@ -104,59 +104,22 @@ pub const SHIPPED: [Shipped; 6] = {
             states,
         }
     }
-    [
-        of(
-            "street-person",
-            "a sensor misses a person who crosses in every other frame, or less often",
-            PERSON,
-            MET,
-            39_333,
-        ),
-        of(
-            "street-ids",
-            "the same, and the tracker's ids change twice",
-            Street {
-                id_changes: 2,
-                ..PERSON
-            },
-            MET,
-            174_478,
-        ),
-        of(
-            "street-hang",
-            "the same with ids that stay, and the leader hangs for up to 1 s",
-            Street { hang: 2, ..PERSON },
-            MET,
-            1_484_523,
-        ),
-        of(
-            "street-blind",
-            "the same, and the sensor delivers nothing for up to 1 s",
-            Street { blind: 2, ..PERSON },
-            MET,
-            544_739,
-        ),
-        of(
-            "street-drift",
-            "the same, and the guard leaves its place, or does not know it any more",
-            Street {
-                drifts: 1,
-                ..PERSON
-            },
-            DRIFT,
-            364_857,
-        ),
-        of(
-            "street-vehicle",
-            "the same, and a vehicle comes at 50 km/h",
-            Street {
-                vehicle: true,
-                ..PERSON
-            },
-            VEHICLE,
-            499_106,
-        ),
-    ]
+    #[rustfmt::skip]
+    let shipped = [
+        of("street-person", "a sensor misses a person who crosses in every other frame, or less often",
+            PERSON, MET, 39_333),
+        of("street-ids", "the same, and the tracker's ids change twice",
+            Street { id_changes: 2, ..PERSON }, MET, 174_478),
+        of("street-hang", "the same with ids that stay, and the leader hangs for up to 1 s",
+            Street { hang: 2, ..PERSON }, MET, 1_484_523),
+        of("street-blind", "the same, and the sensor delivers nothing for up to 1 s",
+            Street { blind: 2, ..PERSON }, MET, 544_739),
+        of("street-drift", "the same, and the guard leaves its place, or does not know it any more",
+            Street { drifts: 1, ..PERSON }, DRIFT, 364_857),
+        of("street-vehicle", "the same, and a vehicle comes at 50 km/h",
+            Street { vehicle: true, ..PERSON }, VEHICLE, 499_106),
+    ];
+    shipped
 };
 
 impl Shipped {
