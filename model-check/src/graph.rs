@@ -115,15 +115,9 @@ impl Graph {
         }
         let level = self.levels.partition_point(|&first| first <= number) - 1;
         let state = self.state(number);
-        let mut actions = Vec::new();
         let leads_there = |&source: &u32| {
             let source = self.state(source);
-            actions.clear();
-            model.actions_in(&source, &mut actions);
-            actions.iter().any(|&action| {
-                let next = model.successor_up_to_symmetry(&source, action);
-                next.is_some_and(|(next, _)| next == state)
-            })
+            model.action_between(&source, &state).is_some()
         };
         (self.levels[level - 1]..self.levels[level]).find(leads_there)
     }

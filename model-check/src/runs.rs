@@ -37,13 +37,7 @@ impl Runs<'_> {
         let mut run = Vec::with_capacity(stem.len());
         for pair in stem.windows(2) {
             let (from, to) = (self.graph.state(pair[0]), self.graph.state(pair[1]));
-            let mut actions = Vec::new();
-            self.model.actions_in(&from, &mut actions);
-            let leads_there = |&action: &Action| {
-                let next = self.model.successor_up_to_symmetry(&from, action);
-                next.is_some_and(|(next, _)| next == to)
-            };
-            let action = actions.into_iter().find(leads_there);
+            let action = self.model.action_between(&from, &to);
             run.push((from, action));
         }
         run.extend(stem.last().map(|&last| (self.graph.state(last), None)));
