@@ -221,13 +221,13 @@ impl PropertyId {
     }
 
     /// The properties that are claimed of the model without time, in order.
-    pub fn all_untimed() -> impl Iterator<Item = Self> {
+    pub fn all_untimed() -> impl Iterator<Item = Self> + Clone {
         let is_claimed = |id: &Self| id.untimed().is_some();
         Self::ALL.into_iter().filter(is_claimed)
     }
 
     /// The properties that are claimed of the timed model, in order.
-    pub fn all_timed() -> impl Iterator<Item = Self> {
+    pub fn all_timed() -> impl Iterator<Item = Self> + Clone {
         let is_claimed = |id: &Self| id.timed().is_some();
         Self::ALL.into_iter().filter(is_claimed)
     }

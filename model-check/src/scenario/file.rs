@@ -194,15 +194,18 @@ impl File {
     }
 }
 
+/// The property of this name, if it is one of `all`, which are of this `kind`.
+fn property_among(
+    name: &str,
+    kind: &str,
+    all: impl Iterator<Item = PropertyId> + Clone,
+) -> Result<PropertyId, String> {
+    let id = all.clone().find(|id| id.name() == name);
+    id.ok_or_else(|| format!("no {kind} '{name}': {}", listed(all)))
+}
+
 fn untimed_property(name: &str, is_cooperative: bool) -> Result<PropertyId, String> {
-    let id = name.parse().ok();
-    let id = id.filter(|id: &PropertyId| id.untimed().is_some());
-    let id = id.ok_or_else(|| {
-        format!(
-            "no property '{name}': {}",
-            listed(PropertyId::all_untimed())
-        )
-    })?;
+    let id = property_among(name, "property", PropertyId::all_untimed())?;
     let rule = id.liveness_rule();
     if rule.is_some_and(|rule| rule.needs_cooperation) && !is_cooperative {
         return Err(format!(
@@ -213,14 +216,7 @@ fn untimed_property(name: &str, is_cooperative: bool) -> Result<PropertyId, Stri
 }
 
 fn timed_property(name: &str) -> Result<PropertyId, String> {
-    let id = name.parse().ok();
-    let id = id.filter(|id: &PropertyId| id.timed().is_some());
-    id.ok_or_else(|| {
-        format!(
-            "no timed property '{name}': {}",
-            listed(PropertyId::all_timed())
-        )
-    })
+    property_among(name, "timed property", PropertyId::all_timed())
 }
 
 /// The properties of these names.
