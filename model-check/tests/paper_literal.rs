@@ -7,6 +7,7 @@ use std::sync::LazyLock;
 
 use crossguard_model_check::paper::{
     Hazard, HazardKind, Reading, Text, check, fails_as_it_must, is_found_in, on_the_road, page,
+    runs,
 };
 use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::report::{CheckVerdict, PropertyReport, ScenarioReport};
@@ -60,11 +61,7 @@ fn texts() -> Vec<Text> {
 fn each_hazard_is_stated_silent_or_ambiguous_and_has_its_paragraph_and_its_run() {
     let page = page();
     for text in texts() {
-        let kind = match text.kind {
-            HazardKind::Stated => "Stated",
-            HazardKind::Silent => "Silent",
-            HazardKind::Ambiguous => "Ambiguous",
-        };
+        let kind = text.kind.name();
         let passage = text.passage;
         let sections = ["II-D", "III-A"];
         assert!(sections.contains(&passage.section), "{}", text.id);
@@ -144,6 +141,19 @@ fn other_readings_do_to_hazards_what_the_page_says() {
 fn a_lost_command_is_not_waited_for_for_ever() {
     let report = &*REPORT;
     assert_eq!(report.verdict("P10"), Some(CheckVerdict::Holds));
+}
+
+/// Keys and kinds are those that the studio reads.
+#[test]
+fn a_run_is_written_flat_with_its_text() {
+    let run = &serde_json::to_value(runs()).unwrap()[0];
+    let keys: Vec<_> = run.as_object().unwrap().keys().collect();
+    let expected = "closedBy explanation frames id kind paragraph person repeatsAfter robots section statement steps title";
+    assert_eq!(keys, expected.split(' ').collect::<Vec<_>>());
+    assert_eq!(
+        (&run["kind"], &run["section"]),
+        (&"Silent".into(), &"III-A".into())
+    );
 }
 
 #[test]

@@ -2,6 +2,8 @@
 //! closes it; P10, which the text closes itself; and P0, which holds, so that the model is not taken for one
 //! in which anything can happen.
 
+use serde::Serialize;
+
 /// A property that the paper's text does not keep.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[allow(missing_docs, reason = "the ids are those of the table in `text`")]
@@ -22,7 +24,7 @@ pub enum Hazard {
 }
 
 /// What the text says about a hazard.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize)]
 pub enum HazardKind {
     /// The text states the rule from which it follows.
     Stated,
@@ -33,13 +35,14 @@ pub enum HazardKind {
 }
 
 /// Where in the paper a hazard comes from.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
 pub struct Passage {
     /// The section: `III-A`.
     pub section: &'static str,
     /// The paragraph in it.
     pub paragraph: &'static str,
     /// A few words of it, to find it by.
+    #[serde(skip)]
     pub words: &'static str,
 }
 

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::robot::{HelpStatus, PaperRobot};
+use super::texts::Text;
 use super::world::PaperWorld;
 use super::{Counterexample, broken_on_road, counterexamples};
 use crate::sequence::ChartStep;
@@ -11,24 +12,9 @@ use crate::sequence::ChartStep;
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct PaperRun {
-    /// The hazard's id, or the property's.
-    pub id: &'static str,
-    /// What happens, in a few words.
-    pub title: &'static str,
-    /// What the text says about it, in one word.
-    pub kind: &'static str,
-    /// The section of the paper.
-    pub section: &'static str,
-    /// The paragraph in it.
-    pub paragraph: &'static str,
-    /// What it breaks.
-    pub statement: &'static str,
-    /// How it comes about.
-    pub explanation: &'static str,
-    /// What it means for a person on the road or at the kerb.
-    pub person: &'static str,
-    /// The rule of the kit's protocol that closes it.
-    pub closed_by: &'static str,
+    /// What there is to say about it.
+    #[serde(flatten)]
+    pub text: Text,
     /// The robots' names.
     pub robots: Vec<&'static str>,
     /// What happens, in order.
@@ -62,19 +48,10 @@ pub fn runs() -> Vec<PaperRun> {
 
 impl PaperRun {
     fn of(found: &Counterexample) -> Self {
-        let text = found.text;
         let first = found.steps.first().map(|step| frame(&step.before));
         let later = found.steps.iter().map(|step| frame(&step.after));
         Self {
-            id: text.id,
-            title: text.title,
-            kind: text.kind.name(),
-            section: text.passage.section,
-            paragraph: text.passage.paragraph,
-            statement: text.statement,
-            explanation: text.explanation,
-            person: text.person,
-            closed_by: text.closed_by,
+            text: found.text,
             robots: found.cast.names.to_vec(),
             steps: found.chart(),
             repeats_after: found.repeats_after(),

@@ -1,12 +1,15 @@
 //! The hazards in words.
 
+use serde::Serialize;
+
 use super::hazards::HazardKind::{Ambiguous, Silent, Stated};
 use super::hazards::{Hazard, HazardKind, Passage};
 use super::readings::{OtherReading, Reading};
 use super::road::RoadProperty;
 
 /// What there is to say about a hazard.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Text {
     /// Its id.
     pub id: &'static str,
@@ -15,6 +18,7 @@ pub struct Text {
     /// What the text says about it.
     pub kind: HazardKind,
     /// Where the text says it, or would have to.
+    #[serde(flatten)]
     pub passage: Passage,
     /// The property that it breaks.
     pub statement: &'static str,
@@ -25,6 +29,7 @@ pub struct Text {
     /// The rule of the protocol that closes it, with the ids of the properties that verify it.
     pub closed_by: &'static str,
     /// A reading of the text that says more, and what becomes of the hazard in it.
+    #[serde(skip)]
     pub other_reading: Option<OtherReading>,
 }
 
