@@ -7,8 +7,8 @@ use crossguard_codec::{
     TaskProgression, encode, ram_from, rmcm_from_answer, rmcm_from_commands,
 };
 use crossguard_protocol::{
-    Answer, Availability, Command, Coordination, Heartbeat, Input, OfferNumber, Ram, RequestId,
-    Rmcm, Settings, StationId, TaskType,
+    Answer, Availability, Command, Heartbeat, Input, OfferNumber, Ram, RequestId, Rmcm, Settings,
+    StationId, TaskType,
 };
 
 use crate::exchange::{Exchange, Happening, Message, Player, RamSeen, Seen};
@@ -63,6 +63,10 @@ const FAR_M: f64 = 40.0;
 
 /// Metres of a degree of latitude, nearly.
 const METRES_PER_DEGREE: f64 = 111_200.0;
+
+fn failed(error: impl std::fmt::Display) -> Gone {
+    Gone::Link(error.to_string())
+}
 
 /// The tester at work.
 #[derive(Clone, Debug)]
@@ -203,16 +207,9 @@ impl<S: Subject> Bench<S> {
         let (state, time) = (self.state_of(player), self.subject.timestamp_its());
         let ids = self.terms.identifiers;
         let available = Availability::Available;
-        let message = ram_from(
-            &ids,
-            &state,
-            &ram,
-            available,
-            generation_delta_time(time),
-            true,
-        );
-        let message = message.map_err(|error| Gone::Link(error.to_string()))?;
-        let octets = encode(&ids, &message).map_err(|error| Gone::Link(error.to_string()))?;
+        let time = generation_delta_time(time);
+        let message = ram_from(&ids, &state, &ram, available, time, true).map_err(failed)?;
+        let octets = encode(&ids, &message).map_err(failed)?;
         let seen = RamSeen {
             ram,
             availability: available,
@@ -228,8 +225,8 @@ impl<S: Subject> Bench<S> {
         let ids = self.terms.identifiers;
         let time = generation_delta_time(time);
         let message = rmcm_from_commands(&ids, &state.position, &[(command, parameters)], time);
-        let message = message.map_err(|error| Gone::Link(error.to_string()))?;
-        let octets = encode(&ids, &message).map_err(|error| Gone::Link(error.to_string()))?;
+        let message = message.map_err(failed)?;
+        let octets = encode(&ids, &message).map_err(failed)?;
         self.transmit(player, Service::Rmcm, octets, Message::Command(command))
     }
 
@@ -242,8 +239,8 @@ impl<S: Subject> Bench<S> {
         };
         let time = generation_delta_time(time);
         let message = rmcm_from_answer(&ids, &state.position, &answer, status, time);
-        let message = message.map_err(|error| Gone::Link(error.to_string()))?;
-        let octets = encode(&ids, &message).map_err(|error| Gone::Link(error.to_string()))?;
+        let message = message.map_err(failed)?;
+        let octets = encode(&ids, &message).map_err(failed)?;
         self.transmit(player, Service::Rmcm, octets, Message::Answer(answer))
     }
 
@@ -257,7 +254,7 @@ impl<S: Subject> Bench<S> {
         let time = self.subject.timestamp_its();
         let ego = EgoPosition::of(&self.state_of(player), time);
         let packet = self.station(player).stack.packet(&ego, service, &octets);
-        let packet = packet.map_err(|error| Gone::Link(error.to_string()))?;
+        let packet = packet.map_err(failed)?;
         let at_ms = self.subject.now_ms();
         self.exchange.seen.push(Seen {
             at_ms,
@@ -279,7 +276,7 @@ impl<S: Subject> Bench<S> {
         let ego = EgoPosition::of(&self.state_of(Player::Ada), time);
         let stack = &mut self.station(Player::Ada).stack;
         let packet = stack.packet(&ego, Service::Ram, message);
-        packet.map_err(|error| Gone::Link(error.to_string()))
+        packet.map_err(failed)
     }
 
     /// Tells the robot something; whether it is to be waited for. What cannot be told is kept.
@@ -326,19 +323,16 @@ impl<S: Subject> Bench<S> {
         for input in heard.inputs.iter() {
             let message = match *input {
                 Input::Ram { ram, .. } => {
-                    self.newest = match ram.coordination {
-                        Coordination::NeedHelp { heartbeat, .. }
-                        | Coordination::Leader { heartbeat, .. } => Some(heartbeat),
-                        _ => None,
-                    };
-                    Message::Ram(RamSeen {
+                    let seen = RamSeen {
                         ram,
                         availability: heard.availability.unwrap_or_default(),
                         sign: state
                             .and_then(|state| state.slow.as_ref()?.signals)
                             .map(|signals| signals.to_pedestrians),
                         speed_mps: state.and_then(|state| Some(state.speed?.value)),
-                    })
+                    };
+                    self.newest = seen.heartbeat();
+                    Message::Ram(seen)
                 }
                 Input::Rmcm(Rmcm::Command(command)) => Message::Command(command),
                 Input::Rmcm(Rmcm::Answer(answer)) => Message::Answer(answer),

@@ -1,9 +1,11 @@
 //! What was sent, heard and told in one case, in order: all that a verdict may look at.
 
+use std::ops::RangeBounds;
+
 use crossguard_codec::PublicSignal;
 use crossguard_protocol::{
-    Answer, Availability, Command, Coordination, OfferNumber, Ram, Report, SessionId,
-    SessionNumber, StationId,
+    Answer, Availability, Command, Coordination, Farewell, Heartbeat, OfferNumber, Ram, Report,
+    SessionId, SessionNumber, StationId,
 };
 
 use crate::subject::Local;
@@ -45,6 +47,142 @@ pub struct RamSeen {
     pub speed_mps: Option<f64>,
 }
 
+/// A body that moves faster than this is under way, in m/s.
+const MOVES_MPS: f64 = 0.5;
+
+impl RamSeen {
+    /// The session that it has a part in, its own included.
+    pub(crate) const fn session(&self) -> Option<SessionId> {
+        match self.ram.coordination {
+            Coordination::None => None,
+            Coordination::NeedHelp { number, .. } | Coordination::Leader { number, .. } => {
+                let leader = self.ram.station;
+                Some(SessionId { leader, number })
+            }
+            Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. } => {
+                Some(session)
+            }
+        }
+    }
+
+    /// The number of its own session, if it asks for help or leads.
+    pub(crate) fn own_number(&self) -> Option<SessionNumber> {
+        self.heartbeat().and(self.session()).map(|own| own.number)
+    }
+
+    /// The heartbeat of a requester or leader.
+    pub(crate) const fn heartbeat(&self) -> Option<Heartbeat> {
+        match self.ram.coordination {
+            Coordination::NeedHelp { heartbeat, .. } | Coordination::Leader { heartbeat, .. } => {
+                Some(heartbeat)
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether it asks for help.
+    pub(crate) const fn asks(&self) -> bool {
+        matches!(self.ram.coordination, Coordination::NeedHelp { .. })
+    }
+
+    /// Whether it leads.
+    pub(crate) const fn leads(&self) -> bool {
+        matches!(self.ram.coordination, Coordination::Leader { .. })
+    }
+
+    /// The followers that it lists as a leader, each with the offer that it confirms.
+    pub(crate) fn listed(&self) -> Vec<(StationId, OfferNumber)> {
+        match self.ram.coordination {
+            Coordination::Leader { followers, .. } => {
+                followers.iter().map(|it| (it.station, it.offer)).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Whether it lists this follower.
+    pub(crate) fn lists(&self, station: StationId) -> bool {
+        self.listed().iter().any(|(listed, _)| *listed == station)
+    }
+
+    /// The offer that it makes.
+    pub(crate) const fn offer(&self) -> Option<(SessionId, OfferNumber)> {
+        match self.ram.coordination {
+            Coordination::OfferHelp { session, offer, .. } => Some((session, offer)),
+            _ => None,
+        }
+    }
+
+    /// Whether it offers to this session.
+    pub(crate) fn offers_to(&self, session: SessionId) -> bool {
+        self.offer().is_some_and(|(to, _)| to == session)
+    }
+
+    /// The session that it follows in, and what it reports.
+    pub(crate) const fn following(&self) -> Option<(SessionId, Option<Report>)> {
+        match self.ram.coordination {
+            Coordination::Follower { session, last, .. } => Some((session, last)),
+            _ => None,
+        }
+    }
+
+    /// Whether it follows in this session.
+    pub(crate) fn follows(&self, session: SessionId) -> bool {
+        self.following().is_some_and(|(now, _)| now == session)
+    }
+
+    /// The session that it follows in, while it executes a command or holds its place.
+    pub(crate) fn executes(&self) -> Option<SessionId> {
+        let (session, last) = self.following()?;
+        last?.progress.is_running().then_some(session)
+    }
+
+    /// The session of a helper or follower, and the heartbeat that it echoes.
+    pub(crate) const fn echo(&self) -> Option<(SessionId, Heartbeat)> {
+        match self.ram.coordination {
+            Coordination::OfferHelp { session, echo, .. }
+            | Coordination::Follower { session, echo, .. } => Some((session, echo)),
+            _ => None,
+        }
+    }
+
+    /// Whether its sender takes part.
+    pub(crate) fn is_available(&self) -> bool {
+        self.availability == Availability::Available
+    }
+
+    /// Whether its sender takes part, and has no part and no duty.
+    pub(crate) fn is_free(&self) -> bool {
+        self.ram.coordination == Coordination::None && !self.ram.on_duty && self.is_available()
+    }
+
+    /// Whether it names a session of its sender as ended.
+    pub(crate) fn names_as_ended(&self, number: SessionNumber) -> bool {
+        matches!(self.ram.farewell, Some(Farewell::Ended(ended, _)) if ended == number)
+    }
+
+    /// Whether it names a session as left.
+    pub(crate) fn names_as_left(&self, session: SessionId) -> bool {
+        matches!(self.ram.farewell, Some(Farewell::Left(left, _)) if left == session)
+    }
+
+    /// Whether it shows go to pedestrians.
+    pub(crate) fn shows_go(&self) -> bool {
+        self.sign == Some(PublicSignal::Go)
+    }
+
+    /// Whether its body is under way.
+    pub(crate) fn moves(&self) -> bool {
+        self.speed_mps.is_some_and(|speed| speed > MOVES_MPS)
+    }
+
+    /// Whether its body stands; not so where it does not say its speed.
+    pub(crate) fn stands(&self) -> bool {
+        let speed = self.speed_mps;
+        speed.is_some_and(|speed| speed.abs() <= MOVES_MPS)
+    }
+}
+
 /// What a message says.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[allow(clippy::large_enum_variant, reason = "most of them are RAM")]
@@ -55,6 +193,32 @@ pub enum Message {
     Command(Command),
     /// An answer to a command.
     Answer(Answer),
+}
+
+impl Message {
+    /// What it says as a RAM.
+    pub(crate) const fn ram(&self) -> Option<&RamSeen> {
+        match self {
+            Self::Ram(ram) => Some(ram),
+            _ => None,
+        }
+    }
+
+    /// What it says as a command.
+    pub(crate) const fn command(&self) -> Option<Command> {
+        match self {
+            Self::Command(command) => Some(*command),
+            _ => None,
+        }
+    }
+
+    /// What it says as an answer.
+    pub(crate) const fn answer(&self) -> Option<Answer> {
+        match self {
+            Self::Answer(answer) => Some(*answer),
+            _ => None,
+        }
+    }
 }
 
 /// Something that happened.
@@ -99,56 +263,53 @@ pub struct Exchange {
     pub ended_ms: u64,
 }
 
-/// A RAM of the robot under test, and when it arrived.
-pub(crate) type Said<'a> = (u64, &'a RamSeen);
-
 impl Exchange {
-    /// The RAM of the robot under test, in order.
-    pub(crate) fn rams(&self) -> impl DoubleEndedIterator<Item = Said<'_>> {
+    /// The messages of the robot under test, in order.
+    pub(crate) fn said(&self) -> impl DoubleEndedIterator<Item = (u64, &Message)> {
         self.seen.iter().filter_map(|seen| match &seen.what {
-            Happening::Said(Message::Ram(ram)) => Some((seen.at_ms, ram)),
+            Happening::Said(message) => Some((seen.at_ms, message)),
             _ => None,
         })
     }
 
-    /// The RAM of the tester's stations, in order.
-    pub(crate) fn played_rams(&self) -> impl DoubleEndedIterator<Item = (u64, Player, &RamSeen)> {
+    /// The messages of the tester's stations, in order.
+    fn played(&self) -> impl DoubleEndedIterator<Item = (u64, &Message)> {
         self.seen.iter().filter_map(|seen| match &seen.what {
-            Happening::Played(player, Message::Ram(ram)) => Some((seen.at_ms, *player, ram)),
+            Happening::Played(_, message) => Some((seen.at_ms, message)),
             _ => None,
         })
+    }
+
+    /// The RAM of the robot under test, in order.
+    pub(crate) fn rams(&self) -> impl DoubleEndedIterator<Item = (u64, &RamSeen)> {
+        self.said().filter_map(|(at, it)| Some((at, it.ram()?)))
+    }
+
+    /// The RAM of the tester's stations, in order.
+    pub(crate) fn played_rams(&self) -> impl DoubleEndedIterator<Item = (u64, &RamSeen)> {
+        self.played().filter_map(|(at, it)| Some((at, it.ram()?)))
     }
 
     /// The commands of the robot under test.
     pub(crate) fn commands(&self) -> impl DoubleEndedIterator<Item = (u64, Command)> {
-        self.seen.iter().filter_map(|seen| match seen.what {
-            Happening::Said(Message::Command(command)) => Some((seen.at_ms, command)),
-            _ => None,
-        })
+        self.said().filter_map(|(at, it)| Some((at, it.command()?)))
     }
 
     /// The commands of the tester's stations.
     pub(crate) fn played_commands(&self) -> impl DoubleEndedIterator<Item = (u64, Command)> {
-        self.seen.iter().filter_map(|seen| match seen.what {
-            Happening::Played(_, Message::Command(command)) => Some((seen.at_ms, command)),
-            _ => None,
-        })
+        self.played()
+            .filter_map(|(at, it)| Some((at, it.command()?)))
     }
 
     /// The answers of the robot under test.
     pub(crate) fn answers(&self) -> impl DoubleEndedIterator<Item = (u64, Answer)> {
-        self.seen.iter().filter_map(|seen| match seen.what {
-            Happening::Said(Message::Answer(answer)) => Some((seen.at_ms, answer)),
-            _ => None,
-        })
+        self.said().filter_map(|(at, it)| Some((at, it.answer()?)))
     }
 
     /// The answers of the tester's stations.
     pub(crate) fn played_answers(&self) -> impl DoubleEndedIterator<Item = (u64, Answer)> {
-        self.seen.iter().filter_map(|seen| match seen.what {
-            Happening::Played(_, Message::Answer(answer)) => Some((seen.at_ms, answer)),
-            _ => None,
-        })
+        self.played()
+            .filter_map(|(at, it)| Some((at, it.answer()?)))
     }
 
     /// What was told to the robot.
@@ -159,29 +320,39 @@ impl Exchange {
         })
     }
 
+    /// What was told to the robot, each with the newest RAM that had arrived of it by then.
+    pub(crate) fn told_in_state(&self) -> impl Iterator<Item = (u64, Local, &RamSeen)> {
+        self.told()
+            .filter_map(|(at, local)| Some((at, local, self.state_at(at)?)))
+    }
+
     /// When it was started anew.
     pub(crate) fn restarts(&self) -> impl DoubleEndedIterator<Item = u64> {
-        self.seen.iter().filter_map(|seen| match seen.what {
-            Happening::Restarted => Some(seen.at_ms),
-            _ => None,
-        })
+        let restarts = self.seen.iter();
+        restarts.filter_map(|seen| (seen.what == Happening::Restarted).then_some(seen.at_ms))
+    }
+
+    /// Whether the robot was told something or started anew at one of these times.
+    pub(crate) fn is_disturbed(&self, during: impl RangeBounds<u64>) -> bool {
+        let told = self.told().map(|(at, _)| at);
+        told.chain(self.restarts()).any(|at| during.contains(&at))
     }
 
     /// The newest RAM of the robot that had arrived by this time.
-    pub(crate) fn state_at(&self, at_ms: u64) -> Option<Said<'_>> {
-        self.rams().rfind(|(at, _)| *at <= at_ms)
+    pub(crate) fn state_at(&self, at_ms: u64) -> Option<&RamSeen> {
+        Some(self.rams().rfind(|(at, _)| *at <= at_ms)?.1)
     }
 
     /// The robot's situation by this time, in a few words.
     pub(crate) fn situation_at(&self, at_ms: u64) -> String {
-        let Some((_, seen)) = self.state_at(at_ms) else {
+        let Some(seen) = self.state_at(at_ms) else {
             return "unheard".to_owned();
         };
         let mut text = words::part(&seen.ram.coordination).to_owned();
         if seen.ram.on_duty {
             text.push_str(", on duty");
         }
-        if seen.availability != Availability::Available {
+        if !seen.is_available() {
             text.push_str(", unavailable");
         }
         text
@@ -203,38 +374,5 @@ impl Exchange {
     /// Until when what the tester did at `at_ms` may be judged: nothing else was done, and the tester listened.
     pub(crate) fn undisturbed_until(&self, at_ms: u64) -> u64 {
         self.next_play(at_ms).unwrap_or(self.ended_ms)
-    }
-}
-
-/// The session that a RAM has a part in, its own included.
-pub(crate) fn session_of(ram: &Ram) -> Option<SessionId> {
-    let own = |number: SessionNumber| SessionId {
-        leader: ram.station,
-        number,
-    };
-    match ram.coordination {
-        Coordination::None => None,
-        Coordination::NeedHelp { number, .. } | Coordination::Leader { number, .. } => {
-            Some(own(number))
-        }
-        Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. } => {
-            Some(session)
-        }
-    }
-}
-
-/// The offer that a RAM makes.
-pub(crate) const fn offer_of(ram: &Ram) -> Option<(SessionId, OfferNumber)> {
-    match ram.coordination {
-        Coordination::OfferHelp { session, offer, .. } => Some((session, offer)),
-        _ => None,
-    }
-}
-
-/// The session that a RAM follows in, and what it reports.
-pub(crate) const fn following(ram: &Ram) -> Option<(SessionId, Option<Report>)> {
-    match ram.coordination {
-        Coordination::Follower { session, last, .. } => Some((session, last)),
-        _ => None,
     }
 }

@@ -11,7 +11,7 @@ use crossguard_protocol::{
 };
 
 use crate::bench::{APART_MS, Bench};
-use crate::exchange::{Happening, Player, session_of};
+use crate::exchange::{Happening, Player};
 use crate::play::{Play, Side};
 use crate::station::{Beating, Part};
 use crate::subject::{Gone, Subject};
@@ -66,12 +66,9 @@ impl<S: Subject> Bench<S> {
     fn essence(&self) -> Option<String> {
         let said = self.said()?;
         let part = crate::words::part(&said.ram.coordination);
-        let list = match said.ram.coordination {
-            Coordination::Leader { followers, .. } => followers.iter().count(),
-            _ => 0,
-        };
+        let list = said.listed().len();
         let (farewell, duty) = (said.ram.farewell, said.ram.on_duty);
-        let session = session_of(&said.ram);
+        let session = said.session();
         let (sign, available) = (said.sign, said.availability);
         Some(format!(
             "{part} {session:?} {list} {farewell:?} {duty} {sign:?} {available:?}"
@@ -123,14 +120,14 @@ impl<S: Subject> Bench<S> {
             return false;
         };
         let part = said.ram.coordination;
-        let leads = matches!(part, Coordination::Leader { .. });
+        let leads = said.leads();
         let executes = |progress: Progress| match part {
             Coordination::Follower {
                 last: Some(report), ..
             } => report.progress == progress,
             _ => false,
         };
-        let is_available = said.availability == crossguard_protocol::Availability::Available;
+        let is_available = said.is_available();
         match play {
             Play::Detect | Play::DetectTwo => part == Coordination::None,
             Play::OrderMove
@@ -143,7 +140,7 @@ impl<S: Subject> Bench<S> {
                 executes(Progress::Executing) || executes(Progress::InPosition)
             }
             Play::Clear => said.ram.on_duty || leads,
-            Play::TaskCompleted => leads || matches!(part, Coordination::NeedHelp { .. }),
+            Play::TaskCompleted => leads || said.asks(),
             Play::Leave => part != Coordination::None,
             Play::LowBattery | Play::LocalFault => is_available,
             Play::Available => !is_available,
@@ -167,7 +164,7 @@ impl<S: Subject> Bench<S> {
         let Some(said) = self.said() else {
             return Ok(Performed::OutOfPlace);
         };
-        let number = session_of(&said.ram).map_or(
+        let number = said.session().map_or(
             SessionNumber(UniqueNumber { boot: 1, count: 0 }),
             |session| session.number,
         );

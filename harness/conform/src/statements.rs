@@ -30,16 +30,15 @@ mod roles;
 mod select;
 mod sign;
 
-use crossguard_protocol::{Coordination, Heartbeat};
+use std::ops::Deref;
+
+use crossguard_protocol::{Heartbeat, Millis, SessionId, Settings, StationId};
 
 use crate::bench::Terms;
-use crate::exchange::{Exchange, RamSeen, Seen, session_of};
+use crate::exchange::{Exchange, Message, RamSeen};
 
 /// How a statement was broken, if it was.
 type Breach = Option<String>;
-
-/// When something was seen, if it was.
-type SeenAt = Option<u64>;
 
 /// A place in an exchange where the premise of a statement was met.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -61,14 +60,14 @@ pub struct Statement {
     pub rule: &'static str,
     /// What it says.
     pub says: &'static str,
-    judge: fn(&Exchange, &Terms) -> Vec<Met>,
+    judge: fn(&Trace) -> Vec<Met>,
 }
 
 impl Statement {
     /// Where its premise was met in an exchange, and what came of it.
     #[must_use]
     pub fn judge(&self, exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-        (self.judge)(exchange, terms)
+        (self.judge)(&Trace { exchange, terms })
     }
 
     /// All of them, in the order of their rules.
@@ -97,17 +96,22 @@ pub(crate) fn number(rule: &str) -> u32 {
     rule.trim_start_matches('R').parse().unwrap_or(u32::MAX)
 }
 
-/// A statement that was met, and kept or broken.
-fn met(exchange: &Exchange, at_ms: u64, broken: Option<String>) -> Met {
-    Met {
-        at_ms,
-        situation: exchange.situation_at(at_ms),
-        broken,
+/// An exchange, and what is assumed of the robot in it: all that a statement is judged by.
+struct Trace<'a> {
+    exchange: &'a Exchange,
+    terms: &'a Terms,
+}
+
+impl Deref for Trace<'_> {
+    type Target = Exchange;
+
+    fn deref(&self) -> &Exchange {
+        self.exchange
     }
 }
 
 /// A statement that was met when something was so.
-fn met_when(at_ms: u64, situation: impl Into<String>, broken: Option<String>) -> Met {
+fn met_when(at_ms: u64, situation: impl Into<String>, broken: Breach) -> Met {
     Met {
         at_ms,
         situation: situation.into(),
@@ -115,99 +119,138 @@ fn met_when(at_ms: u64, situation: impl Into<String>, broken: Option<String>) ->
     }
 }
 
-/// The first time after `at_ms`, and at most `limit_ms` later, at which something was seen: `Some(None)` if it never
-/// was, `None` if that cannot be said because something else was done in between.
-fn reaction(
-    exchange: &Exchange,
-    at_ms: u64,
-    limit_ms: u64,
-    is_it: impl Fn(&Seen) -> bool,
-) -> Option<SeenAt> {
-    let until_ms = at_ms + limit_ms;
-    let mut after = exchange
-        .seen
-        .iter()
-        .filter(|seen| (at_ms..=until_ms).contains(&seen.at_ms));
-    if let Some(seen) = after.find(|seen| is_it(seen)) {
-        return Some(Some(seen.at_ms));
+impl Trace<'_> {
+    /// A setting of the robot in ms.
+    fn ms(&self, of: impl Fn(&Settings) -> Millis) -> u64 {
+        self.terms.ms(of)
     }
-    (exchange.undisturbed_until(at_ms) >= until_ms).then_some(None)
-}
 
-/// A reaction that has to be seen in time, in words.
-fn due(
-    exchange: &Exchange,
-    at_ms: u64,
-    limit_ms: u64,
-    what: &str,
-    is_it: impl Fn(&Seen) -> bool,
-) -> Option<Met> {
-    let seen = reaction(exchange, at_ms, limit_ms, is_it)?;
-    let broken = seen
-        .is_none()
-        .then(|| format!("within {limit_ms} ms {what}"));
-    Some(met(exchange, at_ms, broken))
-}
-
-/// The RAM that the robot said while nothing else was done after `at_ms`, but not before what was done can have had
-/// an effect.
-fn afterwards(exchange: &Exchange, at_ms: u64) -> impl Iterator<Item = (u64, &RamSeen)> + '_ {
-    let until_ms = exchange.undisturbed_until(at_ms);
-    exchange
-        .rams()
-        .filter(move |(at, _)| *at > at_ms && *at < until_ms)
-}
-
-/// Whether the robot's part was the same in all RAM while nothing else was done after `at_ms`; `None` if there were
-/// too few of them to say.
-fn part_unchanged(exchange: &Exchange, terms: &Terms, at_ms: u64) -> Option<Breach> {
-    let (_, before) = exchange.state_at(at_ms)?;
-    // A requester with an offer leads when its time comes.
-    let selects = matches!(before.ram.coordination, Coordination::NeedHelp { .. });
-    if selects || !is_in_contact(exchange, at_ms) {
-        return None;
+    /// How soon something that is due at once has to be seen, in ms.
+    fn soon_ms(&self) -> u64 {
+        self.terms.soon_ms()
     }
-    let same = |ram: &RamSeen| {
-        session_of(&ram.ram) == session_of(&before.ram)
-            && std::mem::discriminant(&ram.ram.coordination)
-                == std::mem::discriminant(&before.ram.coordination)
-    };
-    let has_part = session_of(&before.ram).is_some();
-    let enough_ms = if has_part {
-        terms.ms(|s| s.ram_period) + terms.slack_ms.min(200)
-    } else {
-        0
-    };
-    let mut last_ms = None;
-    for (at, ram) in afterwards(exchange, at_ms) {
-        if !same(ram) {
-            let now = crate::words::part(&ram.ram.coordination);
-            return Some(Some(format!("it is {now} {} ms later", at - at_ms)));
-        }
-        last_ms = Some(at);
-    }
-    (last_ms? >= at_ms + enough_ms).then_some(None)
-}
 
-/// Whether the leader of the session that the robot is in, if that is another, gave news within the last second: no timer
-/// ends the robot's part then.
-fn is_in_contact(exchange: &Exchange, at_ms: u64) -> bool {
-    let Some((_, state)) = exchange.state_at(at_ms) else {
-        return false;
-    };
-    let session = session_of(&state.ram).filter(|session| session.leader != exchange.robot);
-    let Some(session) = session else { return true };
-    let beats = exchange.played_rams().filter_map(|(at, _, played)| {
-        let (Coordination::NeedHelp { heartbeat, .. } | Coordination::Leader { heartbeat, .. }) =
-            played.ram.coordination
-        else {
+    /// A statement that was met, and kept or broken.
+    fn met(&self, at_ms: u64, broken: Breach) -> Met {
+        met_when(at_ms, self.situation_at(at_ms), broken)
+    }
+
+    /// What the robot has to say within `limit_ms`, in words. `None` if it does not say it, and something else was done
+    /// in between.
+    fn due(
+        &self,
+        at_ms: u64,
+        limit_ms: u64,
+        what: &str,
+        is_it: impl Fn(&Message) -> bool,
+    ) -> Option<Met> {
+        let until_ms = at_ms + limit_ms;
+        let mut said = self.said();
+        let is_said = said.any(|(at, it)| (at_ms..=until_ms).contains(&at) && is_it(it));
+        if !is_said && self.undisturbed_until(at_ms) < until_ms {
             return None;
+        }
+        let broken = (!is_said).then(|| format!("within {limit_ms} ms {what}"));
+        Some(self.met(at_ms, broken))
+    }
+
+    /// The same of a RAM.
+    fn ram_due(
+        &self,
+        at_ms: u64,
+        limit_ms: u64,
+        what: &str,
+        is_it: impl Fn(&RamSeen) -> bool,
+    ) -> Option<Met> {
+        self.due(at_ms, limit_ms, what, |it| it.ram().is_some_and(&is_it))
+    }
+
+    /// The same of a RAM that is due at once.
+    fn ram_soon(&self, at_ms: u64, what: &str, is_it: impl Fn(&RamSeen) -> bool) -> Option<Met> {
+        self.ram_due(at_ms, self.soon_ms(), what, is_it)
+    }
+
+    /// What no RAM may say while nothing else is done; `how` has words for one that says it so much later. `None` if
+    /// something else was done too soon.
+    fn never(
+        &self,
+        at_ms: u64,
+        is_it: impl Fn(&RamSeen) -> bool,
+        how: impl Fn(u64) -> String,
+    ) -> Option<Breach> {
+        let until_ms = self.undisturbed_until(at_ms);
+        if until_ms < at_ms + self.soon_ms() {
+            return None;
+        }
+        let mut rams = self.rams();
+        let found = rams.find(|(at, state)| (at_ms..until_ms).contains(at) && is_it(state));
+        Some(found.map(|(at, _)| how(at - at_ms)))
+    }
+
+    /// The RAM that the robot said while nothing else was done after `at_ms`, but not before what was done can have had
+    /// an effect.
+    fn afterwards(&self, at_ms: u64) -> impl Iterator<Item = (u64, &RamSeen)> {
+        let until_ms = self.undisturbed_until(at_ms);
+        let rams = self.rams();
+        rams.filter(move |(at, _)| *at > at_ms && *at < until_ms)
+    }
+
+    /// Whether the robot's part was the same in all RAM while nothing else was done after `at_ms`; `None` if there were
+    /// too few of them to say.
+    fn part_unchanged(&self, at_ms: u64) -> Option<Breach> {
+        let before = self.state_at(at_ms)?;
+        // A requester with an offer leads when its time comes.
+        if before.asks() || !self.is_in_contact(at_ms) {
+            return None;
+        }
+        let kind = |state: &RamSeen| std::mem::discriminant(&state.ram.coordination);
+        let enough_ms = if before.session().is_some() {
+            self.ms(|s| s.ram_period) + self.terms.slack_ms.min(200)
+        } else {
+            0
         };
-        (session_of(&played.ram) == Some(session) && at <= at_ms).then_some((at, heartbeat))
-    });
-    news(beats)
-        .last()
-        .is_some_and(|(at, _)| at + 1_000 >= at_ms)
+        let mut last_ms = None;
+        for (at, state) in self.afterwards(at_ms) {
+            if (state.session(), kind(state)) != (before.session(), kind(before)) {
+                let now = crate::words::part(&state.ram.coordination);
+                return Some(Some(format!("it is {now} {} ms later", at - at_ms)));
+            }
+            last_ms = Some(at);
+        }
+        (last_ms? >= at_ms + enough_ms).then_some(None)
+    }
+
+    /// Whether the leader of the session that the robot is in, if that is another, gave news within the last second: no
+    /// timer ends the robot's part then.
+    fn is_in_contact(&self, at_ms: u64) -> bool {
+        let Some(state) = self.state_at(at_ms) else {
+            return false;
+        };
+        let Some(session) = state.session().filter(|it| it.leader != self.robot) else {
+            return true;
+        };
+        let beats = self.heartbeats(session).filter(|(at, _)| *at <= at_ms);
+        let newest = news(beats).last();
+        newest.is_some_and(|(at, _)| at + 1_000 >= at_ms)
+    }
+
+    /// The heartbeats that were played of a session.
+    fn heartbeats(&self, session: SessionId) -> impl Iterator<Item = (u64, Heartbeat)> {
+        let played = self.played_rams();
+        let of_it = played.filter(move |(_, it)| it.session() == Some(session));
+        of_it.filter_map(|(at, it)| Some((at, it.heartbeat()?)))
+    }
+
+    /// The heartbeats that a follower of a session echoed.
+    fn echoes(
+        &self,
+        session: SessionId,
+        from: StationId,
+    ) -> impl Iterator<Item = (u64, Heartbeat)> {
+        let played = self.played_rams();
+        let of_it = played.filter(move |(_, it)| it.ram.station == from && it.follows(session));
+        of_it.filter_map(|(at, it)| Some((at, it.echo()?.1)))
+    }
 }
 
 /// When each heartbeat that was newer than all before was played: `(at, heartbeat)`, of RAM that give one.

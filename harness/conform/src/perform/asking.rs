@@ -23,86 +23,57 @@ impl<S: Subject> Bench<S> {
         let station = self.station(player);
         (station.part, station.farewell) = (Part::Asks { number, request }, None);
         station.beating = Beating::Newer;
-        self.hurry(player);
+    }
+
+    /// Bo leads somebody who is not there.
+    fn leads_nobody(&mut self, urgency: Urgency, place: Place) {
+        let number = SessionNumber(self.station(Player::Bo).issue());
+        let somebody = Confirmation {
+            station: StationId(77),
+            offer: OfferNumber(UniqueNumber { boot: 1, count: 0 }),
+        };
+        self.station(Player::Bo).part = Part::Leads {
+            number,
+            followers: [somebody].into_iter().collect(),
+            urgency,
+            place,
+        };
     }
 
     /// The tester asks for help.
     pub(super) fn begin_as_requester(&mut self, play: Play) -> bool {
-        let tasks = TaskSet(0b111);
-        let is_free = |bench: &mut Self, player| {
-            matches!(
-                bench.station(player).part,
-                Part::Nothing | Part::SaysNothing
-            )
+        let player = match play {
+            Play::Ask | Play::AskForUnsupported => Player::Ada,
+            _ => Player::Bo,
         };
-        let place = self.place_of_robot();
-        let competes = self.said().is_some_and(|said| {
-            matches!(
-                said.ram.coordination,
-                Coordination::NeedHelp { .. } | Coordination::Leader { .. }
-            )
-        });
-        match play {
-            Play::Ask if is_free(self, Player::Ada) => {
-                self.asks(Player::Ada, tasks, Urgency::Medium, Place::UNKNOWN);
-                true
-            }
-            Play::AskForUnsupported if is_free(self, Player::Ada) => {
-                self.asks(
-                    Player::Ada,
-                    TaskSet(1 << UNSUPPORTED),
-                    Urgency::Medium,
-                    Place::UNKNOWN,
-                );
-                true
-            }
-            Play::BoAsks if is_free(self, Player::Bo) => {
-                self.asks(Player::Bo, tasks, Urgency::High, Place::UNKNOWN);
-                true
-            }
-            Play::BoAsksFirst | Play::BoAsksFirstOnce if competes && is_free(self, Player::Bo) => {
-                self.asks(Player::Bo, tasks, Urgency::Emergency, place);
-                if play == Play::BoAsksFirstOnce {
-                    self.station(Player::Bo).beating = Beating::Same;
-                }
-                true
-            }
-            Play::BoAsksLater if competes && is_free(self, Player::Bo) => {
-                self.asks(Player::Bo, tasks, Urgency::Low, place);
-                true
-            }
-            Play::BoLeadsFirst | Play::BoLeadsFirstOnce | Play::BoLeadsLater
-                if competes && is_free(self, Player::Bo) =>
-            {
-                let number = SessionNumber(self.station(Player::Bo).issue());
-                let somebody = Confirmation {
-                    station: StationId(77),
-                    offer: OfferNumber(UniqueNumber { boot: 1, count: 0 }),
-                };
-                let urgency = match play {
-                    Play::BoLeadsLater => Urgency::Low,
-                    _ => Urgency::Emergency,
-                };
-                let bo = self.station(Player::Bo);
-                bo.part = Part::Leads {
-                    number,
-                    followers: [somebody].into_iter().collect(),
-                    urgency,
-                    place,
-                };
-                if play == Play::BoLeadsFirstOnce {
-                    bo.beating = Beating::Same;
-                }
-                self.hurry(Player::Bo);
-                true
-            }
-            Play::BoSpeaks if is_free(self, Player::Bo) => {
-                self.station(Player::Bo).part = Part::SaysNothing;
-                self.hurry(Player::Bo);
-                true
-            }
-            _ => false,
+        let competes = self.said().is_some_and(|said| said.asks() || said.leads());
+        let is_free = matches!(self.station(player).part, Part::Nothing | Part::SaysNothing);
+        if !is_free {
+            return false;
         }
+        let (tasks, nowhere, here) = (TaskSet(0b111), Place::UNKNOWN, self.place_of_robot());
+        let unsupported = TaskSet(1 << UNSUPPORTED);
+        match play {
+            Play::Ask => self.asks(player, tasks, Urgency::Medium, nowhere),
+            Play::AskForUnsupported => self.asks(player, unsupported, Urgency::Medium, nowhere),
+            Play::BoAsks => self.asks(player, tasks, Urgency::High, nowhere),
+            Play::BoSpeaks => self.station(player).part = Part::SaysNothing,
+            _ if !competes => return false,
+            Play::BoAsksFirst | Play::BoAsksFirstOnce => {
+                self.asks(player, tasks, Urgency::Emergency, here);
+            }
+            Play::BoAsksLater => self.asks(player, tasks, Urgency::Low, here),
+            Play::BoLeadsFirst | Play::BoLeadsFirstOnce => {
+                self.leads_nobody(Urgency::Emergency, here);
+            }
+            Play::BoLeadsLater => self.leads_nobody(Urgency::Low, here),
+            _ => return false,
+        }
+        if matches!(play, Play::BoAsksFirstOnce | Play::BoLeadsFirstOnce) {
+            self.station(player).beating = Beating::Same;
+        }
+        self.hurry(player);
+        true
     }
 
     /// The place of the robot's own request or session.

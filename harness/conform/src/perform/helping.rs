@@ -6,7 +6,7 @@ use crossguard_protocol::{
 };
 
 use crate::bench::{APART_MS, Bench};
-use crate::exchange::{Player, session_of};
+use crate::exchange::Player;
 use crate::play::Play;
 use crate::station::{Part, other_number};
 use crate::subject::{Gone, Subject};
@@ -17,13 +17,12 @@ impl<S: Subject> Bench<S> {
             return Ok(false);
         };
         let robot = self.exchange.robot;
-        let session = session_of(&said.ram).filter(|session| session.leader == robot);
-        let asks = matches!(said.ram.coordination, Coordination::NeedHelp { .. });
-        let listed = |player: StationId| match said.ram.coordination {
-            Coordination::Leader { followers, .. } => {
-                followers.iter().find(|it| it.station == player).copied()
-            }
-            _ => None,
+        let session = said.session().filter(|session| session.leader == robot);
+        let asks = said.asks();
+        let listed = |player: StationId| {
+            let mut listed = said.listed().into_iter();
+            let found = listed.find(|(station, _)| *station == player);
+            found.map(|(_, offer)| offer)
         };
         let t_safety = self.terms.settings.t_safety;
         let [ada, bo] = self.terms.players;
@@ -69,12 +68,12 @@ impl<S: Subject> Bench<S> {
                     Player::Bo
                 };
                 let id = self.station(player).id;
-                let Some(confirmed) = listed(id) else {
+                let Some(offer) = listed(id) else {
                     return Ok(false);
                 };
                 let station = self.station(player);
                 station.part = Part::Nothing;
-                station.farewell = Some(Farewell::Left(session, confirmed.offer));
+                station.farewell = Some(Farewell::Left(session, offer));
                 self.hurry(player);
             }
             (Play::BoIntrudes, Some(session)) if listed(bo).is_none() => {
@@ -85,7 +84,7 @@ impl<S: Subject> Bench<S> {
                 let sessions: Vec<SessionId> = self
                     .exchange
                     .rams()
-                    .filter_map(|(_, it)| session_of(&it.ram))
+                    .filter_map(|(_, it)| it.session())
                     .collect();
                 let is_over = |it: &&SessionId| it.leader == robot && Some(**it) != session;
                 let over = sessions.iter().rfind(is_over).copied();
@@ -128,61 +127,20 @@ impl<S: Subject> Bench<S> {
         if command.session != session {
             return Ok(false);
         }
-        let accepted = Answer {
+        let mut answer = Answer {
             from: ada,
             session,
             request: command.request,
             verdict: Verdict::Accepted,
         };
         let other = |by: i8| RequestId(command.request.0.wrapping_add_signed(by));
-        let (player, answers) = match play {
-            Play::Ack => (Player::Ada, vec![accepted; 3]),
-            Play::Reject => {
-                let verdict = Verdict::Rejected(Rejection::UnsupportedTask);
-                (
-                    Player::Ada,
-                    vec![
-                        Answer {
-                            verdict,
-                            ..accepted
-                        };
-                        3
-                    ],
-                )
-            }
-            Play::AckOther => {
-                let of = |by| Answer {
-                    request: other(by),
-                    ..accepted
-                };
-                (Player::Ada, vec![of(-1), of(1), of(-1), of(1)])
-            }
-            Play::AckElsewhere => {
-                let session = SessionId {
-                    number: other_number(session.number),
-                    ..session
-                };
-                (
-                    Player::Ada,
-                    vec![
-                        Answer {
-                            session,
-                            ..accepted
-                        };
-                        3
-                    ],
-                )
-            }
-            Play::BoAcks => (
-                Player::Bo,
-                vec![
-                    Answer {
-                        from: bo,
-                        ..accepted
-                    };
-                    3
-                ],
-            ),
+        let (mut player, mut requests) = (Player::Ada, vec![command.request; 3]);
+        match play {
+            Play::Ack => {}
+            Play::Reject => answer.verdict = Verdict::Rejected(Rejection::UnsupportedTask),
+            Play::AckOther => requests = [-1, 1, -1, 1].map(other).to_vec(),
+            Play::AckElsewhere => answer.session.number = other_number(session.number),
+            Play::BoAcks => (player, answer.from) = (Player::Bo, bo),
             _ => {
                 let (request, progress) = match play {
                     Play::ReportExecuting => (command.request, Progress::Executing),
@@ -195,9 +153,9 @@ impl<S: Subject> Bench<S> {
                 self.follow(Player::Ada, session, Some(Report { request, progress }));
                 return Ok(true);
             }
-        };
-        for answer in answers {
-            self.send_answer(player, answer)?;
+        }
+        for request in requests {
+            self.send_answer(player, Answer { request, ..answer })?;
             self.pass(APART_MS)?;
         }
         Ok(true)

@@ -6,7 +6,7 @@ use crossguard_protocol::{
 };
 
 use crate::bench::{APART_MS, Bench};
-use crate::exchange::{Player, offer_of};
+use crate::exchange::{Player, RamSeen};
 use crate::play::Play;
 use crate::station::{Beating, Part, UNSUPPORTED, other_number};
 use crate::subject::{Gone, Subject};
@@ -24,56 +24,37 @@ impl<S: Subject> Bench<S> {
         self.hurry(player);
     }
 
+    /// Leads another session than before.
+    fn lead_elsewhere(&mut self, player: Player, list: Confirmation) {
+        let number = SessionNumber(self.station(player).issue());
+        self.lead(player, number, list);
+    }
+
     /// The tester leads the robot.
     pub(super) fn begin_as_leader(&mut self, play: Play) -> Result<bool, Gone> {
-        let (robot, bo) = (self.exchange.robot, self.terms.players[1]);
-        let session = self.station(Player::Ada).own_session();
-        let offered = self.said().and_then(|said| offer_of(&said.ram));
-        let offered = offered.filter(|(to, _)| Some(*to) == session);
+        let (station, bo) = (self.exchange.robot, self.terms.players[1]);
+        let Some(session) = self.station(Player::Ada).own_session() else {
+            return Ok(false);
+        };
+        let offered = self.said().and_then(RamSeen::offer);
+        let offered = offered.filter(|(to, _)| *to == session);
+        let offered = offered.map(|(_, offer)| Confirmation { station, offer });
         let leads = matches!(self.station(Player::Ada).part, Part::Leads { .. });
         let nobody = Confirmation {
             station: bo,
             offer: OfferNumber(UniqueNumber { boot: 1, count: 0 }),
         };
-        Ok(match (play, session, offered) {
-            (Play::Confirm, Some(session), Some((_, offer))) => {
-                let station = robot;
-                self.lead(Player::Ada, session.number, Confirmation { station, offer });
-                true
-            }
-            (Play::ConfirmOtherOffer, Some(session), Some((_, offer))) => {
-                let other = UniqueNumber {
-                    count: offer.0.count + 1,
-                    ..offer.0
-                };
-                let list = Confirmation {
-                    station: robot,
-                    offer: OfferNumber(other),
-                };
+        match (play, offered) {
+            (Play::Confirm, Some(list)) => self.lead(Player::Ada, session.number, list),
+            (Play::ConfirmOtherOffer, Some(mut list)) => {
+                list.offer.0.count += 1;
                 self.lead(Player::Ada, session.number, list);
-                true
             }
-            (Play::ConfirmNobody, Some(session), Some(_)) => {
-                self.lead(Player::Ada, session.number, nobody);
-                true
-            }
-            (Play::ConfirmElsewhere, Some(_), Some((_, offer))) => {
-                let number = SessionNumber(self.station(Player::Ada).issue());
-                let station = robot;
-                self.lead(Player::Ada, number, Confirmation { station, offer });
-                true
-            }
-            (Play::BoConfirms, Some(_), Some((_, offer))) => {
-                let number = SessionNumber(self.station(Player::Bo).issue());
-                let station = robot;
-                self.lead(Player::Bo, number, Confirmation { station, offer });
-                true
-            }
-            (Play::Drop, Some(session), _) if leads => {
-                self.lead(Player::Ada, session.number, nobody);
-                true
-            }
-            (Play::EndCompleted | Play::EndAborted, Some(session), _) => {
+            (Play::ConfirmNobody, Some(_)) => self.lead(Player::Ada, session.number, nobody),
+            (Play::ConfirmElsewhere, Some(list)) => self.lead_elsewhere(Player::Ada, list),
+            (Play::BoConfirms, Some(list)) => self.lead_elsewhere(Player::Bo, list),
+            (Play::Drop, _) if leads => self.lead(Player::Ada, session.number, nobody),
+            (Play::EndCompleted | Play::EndAborted, _) => {
                 let how = if play == Play::EndCompleted {
                     Ending::Completed
                 } else {
@@ -83,23 +64,21 @@ impl<S: Subject> Bench<S> {
                 (ada.part, ada.beating) = (Part::Nothing, Beating::Newer);
                 ada.farewell = Some(Farewell::Ended(session.number, how));
                 self.hurry(Player::Ada);
-                true
             }
-            (Play::EndElsewhere, Some(session), _) => {
+            (Play::EndElsewhere, _) => {
                 let other = other_number(session.number);
-                let ada = self.station(Player::Ada);
-                ada.farewell = Some(Farewell::Ended(other, Ending::Completed));
+                let farewell = Farewell::Ended(other, Ending::Completed);
+                self.station(Player::Ada).farewell = Some(farewell);
                 self.hurry(Player::Ada);
-                true
             }
-            (Play::BareNone, Some(_), _) => {
+            (Play::BareNone, _) => {
                 self.station(Player::Ada).part = Part::SaysNothing;
                 self.hurry(Player::Ada);
-                true
             }
-            (_, Some(session), _) if play.commands() && leads => self.command(play, session)?,
-            _ => false,
-        })
+            _ if play.commands() && leads => return self.command(play, session),
+            _ => return Ok(false),
+        }
+        Ok(true)
     }
 
     fn command(&mut self, play: Play, session: SessionId) -> Result<bool, Gone> {
@@ -109,41 +88,30 @@ impl<S: Subject> Bench<S> {
             Play::CommandUnsupported => TaskType::new(UNSUPPORTED).unwrap_or(TaskType::MOVE),
             _ => TaskType::MOVE,
         };
-        let to = self.exchange.robot;
         let next = Command {
             session,
-            to,
+            to: self.exchange.robot,
             request: self.next_request,
             task,
         };
-        let command = match play {
-            Play::CommandElsewhere => Command {
-                session: SessionId {
-                    number: other_number(session.number),
-                    ..session
-                },
-                ..next
-            },
-            Play::CommandToOther => Command {
-                to: self.terms.players[1],
-                ..next
-            },
+        let mut command = next;
+        match play {
+            Play::CommandElsewhere => command.session.number = other_number(session.number),
+            Play::CommandToOther => command.to = self.terms.players[1],
             Play::Repeat | Play::Older => {
                 let Some(newest) = self.command.filter(|command| command.session == session) else {
                     return Ok(false);
                 };
-                let request = match play {
-                    Play::Older => RequestId(newest.request.0.wrapping_sub(5)),
-                    _ => newest.request,
-                };
-                Command { request, ..newest }
+                command = newest;
+                if play == Play::Older {
+                    command.request = RequestId(newest.request.0.wrapping_sub(5));
+                }
             }
             _ => {
                 self.next_request = self.next_request.next();
                 self.command = Some(next);
-                next
             }
-        };
+        }
         let is_new = command == next && self.command == Some(next);
         let answers = |bench: &Self| {
             let mut answers = bench.exchange.answers();

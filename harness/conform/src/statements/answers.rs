@@ -1,12 +1,12 @@
 //! A follower and its commands.
 
 use crossguard_protocol::{
-    Answer, Availability, Command, Progress, Rejection, Report, SessionId, TaskSet, Verdict,
+    Answer, Command, Coordination, Progress, Rejection, Report, RequestId, SessionId, TaskSet,
+    Verdict,
 };
 
-use super::{Breach, Met, afterwards, due, met};
-use crate::bench::Terms;
-use crate::exchange::{Exchange, Happening, Message, RamSeen, Seen, following, offer_of};
+use super::{Breach, Met, Trace};
+use crate::exchange::{Happening, RamSeen};
 use crate::subject::Local;
 use crate::words;
 
@@ -37,28 +37,22 @@ statements! {
         "A follower that is on duty rejects a new command, with that reason, unless it is to go on with what it fell back from.";
 }
 
-/// A body that moves faster than this is under way, in m/s.
-const MOVES_MPS: f64 = 0.5;
+/// A command as it was sent once: when, and what the robot's newest RAM reported then.
+type Commanded = (u64, Command, Option<Report>);
 
-fn is_answer(seen: &Seen, is_it: impl Fn(&Answer) -> bool) -> bool {
-    matches!(&seen.what, Happening::Said(Message::Answer(answer)) if is_it(answer))
-}
-
-/// The commands of the session in which the robot follows at that time, each time they were sent: with when the
-/// robot's newest RAM says so.
-fn own_commands(exchange: &Exchange) -> impl Iterator<Item = (u64, Command, Option<Report>)> + '_ {
-    exchange.played_commands().filter_map(|(at, command)| {
-        let (_, state) = exchange.state_at(at)?;
-        let (session, last) = following(&state.ram)?;
-        let is_own = command.session == session && command.to == exchange.robot;
+/// The commands of the session in which the robot follows at that time, each time they were sent.
+fn own_commands(trace: &Trace) -> impl Iterator<Item = Commanded> {
+    trace.played_commands().filter_map(|(at, command)| {
+        let (session, last) = trace.state_at(at)?.following()?;
+        let is_own = command.session == session && command.to == trace.robot;
         is_own.then_some((at, command, last))
     })
 }
 
 /// The first transmissions of commands that are newer than all before.
-fn new_commands(exchange: &Exchange) -> Vec<(u64, Command, Option<Report>)> {
-    let mut new: Vec<(u64, Command, Option<Report>)> = Vec::new();
-    for (at, command, last) in own_commands(exchange) {
+fn new_commands(trace: &Trace) -> Vec<Commanded> {
+    let mut new: Vec<Commanded> = Vec::new();
+    for (at, command, last) in own_commands(trace) {
         let is_newer = new.iter().all(|(_, known, _)| {
             known.session != command.session || command.request.is_newer_than(known.request)
         });
@@ -70,171 +64,142 @@ fn new_commands(exchange: &Exchange) -> Vec<(u64, Command, Option<Report>)> {
     new
 }
 
-fn acknowledged_before_executed(exchange: &Exchange, _: &Terms) -> Vec<Met> {
-    let mut found: Vec<(SessionId, Report)> = Vec::new();
+fn acknowledged_before_executed(trace: &Trace) -> Vec<Met> {
+    let mut found: Vec<(SessionId, RequestId)> = Vec::new();
     let mut all = Vec::new();
-    for (at, state) in exchange.rams() {
-        let Some((session, Some(report))) = following(&state.ram) else {
+    for (at, state) in trace.rams() {
+        let Some((session, Some(report))) = state.following() else {
             continue;
         };
-        let is_known = |(s, r): &(SessionId, Report)| *s == session && r.request == report.request;
-        if found.iter().any(is_known) {
+        let Report { request, progress } = report;
+        if found.contains(&(session, request)) {
             continue;
         }
-        found.push((session, report));
-        let mut answers = exchange.answers().filter(|(then, _)| *then <= at);
-        let is_acknowledged = answers.any(|(_, answer)| {
-            answer.session == session
-                && answer.request == report.request
-                && answer.verdict == Verdict::Accepted
+        found.push((session, request));
+        let mut answers = trace.answers().filter(|(then, _)| *then <= at);
+        let is_acknowledged = answers.any(|(_, it)| {
+            (it.session, it.request, it.verdict) == (session, request, Verdict::Accepted)
         });
         let broken = (!is_acknowledged).then(|| {
-            let (request, progress) = (report.request, words::progress(report.progress));
+            let progress = words::progress(progress);
             format!("it reports command {request} as {progress}, which it has not acknowledged")
         });
-        all.push(met(exchange, at.saturating_sub(1), broken));
+        all.push(trace.met(at.saturating_sub(1), broken));
     }
     all
 }
 
-/// How long after its first transmission a command that is sent four times has to be answered.
-fn patience_ms(terms: &Terms) -> u64 {
-    terms.soon_ms()
+/// Whether an answer is to this command.
+fn is_to(answer: &Answer, command: &Command) -> bool {
+    (answer.session, answer.request) == (command.session, command.request)
 }
 
-fn commands_are_answered(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let judge = |(at, command, _): (u64, Command, Option<Report>)| {
-        due(exchange, at, patience_ms(terms), "no answer", |seen| {
-            is_answer(seen, |answer| {
-                answer.session == command.session && answer.request == command.request
-            })
-        })
-    };
-    new_commands(exchange)
-        .into_iter()
-        .filter_map(judge)
-        .collect()
+/// A command, which is sent four times, has to be answered by such a verdict.
+fn answered(
+    trace: &Trace,
+    at_ms: u64,
+    command: &Command,
+    what: &str,
+    is_it: impl Fn(Verdict) -> bool,
+) -> Option<Met> {
+    trace.due(at_ms, trace.soon_ms(), what, |said| {
+        let answer = said.answer().filter(|answer| is_to(answer, command));
+        answer.is_some_and(|answer| is_it(answer.verdict))
+    })
+}
+
+fn commands_are_answered(trace: &Trace) -> Vec<Met> {
+    let judge = |(at, it, _): Commanded| answered(trace, at, &it, "no answer", |_| true);
+    new_commands(trace).into_iter().filter_map(judge).collect()
 }
 
 /// New commands that must be rejected for a reason, where the robot's newest RAM is of that kind.
 fn rejected_where(
-    exchange: &Exchange,
-    terms: &Terms,
+    trace: &Trace,
     is_case: impl Fn(&RamSeen, &Command) -> bool,
     is_reason: impl Fn(Rejection) -> bool,
 ) -> Vec<Met> {
-    let judge = |(at, command, _): (u64, Command, Option<Report>)| {
-        let (_, state) = exchange.state_at(at)?;
-        if !is_case(state, &command) {
-            return None;
-        }
+    let is_rejected = |verdict| matches!(verdict, Verdict::Rejected(why) if is_reason(why));
+    let judge = |(at, command, _): Commanded| {
         let what = "no rejection with that reason";
-        due(exchange, at, patience_ms(terms), what, |seen| {
-            is_answer(seen, |answer| {
-                answer.session == command.session
-                    && answer.request == command.request
-                    && matches!(answer.verdict, Verdict::Rejected(why) if is_reason(why))
-            })
-        })
+        is_case(trace.state_at(at)?, &command)
+            .then(|| answered(trace, at, &command, what, is_rejected))?
     };
-    new_commands(exchange)
-        .into_iter()
-        .filter_map(judge)
-        .collect()
+    new_commands(trace).into_iter().filter_map(judge).collect()
 }
 
 /// The tasks that the robot offered.
-fn offered(exchange: &Exchange) -> Option<TaskSet> {
-    let mut offers = exchange.rams().filter_map(|(_, state)| {
-        offer_of(&state.ram)?;
-        match state.ram.coordination {
-            crossguard_protocol::Coordination::OfferHelp { capabilities, .. } => Some(capabilities),
-            _ => None,
-        }
-    });
-    offers.next()
+fn offered(trace: &Trace) -> Option<TaskSet> {
+    let mut rams = trace.rams();
+    rams.find_map(|(_, state)| match state.ram.coordination {
+        Coordination::OfferHelp { capabilities, .. } => Some(capabilities),
+        _ => None,
+    })
 }
 
-fn impossible_is_rejected(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let Some(offered) = offered(exchange) else {
+fn impossible_is_rejected(trace: &Trace) -> Vec<Met> {
+    let Some(offered) = offered(trace) else {
         return Vec::new();
     };
     let is_case = |state: &RamSeen, command: &Command| {
-        !offered.contains(command.task)
-            && !state.ram.on_duty
-            && state.availability == Availability::Available
+        !offered.contains(command.task) && !state.ram.on_duty && state.is_available()
     };
-    rejected_where(exchange, terms, is_case, |why| {
-        why == Rejection::UnsupportedTask
-    })
+    rejected_where(trace, is_case, |why| why == Rejection::UnsupportedTask)
 }
 
-fn unavailable_rejects(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let is_case = |state: &RamSeen, _: &Command| state.availability != Availability::Available;
-    rejected_where(exchange, terms, is_case, |why| {
-        matches!(why, Rejection::Unavailable(_))
-    })
+fn unavailable_rejects(trace: &Trace) -> Vec<Met> {
+    let is_reason = |why| matches!(why, Rejection::Unavailable(_));
+    rejected_where(trace, |state, _| !state.is_available(), is_reason)
 }
 
-fn on_duty_rejects(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
+fn on_duty_rejects(trace: &Trace) -> Vec<Met> {
     let is_case = |state: &RamSeen, command: &Command| {
-        state.ram.on_duty
-            && state.availability == Availability::Available
-            && !takes_up(exchange, state, command)
+        state.ram.on_duty && state.is_available() && !takes_up(trace, state, command)
     };
-    rejected_where(exchange, terms, is_case, |why| why == Rejection::OnDuty)
+    rejected_where(trace, is_case, |why| why == Rejection::OnDuty)
 }
 
 /// Whether a command is to do again what the robot falls back from in the same session.
-fn takes_up(exchange: &Exchange, state: &RamSeen, command: &Command) -> bool {
-    let Some((session, Some(report))) = following(&state.ram) else {
+fn takes_up(trace: &Trace, state: &RamSeen, command: &Command) -> bool {
+    let Some((session, Some(report))) = state.following() else {
         return false;
     };
-    own_commands(exchange).any(|(_, first, _)| {
-        first.session == session
-            && first.request == report.request
+    own_commands(trace).any(|(_, first, _)| {
+        (first.session, first.request) == (session, report.request)
             && (first.session, first.task) == (command.session, command.task)
     })
 }
 
-/// The first transmission of each play that repeats a command which was answered before.
-fn repeats(exchange: &Exchange) -> Vec<(u64, Command, Option<Report>, Verdict)> {
-    let mut all: Vec<(u64, Command, Option<Report>, Verdict)> = Vec::new();
-    for (at, command, last) in own_commands(exchange) {
-        let play_ms = play_before(exchange, at);
-        let mut before = exchange.answers().filter(|(then, _)| *then < play_ms);
-        let answer = before.find(|(_, answer)| {
-            answer.session == command.session && answer.request == command.request
-        });
+/// The first transmission of each play that repeats a command which was answered before, with that verdict.
+fn repeats(trace: &Trace) -> Vec<(Commanded, Verdict)> {
+    let mut all: Vec<(Commanded, Verdict)> = Vec::new();
+    for (at, command, last) in own_commands(trace) {
+        let play_ms = play_before(trace, at);
+        let mut before = trace.answers().filter(|(then, _)| *then < play_ms);
+        let answer = before.find(|(_, answer)| is_to(answer, &command));
         let is_newest = last.is_none_or(|last| last.request == command.request);
-        let is_first = all.iter().all(|(then, ..)| *then < play_ms);
+        let is_first = all.iter().all(|((then, ..), _)| *then < play_ms);
         if let (Some((_, answer)), true, true) = (answer, is_newest, is_first) {
-            all.push((at, command, last, answer.verdict));
+            all.push(((at, command, last), answer.verdict));
         }
     }
     all
 }
 
 /// When the play began in which something was sent.
-fn play_before(exchange: &Exchange, at_ms: u64) -> u64 {
-    let plays = exchange.seen.iter().rev();
+fn play_before(trace: &Trace, at_ms: u64) -> u64 {
+    let plays = trace.seen.iter().rev();
     let mut plays = plays.filter(|seen| matches!(seen.what, Happening::Play(_)));
     let play = plays.find(|seen| seen.at_ms <= at_ms);
     play.map_or(0, |seen| seen.at_ms)
 }
 
-fn repeats_are_answered(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let judge = |(at, command, _, verdict): (u64, Command, Option<Report>, Verdict)| {
+fn repeats_are_answered(trace: &Trace) -> Vec<Met> {
+    let judge = |((at, command, _), verdict): (Commanded, Verdict)| {
         let what = "no answer to the repeated command like the one before";
-        due(exchange, at, patience_ms(terms), what, |seen| {
-            is_answer(seen, |answer| {
-                answer.session == command.session
-                    && answer.request == command.request
-                    && answer.verdict == verdict
-            })
-        })
+        answered(trace, at, &command, what, |it| it == verdict)
     };
-    repeats(exchange).into_iter().filter_map(judge).collect()
+    repeats(trace).into_iter().filter_map(judge).collect()
 }
 
 /// How far a progress is: it never gets less.
@@ -247,124 +212,99 @@ const fn rank(progress: Progress) -> u8 {
 }
 
 /// Whether the robot starts something anew after `at_ms`; `None` if nothing was heard of it.
-fn starts_anew(exchange: &Exchange, at_ms: u64) -> Option<Breach> {
-    let (_, before) = exchange.state_at(at_ms)?;
-    let (session, last) = following(&before.ram)?;
-    let stands = |state: &RamSeen| {
-        state
-            .speed_mps
-            .is_some_and(|speed| speed.abs() <= MOVES_MPS)
-    };
-    let stood = stands(before) && last.is_none_or(|last| rank(last.progress) > 0);
+fn starts_anew(trace: &Trace, at_ms: u64) -> Option<Breach> {
+    let before = trace.state_at(at_ms)?;
+    let (session, last) = before.following()?;
+    let stood = before.stands() && last.is_none_or(|last| rank(last.progress) > 0);
     let mut heard = false;
-    for (at, state) in afterwards(exchange, at_ms) {
+    for (at, state) in trace.afterwards(at_ms) {
         heard = true;
         let later_ms = at - at_ms;
-        let Some((now_in, now)) = following(&state.ram) else {
+        let Some((_, now)) = state.following().filter(|(now_in, _)| *now_in == session) else {
             continue;
         };
-        if now_in != session {
-            continue;
-        }
-        match (last, now) {
-            (_, None) => {}
-            (None, Some(now)) => {
-                let request = now.request;
-                return Some(Some(format!(
-                    "it reports command {request} {later_ms} ms later"
-                )));
-            }
-            (Some(last), Some(now)) => {
-                let (request, progress) = (now.request, words::progress(now.progress));
-                let is_older = last.request.is_newer_than(now.request);
-                let goes_back =
-                    last.request == now.request && rank(now.progress) < rank(last.progress);
-                if is_older || goes_back || now.request != last.request {
-                    let text =
-                        format!("it reports command {request} as {progress} {later_ms} ms later");
-                    return Some(Some(text));
+        if let Some(Report { request, progress }) = now {
+            let goes_back =
+                |last: Report| last.request != request || rank(progress) < rank(last.progress);
+            let how = match last {
+                None => Some(format!("it reports command {request}")),
+                Some(last) if goes_back(last) => {
+                    let progress = words::progress(progress);
+                    Some(format!("it reports command {request} as {progress}"))
                 }
+                Some(_) => None,
+            };
+            if let Some(how) = how {
+                return Some(Some(format!("{how} {later_ms} ms later")));
             }
         }
-        if stood && !state.ram.on_duty && state.speed_mps.is_some_and(|speed| speed > MOVES_MPS) {
+        if stood && !state.ram.on_duty && state.moves() {
             return Some(Some(format!("its body sets out {later_ms} ms later")));
         }
     }
     heard.then_some(None)
 }
 
-fn repeats_start_nothing(exchange: &Exchange, _: &Terms) -> Vec<Met> {
-    let repeats = repeats(exchange).into_iter();
-    let judge = |(at, ..): (u64, Command, Option<Report>, Verdict)| {
-        Some(met(exchange, at, starts_anew(exchange, at)?))
-    };
-    repeats.filter_map(judge).collect()
+/// Repeated commands must start nothing, where the robot's newest RAM reports that.
+fn start_nothing_where(trace: &Trace, is_case: impl Fn(Option<Report>) -> bool) -> Vec<Met> {
+    let repeats = repeats(trace).into_iter();
+    let repeats = repeats.filter(|((_, _, last), _)| is_case(*last));
+    repeats
+        .filter_map(|((at, ..), _)| Some(trace.met(at, starts_anew(trace, at)?)))
+        .collect()
 }
 
-fn fallen_back_stays(exchange: &Exchange, _: &Terms) -> Vec<Met> {
-    let fell_back =
-        |last: &Option<Report>| last.is_some_and(|last| last.progress == Progress::SafeIdle);
-    let repeats = repeats(exchange).into_iter();
-    let repeats = repeats.filter(|(_, _, last, _)| fell_back(last));
-    let judge = |(at, ..): (u64, Command, Option<Report>, Verdict)| {
-        Some(met(exchange, at, starts_anew(exchange, at)?))
-    };
-    repeats.filter_map(judge).collect()
+fn repeats_start_nothing(trace: &Trace) -> Vec<Met> {
+    start_nothing_where(trace, |_| true)
+}
+
+fn fallen_back_stays(trace: &Trace) -> Vec<Met> {
+    start_nothing_where(trace, |last| {
+        last.is_some_and(|last| last.progress == Progress::SafeIdle)
+    })
 }
 
 /// What must not be answered and must start nothing.
-fn changes_nothing(exchange: &Exchange, at_ms: u64, command: Command) -> Option<Met> {
-    let until_ms = exchange.undisturbed_until(at_ms);
-    let mut answers = exchange.answers();
-    let answered = answers.any(|(at, answer)| {
-        (at_ms..until_ms).contains(&at)
-            && answer.session == command.session
-            && answer.request == command.request
-    });
-    let broken = if answered {
-        Some(format!("it answers command {}", command.request))
-    } else {
-        starts_anew(exchange, at_ms)?
+fn change_nothing(trace: &Trace, commands: impl Iterator<Item = (u64, Command)>) -> Vec<Met> {
+    let judge = |(at_ms, command): (u64, Command)| {
+        let until_ms = trace.undisturbed_until(at_ms);
+        let mut answers = trace.answers();
+        let answered =
+            answers.any(|(at, it)| (at_ms..until_ms).contains(&at) && is_to(&it, &command));
+        let broken = if answered {
+            Some(format!("it answers command {}", command.request))
+        } else {
+            starts_anew(trace, at_ms)?
+        };
+        Some(trace.met(at_ms, broken))
     };
-    Some(met(exchange, at_ms, broken))
+    commands.filter_map(judge).collect()
 }
 
-fn older_changes_nothing(exchange: &Exchange, _: &Terms) -> Vec<Met> {
-    let older = own_commands(exchange).filter(|(_, command, last)| {
+fn older_changes_nothing(trace: &Trace) -> Vec<Met> {
+    let older = own_commands(trace).filter(|(_, command, last)| {
         last.is_some_and(|last| last.request.is_newer_than(command.request))
     });
-    older
-        .filter_map(|(at, command, _)| changes_nothing(exchange, at, command))
-        .collect()
+    change_nothing(trace, older.map(|(at, command, _)| (at, command)))
 }
 
-fn elsewhere_changes_nothing(exchange: &Exchange, _: &Terms) -> Vec<Met> {
-    let elsewhere = exchange.played_commands().filter(|(at, command)| {
-        let state = exchange.state_at(*at);
-        let own = state.and_then(|(_, state)| following(&state.ram));
-        command.to == exchange.robot && own.is_some_and(|(session, _)| session != command.session)
+fn elsewhere_changes_nothing(trace: &Trace) -> Vec<Met> {
+    let elsewhere = trace.played_commands().filter(|(at, command)| {
+        let own = trace.state_at(*at).and_then(RamSeen::following);
+        command.to == trace.robot && own.is_some_and(|(session, _)| session != command.session)
     });
-    elsewhere
-        .filter_map(|(at, command)| changes_nothing(exchange, at, command))
-        .collect()
+    change_nothing(trace, elsewhere)
 }
 
-fn to_others_changes_nothing(exchange: &Exchange, _: &Terms) -> Vec<Met> {
-    let others = exchange
-        .played_commands()
-        .filter(|(_, command)| command.to != exchange.robot);
-    others
-        .filter_map(|(at, command)| changes_nothing(exchange, at, command))
-        .collect()
+fn to_others_changes_nothing(trace: &Trace) -> Vec<Met> {
+    let commands = trace.played_commands();
+    change_nothing(trace, commands.filter(|(_, it)| it.to != trace.robot))
 }
 
-fn progress_is_reported(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let judge = |(at, local): (u64, Local)| {
-        let (_, state) = exchange.state_at(at)?;
-        let (session, report) = following(&state.ram)?;
-        let request = report
-            .filter(|report| report.progress.is_running())?
-            .request;
+fn progress_is_reported(trace: &Trace) -> Vec<Met> {
+    let judge = |(at, local, state): (u64, Local, &RamSeen)| {
+        let (session, report) = state.following()?;
+        let request = report.filter(|it| it.progress.is_running())?.request;
         let is_it = |progress: Progress| match local {
             // A body may be in position and done in one RAM period.
             Local::InPosition => progress != Progress::Executing,
@@ -375,17 +315,11 @@ fn progress_is_reported(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
         if !matches!(local, Local::InPosition | Local::Done | Local::Fail) {
             return None;
         }
-        due(
-            exchange,
-            at,
-            terms.soon_ms(),
-            "no RAM that reports it",
-            |seen| {
-                matches!(&seen.what, Happening::Said(Message::Ram(ram))
-                if following(&ram.ram).is_some_and(|(now, last)| now == session
-                    && last.is_some_and(|last| last.request == request && is_it(last.progress))))
-            },
-        )
+        trace.ram_soon(at, "no RAM that reports it", |state| {
+            let last = state.following().filter(|(now, _)| *now == session);
+            let last = last.and_then(|(_, last)| last);
+            last.is_some_and(|last| last.request == request && is_it(last.progress))
+        })
     };
-    exchange.told().filter_map(judge).collect()
+    trace.told_in_state().filter_map(judge).collect()
 }

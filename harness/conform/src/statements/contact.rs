@@ -1,10 +1,8 @@
 //! Heartbeats, their echoes, and what a follower does without them.
 
-use crossguard_protocol::{Coordination, Farewell, Heartbeat, Progress, SessionId};
+use crossguard_protocol::{Coordination, Heartbeat, Progress, SessionId};
 
-use super::{Met, due, met, met_when, news};
-use crate::bench::Terms;
-use crate::exchange::{Exchange, Happening, Message, following, offer_of, session_of};
+use super::{Met, Trace, met_when, news};
 
 statements! {
     "falls-back-not-before-t-safety" "R12" not_before_t_safety:
@@ -21,33 +19,15 @@ statements! {
         "The heartbeat of a requester or leader grows in every RAM period, and never by more than the periods that have passed.";
 }
 
-/// The heartbeats that the leader of a session played in it.
-fn heartbeats(
-    exchange: &Exchange,
-    session: SessionId,
-) -> impl Iterator<Item = (u64, Heartbeat)> + '_ {
-    exchange.played_rams().filter_map(move |(at, _, played)| {
-        if session_of(&played.ram) != Some(session) || played.ram.station != session.leader {
-            return None;
-        }
-        match played.ram.coordination {
-            Coordination::NeedHelp { heartbeat, .. } | Coordination::Leader { heartbeat, .. } => {
-                Some((at, heartbeat))
-            }
-            _ => None,
-        }
-    })
-}
-
 /// When the robot had news of its leader in a session for the last time, by `until_ms`.
-fn newest_news(exchange: &Exchange, session: SessionId, until_ms: u64) -> Option<u64> {
-    let beats = news(heartbeats(exchange, session)).map(|(at, _)| at);
+fn newest_news(trace: &Trace, session: SessionId, until_ms: u64) -> Option<u64> {
+    let beats = news(trace.heartbeats(session)).map(|(at, _)| at);
     // A command that was acknowledged for the first time.
     let mut known = Vec::new();
-    let commands = exchange.played_commands().filter_map(|(at, command)| {
+    let commands = trace.played_commands().filter_map(|(at, command)| {
         let is_new = command.session == session && !known.contains(&command.request);
         known.push(command.request);
-        let mut answers = exchange.answers();
+        let mut answers = trace.answers();
         let is_taken =
             answers.any(|(_, it)| it.session == session && it.request == command.request);
         (is_new && is_taken).then_some(at)
@@ -56,25 +36,21 @@ fn newest_news(exchange: &Exchange, session: SessionId, until_ms: u64) -> Option
 }
 
 /// The `t_safety` that the robot told in its offer to a session.
-fn t_safety_ms(exchange: &Exchange, terms: &Terms, session: SessionId) -> u64 {
-    let told = exchange
+fn t_safety_ms(trace: &Trace, session: SessionId) -> u64 {
+    let told = trace
         .rams()
         .find_map(|(_, state)| match state.ram.coordination {
-            Coordination::OfferHelp {
-                session: to,
-                t_safety,
-                ..
-            } if to == session => Some(u64::from(t_safety.0)),
+            Coordination::OfferHelp { t_safety, .. } if state.offers_to(session) => Some(t_safety),
             _ => None,
         });
-    told.unwrap_or_else(|| terms.ms(|settings| settings.t_safety))
+    told.map_or_else(|| trace.ms(|settings| settings.t_safety), |it| it.0.into())
 }
 
 /// The first RAM in which the robot reports that it fell back, in each session.
-fn fallbacks(exchange: &Exchange) -> Vec<(u64, SessionId)> {
+fn fallbacks(trace: &Trace) -> Vec<(u64, SessionId)> {
     let mut found: Vec<(u64, SessionId)> = Vec::new();
-    for (at, state) in exchange.rams() {
-        if let Some((session, Some(last))) = following(&state.ram)
+    for (at, state) in trace.rams() {
+        if let Some((session, Some(last))) = state.following()
             && last.progress == Progress::SafeIdle
             && found.iter().all(|(_, known)| *known != session)
         {
@@ -84,214 +60,178 @@ fn fallbacks(exchange: &Exchange) -> Vec<(u64, SessionId)> {
     found
 }
 
-fn not_before_t_safety(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
+fn not_before_t_safety(trace: &Trace) -> Vec<Met> {
+    let early_ms = trace.terms.early_ms;
     let judge = |(at, session): (u64, SessionId)| {
         // What arrived just before cannot have been in that RAM.
-        let since = newest_news(exchange, session, at.saturating_sub(terms.early_ms))?;
-        let t_safety_ms = t_safety_ms(exchange, terms, session);
+        let since = newest_news(trace, session, at.saturating_sub(early_ms))?;
+        let t_safety_ms = t_safety_ms(trace, session);
         let waited_ms = at - since;
-        let broken = (waited_ms + terms.early_ms < t_safety_ms).then(|| {
+        let broken = (waited_ms + early_ms < t_safety_ms).then(|| {
             format!("it fell back {waited_ms} ms after the newest heartbeat, with a t_safety of {t_safety_ms} ms")
         });
-        Some(met(exchange, at.saturating_sub(1), broken))
+        Some(trace.met(at.saturating_sub(1), broken))
     };
-    fallbacks(exchange).into_iter().filter_map(judge).collect()
+    fallbacks(trace).into_iter().filter_map(judge).collect()
 }
 
 /// How a leader kept silent after `at_ms`, in words.
-fn silence(exchange: &Exchange, session: SessionId, at_ms: u64) -> &'static str {
-    let mut after = heartbeats(exchange, session).filter(|(at, _)| *at > at_ms);
-    match after.next() {
-        None => "silence",
-        Some(_) => "old heartbeats",
+fn silence(trace: &Trace, session: SessionId, at_ms: u64) -> &'static str {
+    if trace.heartbeats(session).any(|(at, _)| at > at_ms) {
+        "old heartbeats"
+    } else {
+        "silence"
     }
 }
 
 /// The sessions in which the robot executes, and since when its leader had given no news by the end.
-fn silences(exchange: &Exchange) -> Vec<(u64, SessionId, bool)> {
+fn silences(trace: &Trace) -> Vec<(u64, SessionId, bool)> {
     let mut sessions: Vec<SessionId> = Vec::new();
-    for (_, state) in exchange.rams() {
-        if let Some((session, _)) = following(&state.ram)
+    for (_, state) in trace.rams() {
+        if let Some((session, _)) = state.following()
             && !sessions.contains(&session)
         {
             sessions.push(session);
         }
     }
-    let silence = |session| {
-        let since = newest_news(exchange, session, u64::MAX)?;
-        let (_, state) = exchange.state_at(since + 300)?;
-        let (now, last) = following(&state.ram)?;
-        let runs = last.is_some_and(|last| last.progress.is_running());
+    let silence = |session: SessionId| {
+        let since = newest_news(trace, session, u64::MAX)?;
+        let state = trace.state_at(since + 300)?;
+        let (now, _) = state.following()?;
         // The leader ends the session, or lists the robot no more.
-        let is_over = exchange.played_rams().any(|(at, _, played)| {
-            let ends = matches!(played.ram.farewell, Some(Farewell::Ended(number, _))
-                if number == session.number);
-            let releases = match played.ram.coordination {
-                Coordination::Leader { followers, .. } if at > since => {
-                    session_of(&played.ram) == Some(session)
-                        && followers.iter().all(|it| it.station != exchange.robot)
-                }
-                _ => false,
-            };
-            played.ram.station == session.leader && (ends || releases)
+        let is_over = trace.played_rams().any(|(at, it)| {
+            let releases =
+                at > since && it.leads() && it.session() == Some(session) && !it.lists(trace.robot);
+            it.ram.station == session.leader && (it.names_as_ended(session.number) || releases)
         });
-        let intervened =
-            exchange.told().any(|(at, _)| at > since) || exchange.restarts().any(|at| at > since);
-        (now == session && !is_over && !intervened).then_some((since, session, runs))
+        let runs = state.executes().is_some();
+        (now == session && !is_over && !trace.is_disturbed(since + 1..))
+            .then_some((since, session, runs))
     };
     sessions.into_iter().filter_map(silence).collect()
 }
 
-fn after_t_safety(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
+fn after_t_safety(trace: &Trace) -> Vec<Met> {
     let judge = |(since, session, runs): (u64, SessionId, bool)| {
-        let limit_ms = t_safety_ms(exchange, terms, session) + terms.soon_ms();
-        if !runs || exchange.ended_ms < since + limit_ms {
+        let limit_ms = t_safety_ms(trace, session) + trace.soon_ms();
+        if !runs || trace.ended_ms < since + limit_ms {
             return None;
         }
-        let mut after = exchange
-            .rams()
-            .filter(|(at, _)| (since..=since + limit_ms).contains(at));
-        let is_safe = after.any(|(_, state)| {
-            following(&state.ram).is_none_or(|(now, last)| {
-                now != session || last.is_none_or(|last| !last.progress.is_running())
-            })
-        });
+        let during = since..=since + limit_ms;
+        let mut after = trace.rams().filter(|(at, _)| during.contains(at));
+        let is_safe = after.any(|(_, state)| state.executes() != Some(session));
         let broken = (!is_safe)
             .then(|| format!("{limit_ms} ms after the newest heartbeat it still executes"));
-        let situation = format!(
-            "{} after {}",
-            exchange.situation_at(since + 300),
-            silence(exchange, session, since)
-        );
-        Some(met_when(since, situation, broken))
+        let situation = trace.situation_at(since + 300);
+        let how = silence(trace, session, since);
+        Some(met_when(since, format!("{situation} after {how}"), broken))
     };
-    silences(exchange).into_iter().filter_map(judge).collect()
+    silences(trace).into_iter().filter_map(judge).collect()
 }
 
-fn fallback_is_a_duty(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let judge = |(at, _): (u64, SessionId)| {
-        due(
-            exchange,
-            at,
-            terms.soon_ms(),
-            "no RAM that says it is on duty",
-            |seen| matches!(&seen.what, Happening::Said(Message::Ram(state)) if state.ram.on_duty),
-        )
-    };
-    fallbacks(exchange).into_iter().filter_map(judge).collect()
+fn fallback_is_a_duty(trace: &Trace) -> Vec<Met> {
+    let what = "no RAM that says it is on duty";
+    let judge = |(at, _): (u64, SessionId)| trace.ram_soon(at, what, |state| state.ram.on_duty);
+    fallbacks(trace).into_iter().filter_map(judge).collect()
 }
 
-fn leaves_after_t_leave(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let t_leave_ms = terms.ms(|settings| settings.t_leave);
+fn leaves_after_t_leave(trace: &Trace) -> Vec<Met> {
+    let t_leave_ms = trace.ms(|settings| settings.t_leave);
     let judge = |(since, session, _): (u64, SessionId, bool)| {
-        let due_ms = since + t_safety_ms(exchange, terms, session) + t_leave_ms;
-        let limit_ms = due_ms + terms.soon_ms();
-        let left = exchange.rams().find(|(at, state)| {
-            *at > since
-                && matches!(state.ram.farewell, Some(Farewell::Left(it, _)) if it == session)
-        });
-        let broken = match left {
-            Some((at, _)) if at + terms.early_ms < due_ms => {
+        let due_ms = since + t_safety_ms(trace, session) + t_leave_ms;
+        let limit_ms = due_ms + trace.soon_ms();
+        let mut after = trace.rams().filter(|(at, _)| *at > since);
+        let broken = match after.find(|(_, state)| state.names_as_left(session)) {
+            Some((at, _)) if at + trace.terms.early_ms < due_ms => {
                 Some(format!("it left {} ms too early", due_ms - at))
             }
             Some((at, _)) if at > limit_ms => Some(format!("it left {} ms too late", at - due_ms)),
             Some(_) => None,
-            None if exchange.ended_ms >= limit_ms => Some(format!(
+            None if trace.ended_ms >= limit_ms => Some(format!(
                 "it had not left {} ms after the newest heartbeat",
                 limit_ms - since
             )),
             None => return None,
         };
-        Some(met_when(since, exchange.situation_at(since + 300), broken))
+        Some(met_when(since, trace.situation_at(since + 300), broken))
     };
-    silences(exchange).into_iter().filter_map(judge).collect()
+    silences(trace).into_iter().filter_map(judge).collect()
 }
 
-fn echoes_what_it_heard(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
+fn echoes_what_it_heard(trace: &Trace) -> Vec<Met> {
     let mut all = Vec::new();
-    let mut before: Option<(SessionId, Heartbeat)> = None;
+    let mut before: Option<Heartbeat> = None;
     // A new offer begins with whatever heartbeat it was made for.
     let mut begun = (None, 0);
     let mut situations = Vec::new();
-    for (at, state) in exchange.rams() {
-        let (Coordination::OfferHelp { session, echo, .. }
-        | Coordination::Follower { session, echo, .. }) = state.ram.coordination
-        else {
+    for (at, state) in trace.rams() {
+        let Some((session, echo)) = state.echo() else {
             before = None;
             continue;
         };
-        let part = (session, offer_of(&state.ram).map(|(_, offer)| offer));
+        let part = (session, state.offer().map(|(_, offer)| offer));
         if begun.0 != Some(part) {
             begun = (Some(part), at);
             before = None;
         }
         let newest_by = |since: u64, until: u64| {
-            let beats =
-                heartbeats(exchange, session).filter(|(at, _)| (since..=until).contains(at));
+            let beats = trace.heartbeats(session);
+            let beats = beats.filter(|(at, _)| (since..=until).contains(at));
             news(beats).last().map(|(_, heartbeat)| heartbeat)
         };
         let Some(newest) = newest_by(0, at) else {
             continue;
         };
-        let settled = newest_by(begun.1, at.saturating_sub(terms.soon_ms()));
+        let soon_ms = trace.soon_ms();
+        let settled = newest_by(begun.1, at.saturating_sub(soon_ms));
+        let is_older = |than: &Heartbeat| than.is_newer_than(echo);
         let broken = if echo.is_newer_than(newest) {
             Some(format!(
                 "it echoes {echo}, and the newest heartbeat was {newest}"
             ))
-        } else if let Some((known, last)) = before
-            && known == session
-            && last.is_newer_than(echo)
-        {
+        } else if let Some(last) = before.filter(is_older) {
             Some(format!("it echoes {echo} after {last}"))
-        } else if let Some(settled) = settled
-            && settled.is_newer_than(echo)
-        {
-            let soon_ms = terms.soon_ms();
-            Some(format!(
-                "it echoes {echo}, and {settled} was sent {soon_ms} ms before"
-            ))
         } else {
-            None
+            settled.filter(is_older).map(|settled| {
+                format!("it echoes {echo}, and {settled} was sent {soon_ms} ms before")
+            })
         };
-        before = Some((session, echo));
-        let is_offer = offer_of(&state.ram).is_some();
-        let is_news = !situations.contains(&is_offer);
-        situations.push(is_offer);
+        before = Some(echo);
+        let situation = if state.offer().is_some() {
+            "offering"
+        } else {
+            "following"
+        };
+        let is_news = !situations.contains(&situation);
+        situations.push(situation);
         if broken.is_some() || is_news {
-            let situation = if is_offer { "offering" } else { "following" };
             all.push(met_when(at, situation, broken));
         }
     }
     all
 }
 
-fn heart_beats_in_time(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let period_ms = terms.ms(|settings| settings.ram_period);
+fn heart_beats_in_time(trace: &Trace) -> Vec<Met> {
+    let period_ms = trace.ms(|settings| settings.ram_period);
+    let slack_ms = trace.terms.slack_ms;
     let mut all = Vec::new();
     let mut first: Option<(SessionId, u64, Heartbeat)> = None;
-    let mut newest: Option<(u64, Heartbeat)> = None;
-    for (at, state) in exchange.rams() {
-        let (Coordination::NeedHelp { heartbeat, .. } | Coordination::Leader { heartbeat, .. }) =
-            state.ram.coordination
-        else {
+    let mut newest = (0, Heartbeat(0));
+    for (at, state) in trace.rams() {
+        let (Some(heartbeat), Some(session)) = (state.heartbeat(), state.session()) else {
             first = None;
-            continue;
-        };
-        let Some(session) = session_of(&state.ram) else {
             continue;
         };
         let Some((_, begun, begun_with)) = first.filter(|(known, ..)| *known == session) else {
             first = Some((session, at, heartbeat));
-            newest = Some((at, heartbeat));
+            newest = (at, heartbeat);
             continue;
         };
-        let Some((newest_at, known)) = newest else {
-            continue;
-        };
+        let (newest_at, known) = newest;
         let periods = u64::from(heartbeat.distance_from(begun_with));
         let passed_ms = at - begun;
         // The first may have been on its way for longer than this one.
-        let allowed = (passed_ms + terms.slack_ms) / period_ms + 1;
+        let allowed = (passed_ms + slack_ms) / period_ms + 1;
         let late_ms = at - newest_at;
         let broken = if known.is_newer_than(heartbeat) {
             Some(format!("heartbeat {heartbeat} comes after {known}"))
@@ -299,7 +239,7 @@ fn heart_beats_in_time(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             Some(format!(
                 "heartbeat {heartbeat} comes {passed_ms} ms after heartbeat {begun_with}"
             ))
-        } else if late_ms > 3 * period_ms + terms.slack_ms && heartbeat == known {
+        } else if late_ms > 3 * period_ms + slack_ms && heartbeat == known {
             Some(format!(
                 "for {late_ms} ms there was no heartbeat after {known}"
             ))
@@ -307,11 +247,11 @@ fn heart_beats_in_time(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             None
         };
         if heartbeat.is_newer_than(known) {
-            newest = Some((at, heartbeat));
+            newest = (at, heartbeat);
         }
         let is_tenth = periods == 5;
         if broken.is_some() || is_tenth {
-            all.push(met(exchange, at, broken));
+            all.push(trace.met(at, broken));
         }
     }
     all

@@ -1,11 +1,10 @@
 //! A leader that commands.
 
-use crossguard_protocol::{Answer, Command, Coordination, Farewell, RequestId, StationId};
+use crossguard_protocol::{Command, Farewell, StationId};
 
-use super::select::{begun, listed};
-use super::{Breach, Met, due, met, met_when};
-use crate::bench::Terms;
-use crate::exchange::{Exchange, Happening, Message, RamSeen, following, session_of};
+use super::select::begun;
+use super::{Breach, Met, Trace, met_when};
+use crate::exchange::RamSeen;
 use crate::subject::Local;
 
 statements! {
@@ -39,79 +38,71 @@ pub(super) struct Sent {
     pub(super) answered: Option<(u64, bool)>,
 }
 
-pub(super) fn sent(exchange: &Exchange) -> Vec<Sent> {
+pub(super) fn sent(trace: &Trace) -> Vec<Sent> {
     let mut all: Vec<Sent> = Vec::new();
-    for (at, command) in exchange.commands() {
-        let is_it = |sent: &&mut Sent| {
-            let known = sent.command;
-            (known.session, known.to, known.request)
-                == (command.session, command.to, command.request)
-        };
-        match all.iter_mut().find(is_it) {
+    for (at, command) in trace.commands() {
+        let id = |it: Command| (it.session, it.to, it.request);
+        match all.iter_mut().find(|sent| id(sent.command) == id(command)) {
             Some(sent) => sent.times.push(at),
             None => all.push(Sent {
                 command,
                 times: vec![at],
-                answered: None,
+                answered: answered(trace, command),
             }),
         }
-    }
-    for sent in &mut all {
-        let command = sent.command;
-        let matches = |answer: &Answer| {
-            (answer.session, answer.from, answer.request)
-                == (command.session, command.to, command.request)
-        };
-        let mut answers = exchange.played_answers();
-        let answered = answers
-            .find(|(_, answer)| matches(answer))
-            .map(|(at, _)| at);
-        let reported = exchange.played_rams().find(|(_, _, played)| {
-            played.ram.station == command.to
-                && following(&played.ram).is_some_and(|(session, last)| {
-                    session == command.session
-                        && last.is_some_and(|last| last.request == command.request)
-                })
-        });
-        let reported = reported.map(|(at, ..)| at);
-        sent.answered = match (answered, reported) {
-            (Some(at), reported) if reported.is_none_or(|then| at <= then) => Some((at, false)),
-            (_, Some(at)) => Some((at, true)),
-            _ => None,
-        };
     }
     all
 }
 
-/// Until when nothing but a repetition is to be expected of a command.
-fn waits_until(exchange: &Exchange, sent: &Sent) -> u64 {
-    let ended = exchange.rams().find(|(at, state)| {
-        *at > sent.times[0] && session_of(&state.ram) != Some(sent.command.session)
+/// When a command was answered, and whether by a report in a RAM alone.
+fn answered(trace: &Trace, command: Command) -> Option<(u64, bool)> {
+    let Command {
+        session,
+        to,
+        request,
+        ..
+    } = command;
+    let answer = trace
+        .played_answers()
+        .find(|(_, it)| (it.session, it.from, it.request) == (session, to, request));
+    let report = trace.played_rams().find(|(_, it)| {
+        let last = it.following().filter(|(now, _)| *now == session);
+        it.ram.station == to
+            && last.is_some_and(|(_, last)| last.is_some_and(|last| last.request == request))
     });
+    let answer = answer.map(|(at, _)| (at, false));
+    // Of both at once, the answer counts.
+    answer
+        .into_iter()
+        .chain(report.map(|(at, _)| (at, true)))
+        .min()
+}
+
+/// Until when nothing but a repetition is to be expected of a command.
+fn waits_until(trace: &Trace, sent: &Sent) -> u64 {
+    let mut later = trace.rams().filter(|(at, _)| *at > sent.times[0]);
+    let ended = later.find(|(_, state)| state.session() != Some(sent.command.session));
     let ends = [
         sent.answered.map(|(at, _)| at),
         ended.map(|(at, _)| at),
-        exchange.restarts().find(|at| *at > sent.times[0]),
+        trace.restarts().find(|at| *at > sent.times[0]),
     ];
-    let end = ends.into_iter().flatten().min();
-    end.unwrap_or(exchange.ended_ms).min(exchange.ended_ms)
+    ends.into_iter().flatten().fold(trace.ended_ms, u64::min)
 }
 
-fn repeated_after_t_ack(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let t_ack_ms = terms.ms(|settings| settings.t_ack);
-    let limit_ms = t_ack_ms + terms.soon_ms();
-    let n_ack = usize::from(terms.settings.n_ack);
+fn repeated_after_t_ack(trace: &Trace) -> Vec<Met> {
+    let t_ack_ms = trace.ms(|settings| settings.t_ack);
+    let limit_ms = t_ack_ms + trace.soon_ms();
+    let n_ack = usize::from(trace.terms.settings.n_ack);
     let mut all = Vec::new();
-    for sent in sent(exchange) {
-        let until_ms = waits_until(exchange, &sent);
+    for sent in sent(trace) {
+        let until_ms = waits_until(trace, &sent);
         for (i, at) in sent.times.iter().enumerate() {
-            let next = sent.times.get(i + 1).copied();
-            let broken = match next {
-                Some(next) if next - at + terms.early_ms < t_ack_ms => {
-                    Some(format!("it repeats the command after {} ms", next - at))
-                }
-                Some(next) if next - at > limit_ms => {
-                    Some(format!("it repeats the command after {} ms", next - at))
+            let broken = match sent.times.get(i + 1).map(|next| next - at) {
+                Some(after_ms)
+                    if after_ms + trace.terms.early_ms < t_ack_ms || after_ms > limit_ms =>
+                {
+                    Some(format!("it repeats the command after {after_ms} ms"))
                 }
                 Some(_) => None,
                 None if i >= n_ack || until_ms < at + limit_ms => continue,
@@ -125,95 +116,81 @@ fn repeated_after_t_ack(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     all
 }
 
-fn repeated_n_ack_times(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let n_ack = usize::from(terms.settings.n_ack);
+fn repeated_n_ack_times(trace: &Trace) -> Vec<Met> {
+    let n_ack = usize::from(trace.terms.settings.n_ack);
     let judge = |sent: Sent| {
         let repeats = sent.times.len() - 1;
         let last = *sent.times.last()?;
         let broken = (repeats > n_ack).then(|| format!("it repeats the command {repeats} times"));
         // One repetition more would have been seen.
         let is_met =
-            repeats >= n_ack && exchange.ended_ms > last + terms.ms(|s| s.t_ack) + terms.soon_ms();
+            repeats >= n_ack && trace.ended_ms > last + trace.ms(|s| s.t_ack) + trace.soon_ms();
         (is_met || broken.is_some()).then(|| met_when(sent.times[0], "unacknowledged", broken))
     };
-    sent(exchange).into_iter().filter_map(judge).collect()
+    sent(trace).into_iter().filter_map(judge).collect()
 }
 
-fn given_up(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let n_ack = usize::from(terms.settings.n_ack);
+fn given_up(trace: &Trace) -> Vec<Met> {
+    let n_ack = usize::from(trace.terms.settings.n_ack);
     let judge = |sent: Sent| {
-        let last = *sent.times.last()?;
-        let limit_ms = terms.ms(|settings| settings.t_ack) + terms.soon_ms();
-        if sent.times.len() <= n_ack
-            || sent.answered.is_some()
-            || exchange.ended_ms < last + limit_ms
-        {
+        let (last, to) = (*sent.times.last()?, sent.command.to);
+        let due_ms = last + trace.ms(|settings| settings.t_ack) + trace.soon_ms();
+        if sent.times.len() <= n_ack || sent.answered.is_some() || trace.ended_ms < due_ms {
             return None;
         }
-        let (_, state) = exchange.state_at(last + limit_ms)?;
-        let is_kept = listed(state)
-            .iter()
-            .any(|(station, _)| *station == sent.command.to);
-        let broken = is_kept.then(|| format!("it still lists {}", sent.command.to));
+        let is_kept = trace.state_at(due_ms)?.lists(to);
+        let broken = is_kept.then(|| format!("it still lists {to}"));
         Some(met_when(last, "unacknowledged", broken))
     };
-    sent(exchange).into_iter().filter_map(judge).collect()
+    sent(trace).into_iter().filter_map(judge).collect()
 }
 
 /// Whether a command goes on after it was answered; only where a repetition would have been due by the end.
-fn goes_on(exchange: &Exchange, terms: &Terms, sent: &Sent, answered_ms: u64) -> Option<Breach> {
-    let last = sent
-        .times
-        .iter()
-        .filter(|at| **at <= answered_ms + terms.slack_ms.min(250))
-        .max()?;
-    if exchange.ended_ms < last + terms.ms(|s| s.t_ack) + terms.soon_ms() {
+fn goes_on(trace: &Trace, sent: &Sent, answered_ms: u64) -> Option<Breach> {
+    let on_its_way_ms = answered_ms + trace.terms.slack_ms.min(250);
+    let mut times = sent.times.iter();
+    let last = times.clone().filter(|at| **at <= on_its_way_ms).max()?;
+    if trace.ended_ms < last + trace.ms(|s| s.t_ack) + trace.soon_ms() {
         return None;
     }
-    let later = sent
-        .times
-        .iter()
-        .find(|at| **at > answered_ms + terms.slack_ms.min(250));
-    Some(later.map(|at| {
-        format!(
-            "it repeats the command {} ms after the answer",
-            at - answered_ms
-        )
-    }))
+    let later = times.find(|at| **at > on_its_way_ms);
+    let later = later.map(|at| at - answered_ms);
+    Some(later.map(|ms| format!("it repeats the command {ms} ms after the answer")))
 }
 
-fn answers_end_repetition(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
+fn answers_end_repetition(trace: &Trace) -> Vec<Met> {
     let judge = |sent: Sent| {
         let (at, by_report) = sent.answered?;
         if by_report {
             return None;
         }
-        Some(met(exchange, at, goes_on(exchange, terms, &sent, at)?))
+        Some(trace.met(at, goes_on(trace, &sent, at)?))
     };
-    sent(exchange).into_iter().filter_map(judge).collect()
+    sent(trace).into_iter().filter_map(judge).collect()
 }
 
-fn reports_end_repetition(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
+fn reports_end_repetition(trace: &Trace) -> Vec<Met> {
     let judge = |sent: Sent| {
         let (at, by_report) = sent.answered?;
-        let is_late = exchange
+        let soon = at..=at + trace.ms(|s| s.t_ack);
+        let is_late = trace
             .played_answers()
-            .all(|(then, _)| then < at || then > at + terms.ms(|s| s.t_ack));
+            .all(|(then, _)| !soon.contains(&then));
         if !by_report || !is_late {
             return None;
         }
-        Some(met(exchange, at, goes_on(exchange, terms, &sent, at)?))
+        Some(trace.met(at, goes_on(trace, &sent, at)?))
     };
-    sent(exchange).into_iter().filter_map(judge).collect()
+    sent(trace).into_iter().filter_map(judge).collect()
 }
 
-fn other_answers_do_not_count(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let limit_ms = terms.ms(|settings| settings.t_ack) + terms.slack_ms;
-    let n_ack = usize::from(terms.settings.n_ack);
+fn other_answers_do_not_count(trace: &Trace) -> Vec<Met> {
+    let limit_ms = trace.ms(|settings| settings.t_ack) + trace.terms.slack_ms;
+    let n_ack = usize::from(trace.terms.settings.n_ack);
     let mut all: Vec<Met> = Vec::new();
-    for sent in sent(exchange) {
+    for sent in sent(trace) {
         let command = sent.command;
-        for (at, answer) in exchange.played_answers() {
+        for (at, answer) in trace.played_answers() {
             let how = if answer.session != command.session {
                 "in another session"
             } else if answer.from != command.to {
@@ -225,15 +202,13 @@ fn other_answers_do_not_count(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
             };
             let before = sent.times.iter().filter(|then| **then <= at).count();
             let is_outstanding =
-                before > 0 && before <= n_ack && waits_until(exchange, &sent) >= at + limit_ms;
+                before > 0 && before <= n_ack && waits_until(trace, &sent) >= at + limit_ms;
             let is_known = all.iter().any(|met| met.situation == how);
             if !is_outstanding || is_known {
                 continue;
             }
-            let is_repeated = sent
-                .times
-                .iter()
-                .any(|then| *then > at && *then <= at + limit_ms);
+            let due = at + 1..=at + limit_ms;
+            let is_repeated = sent.times.iter().any(|then| due.contains(then));
             let broken = (!is_repeated).then(|| "the command is not repeated".to_owned());
             all.push(met_when(at, how, broken));
         }
@@ -241,110 +216,90 @@ fn other_answers_do_not_count(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     all
 }
 
-fn orders_are_commanded(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let all_sent = sent(exchange);
-    let judge = |(at, local): (u64, Local)| {
+fn orders_are_commanded(trace: &Trace) -> Vec<Met> {
+    let all_sent = sent(trace);
+    let judge = |(at, local, state): (u64, Local, &RamSeen)| {
         let Local::Order(to, task) = local else {
             return None;
         };
-        let (_, state) = exchange.state_at(at)?;
-        let session = session_of(&state.ram)?;
-        let has_joined = exchange.played_rams().any(|(then, _, played)| {
-            then + 200 < at
-                && played.ram.station == to
-                && following(&played.ram).is_some_and(|(now, _)| now == session)
+        let session = state.session()?;
+        let has_joined = trace.played_rams().any(|(then, played)| {
+            then + 200 < at && played.ram.station == to && played.follows(session)
         });
         let is_bound = all_sent.iter().any(|sent| {
             sent.command.to == to
                 && sent.times[0] < at
                 && sent.answered.is_none_or(|(then, _)| then + 200 > at)
         });
-        let may_be_on_road = exchange
+        let may_be_on_road = trace
             .told()
             .any(|(then, local)| local == Local::Open && then < at);
-        let is_listed = listed(state).iter().any(|(station, _)| *station == to);
-        if !has_joined || is_bound || may_be_on_road || !is_listed {
+        if !has_joined || is_bound || may_be_on_road || !state.lists(to) {
             return None;
         }
-        due(exchange, at, terms.soon_ms(), "no command", |seen| {
-            matches!(&seen.what, Happening::Said(Message::Command(command))
-                if command.to == to && command.task == task && seen.at_ms >= at)
+        trace.due(at, trace.soon_ms(), "no command", |said| {
+            said.command()
+                .is_some_and(|it| (it.to, it.task) == (to, task))
         })
     };
-    exchange.told().filter_map(judge).collect()
+    trace.told_in_state().filter_map(judge).collect()
 }
 
-fn one_is_outstanding(exchange: &Exchange, _: &Terms) -> Vec<Met> {
-    let all_sent = sent(exchange);
-    let mut all = Vec::new();
-    for (at, local) in exchange.told() {
-        let Local::Order(to, _) = local else { continue };
-        let waiting = all_sent.iter().find(|sent| {
-            sent.command.to == to
-                && sent.times[0] < at
-                && sent.answered.is_none_or(|(then, _)| then > at)
-        });
-        let Some(waiting) = waiting else { continue };
-        let is_newer = |request: RequestId| request.is_newer_than(waiting.command.request);
-        let until_ms = waits_until(exchange, waiting).min(exchange.undisturbed_until(at));
-        let newer = all_sent.iter().find(|sent| {
-            sent.command.to == to
-                && sent.command.session == waiting.command.session
-                && is_newer(sent.command.request)
+fn one_is_outstanding(trace: &Trace) -> Vec<Met> {
+    let all_sent = sent(trace);
+    let judge = |(at, local): (u64, Local)| {
+        let Local::Order(to, _) = local else {
+            return None;
+        };
+        let mut to_it = all_sent.iter().filter(|sent| sent.command.to == to);
+        let waiting = to_it
+            .clone()
+            .find(|sent| sent.times[0] < at && sent.answered.is_none_or(|(then, _)| then > at))?;
+        let until_ms = waits_until(trace, waiting).min(trace.undisturbed_until(at));
+        let newer = to_it.find(|sent| {
+            sent.command.session == waiting.command.session
+                && sent.command.request.is_newer_than(waiting.command.request)
                 && sent.times[0] <= until_ms
         });
         let broken = newer.map(|sent| format!("it sends command {}", sent.command.request));
-        all.push(met_when(
+        Some(met_when(
             at,
             "an order while a command is outstanding",
             broken,
-        ));
-    }
-    all
+        ))
+    };
+    trace.told().filter_map(judge).collect()
 }
 
-fn silent_is_dropped(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let lost_ms = terms.ms(|s| s.t_safety) + terms.ms(|s| s.t_leave);
-    let lease_ms = terms.ms(|s| s.t_lease);
+fn silent_is_dropped(trace: &Trace) -> Vec<Met> {
+    let lost_ms = trace.ms(|s| s.t_safety) + trace.ms(|s| s.t_leave);
+    let limit_ms = trace.ms(|s| s.t_lease) + lost_ms + trace.soon_ms();
     let mut all = Vec::new();
-    for (_, session, ..) in begun(exchange) {
-        for id in exchange.players {
-            let echoes = exchange.played_rams().filter_map(|(at, _, played)| {
-                match played.ram.coordination {
-                    Coordination::Follower {
-                        session: now, echo, ..
-                    } if now == session && played.ram.station == id => Some((at, echo)),
-                    _ => None,
-                }
-            });
-            let Some((since, _)) = super::news(echoes).last() else {
+    for (_, session, ..) in begun(trace) {
+        for id in trace.players {
+            let Some((since, _)) = super::news(trace.echoes(session, id)).last() else {
                 continue;
             };
-            let outstanding = sent(exchange)
+            let outstanding = sent(trace)
                 .iter()
                 .any(|sent| sent.command.to == id && sent.answered.is_none());
-            let has_left = exchange.played_rams().any(|(_, _, played)| {
+            let has_left = trace.played_rams().any(|(_, played)| {
                 played.ram.station == id && matches!(played.ram.farewell, Some(Farewell::Left(..)))
             });
-            let limit_ms = lease_ms + lost_ms + terms.soon_ms();
-            let intervened = exchange.told().any(|(at, _)| at > since)
-                || exchange.restarts().any(|at| at + 1_000 > since);
-            if outstanding || has_left || intervened || exchange.ended_ms < since + limit_ms {
+            let intervened = trace.told().any(|(at, _)| at > since)
+                || trace.restarts().any(|at| at + 1_000 > since);
+            if outstanding || has_left || intervened || trace.ended_ms < since + limit_ms {
                 continue;
             }
-            let is_listed =
-                |state: &RamSeen| listed(state).iter().any(|(station, _)| *station == id);
-            let last = exchange.rams().rfind(|(_, state)| is_listed(state));
-            let last = last.map_or(since, |(at, _)| at);
-            let kept_ms = last - since;
+            let last = trace.rams().rfind(|(_, state)| state.lists(id));
+            let kept_ms = last.map_or(since, |(at, _)| at) - since;
             let broken = if kept_ms > limit_ms {
                 Some(format!(
                     "it still lists {id} {kept_ms} ms after its newest echo"
                 ))
-            } else if kept_ms + 300 + terms.slack_ms < lost_ms {
-                Some(format!("it drops {id} {kept_ms} ms after its newest echo"))
             } else {
-                None
+                (kept_ms + 300 + trace.terms.slack_ms < lost_ms)
+                    .then(|| format!("it drops {id} {kept_ms} ms after its newest echo"))
             };
             all.push(met_when(since, "a silent follower", broken));
         }
@@ -352,34 +307,26 @@ fn silent_is_dropped(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
     all
 }
 
-fn who_leaves_is_dropped_alone(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
+fn who_leaves_is_dropped_alone(trace: &Trace) -> Vec<Met> {
     let mut all: Vec<Met> = Vec::new();
     let mut known: Vec<StationId> = Vec::new();
-    for (at, _, played) in exchange.played_rams() {
-        let Some(Farewell::Left(session, _)) = played.ram.farewell else {
+    for (at, played) in trace.played_rams() {
+        let (Some(Farewell::Left(session, _)), Some(state)) =
+            (played.ram.farewell, trace.state_at(at))
+        else {
             continue;
         };
         let leaver = played.ram.station;
-        let Some((_, state)) = exchange.state_at(at) else {
-            continue;
-        };
-        let before = listed(state);
-        let is_listed = before.iter().any(|(station, _)| *station == leaver);
-        if session_of(&state.ram) != Some(session) || !is_listed || known.contains(&leaver) {
+        if state.session() != Some(session) || !state.lists(leaver) || known.contains(&leaver) {
             continue;
         }
         known.push(leaver);
-        let others: Vec<_> = before.into_iter().filter(|(it, _)| *it != leaver).collect();
+        let mut others = state.listed();
+        others.retain(|(station, _)| *station != leaver);
         let what = "no RAM that lists the others alone";
-        let met_here = due(
-            exchange,
-            at,
-            terms.soon_ms(),
-            what,
-            |seen| matches!(&seen.what, Happening::Said(Message::Ram(state)) if listed(state) == others),
-        );
+        let met = trace.ram_soon(at, what, |state| state.listed() == others);
         let situation = format!("{} followers are left", others.len());
-        all.extend(met_here.map(|met| met_when(at, situation, met.broken)));
+        all.extend(met.map(|met| Met { situation, ..met }));
     }
     all
 }

@@ -1,11 +1,10 @@
 //! Two requesters, or two leaders, at one place.
 
-use crossguard_protocol::{Coordination, Farewell, Heartbeat, Place, SessionId, Urgency};
+use crossguard_protocol::{Coordination, Heartbeat, Place, SessionId, Urgency};
 
 use super::lead::sent;
-use super::{Met, due, met_when, news};
-use crate::bench::Terms;
-use crate::exchange::{Exchange, Happening, Message, RamSeen, session_of};
+use super::{Met, Trace, met_when, news};
+use crate::exchange::RamSeen;
 
 statements! {
     "who-goes-before-is-given-way" "R6" gives_way:
@@ -27,26 +26,22 @@ struct Claim {
 }
 
 fn claim_of(state: &RamSeen) -> Option<Claim> {
-    let session = session_of(&state.ram)?;
-    let (urgency, place, leads, heartbeat) = match state.ram.coordination {
-        Coordination::NeedHelp {
-            request, heartbeat, ..
-        } => (request.urgency, request.place, false, heartbeat),
+    let (urgency, place) = match state.ram.coordination {
+        Coordination::NeedHelp { request, .. } => (request.urgency, request.place),
         Coordination::Leader {
             urgency,
             place,
             yields: false,
-            heartbeat,
             ..
-        } => (urgency, place, true, heartbeat),
+        } => (urgency, place),
         _ => return None,
     };
     Some(Claim {
-        session,
+        session: state.session()?,
         urgency,
         place,
-        leads,
-        heartbeat,
+        leads: state.leads(),
+        heartbeat: state.heartbeat()?,
     })
 }
 
@@ -79,22 +74,20 @@ struct Rivalry {
     first_ms: u64,
 }
 
-fn rivalries(exchange: &Exchange) -> Vec<Rivalry> {
+fn rivalries(trace: &Trace) -> impl Iterator<Item = Rivalry> {
     let mut all: Vec<Rivalry> = Vec::new();
-    for (at, _, played) in exchange.played_rams() {
-        let Some(rival) = claim_of(played) else {
+    for (at, played) in trace.played_rams() {
+        let (Some(rival), Some(own)) = (claim_of(played), trace.state_at(at).and_then(claim_of))
+        else {
             continue;
         };
-        let own = exchange.state_at(at).and_then(|(_, state)| claim_of(state));
-        let Some(own) = own.filter(|own| own.session.leader == exchange.robot) else {
-            continue;
-        };
-        let is_known = |it: &Rivalry| it.rival.session == rival.session;
-        let is_robot = played.ram.station == exchange.robot;
-        if all.iter().any(is_known) || is_robot || !rival.is_at_the_place_of(own) {
+        let is_known = all.iter().any(|it| it.rival.session == rival.session);
+        let is_between_them =
+            own.session.leader == trace.robot && played.ram.station != trace.robot;
+        if is_known || !is_between_them || !rival.is_at_the_place_of(own) {
             continue;
         }
-        let claims = exchange.played_rams().filter_map(|(at, _, played)| {
+        let claims = trace.played_rams().filter_map(|(at, played)| {
             let claim = claim_of(played)?;
             (claim.session == rival.session).then_some((at, claim.heartbeat))
         });
@@ -105,77 +98,65 @@ fn rivalries(exchange: &Exchange) -> Vec<Rivalry> {
             first_ms: at,
         });
     }
-    all
+    all.into_iter()
 }
 
-fn words(it: &Rivalry) -> String {
-    let kind = |claim: Claim| if claim.leads { "leading" } else { "asking" };
-    format!("{}, a rival is {}", kind(it.own), kind(it.rival))
+impl Rivalry {
+    fn words(&self) -> String {
+        let kind = |claim: Claim| if claim.leads { "leading" } else { "asking" };
+        format!("{}, a rival is {}", kind(self.own), kind(self.rival))
+    }
+
+    /// Whether the rival goes before; `None` where neither gives way for that.
+    fn rival_goes_before(&self) -> Option<bool> {
+        self.rival.goes_before(self.own)
+    }
+
+    /// Whether a RAM gives way: it yields, or names the own session as ended.
+    fn gives_up(&self, state: &RamSeen) -> bool {
+        let own = self.own.session;
+        let yields = matches!(
+            state.ram.coordination,
+            Coordination::Leader { yields: true, .. }
+        );
+        yields || state.names_as_ended(own.number) || state.session() != Some(own)
+    }
 }
 
-/// Whether a RAM gives way: it yields, or names the own session as ended.
-fn gives_up(state: &RamSeen, own: SessionId) -> bool {
-    let yields = matches!(
-        state.ram.coordination,
-        Coordination::Leader { yields: true, .. }
-    );
-    yields
-        || matches!(state.ram.farewell, Some(Farewell::Ended(number, _)) if number == own.number)
-        || session_of(&state.ram) != Some(own)
-}
-
-fn gives_way(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let period_ms = terms.ms(|settings| settings.ram_period);
+fn gives_way(trace: &Trace) -> Vec<Met> {
+    let limit_ms = 2 * trace.ms(|settings| settings.ram_period) + trace.soon_ms();
     let judge = |it: Rivalry| {
-        if it.rival.goes_before(it.own) != Some(true) {
-            return None;
-        }
         // The first counts once, the second may come before the robot's next period.
         let heard_ms = it.beats.get(1).copied()?;
-        let limit_ms = 2 * period_ms + terms.soon_ms();
-        let found = due(
-            exchange,
-            heard_ms,
-            limit_ms,
-            "no RAM that gives way",
-            |seen| matches!(&seen.what, Happening::Said(Message::Ram(state)) if gives_up(state, it.own.session)),
-        )?;
-        Some(met_when(heard_ms, words(&it), found.broken))
+        let what = "no RAM that gives way";
+        let met = trace.ram_due(heard_ms, limit_ms, what, |state| it.gives_up(state))?;
+        Some(Met {
+            situation: it.words(),
+            ..met
+        })
     };
-    rivalries(exchange).into_iter().filter_map(judge).collect()
+    let lost = rivalries(trace).filter(|it| it.rival_goes_before() == Some(true));
+    lost.filter_map(judge).collect()
 }
 
 /// Whether the robot insists on its session although a rival is there.
-fn insists(exchange: &Exchange, terms: &Terms, it: &Rivalry) -> Option<Met> {
-    let until_ms = exchange.undisturbed_until(it.first_ms);
-    if until_ms < it.first_ms + terms.soon_ms() {
-        return None;
-    }
-    let mut after = exchange
-        .rams()
-        .filter(|(at, _)| (it.first_ms..until_ms).contains(at));
-    let gives_up = after.find(|(_, state)| gives_up(state, it.own.session));
+fn insists(trace: &Trace, it: &Rivalry) -> Option<Met> {
+    let how = |later_ms| format!("it gives way {later_ms} ms later");
+    let broken = trace.never(it.first_ms, |state| it.gives_up(state), how)?;
     // A leader whose only follower acknowledges nothing ends its session for that.
-    if gives_up.is_some() && sent(exchange).iter().any(|it| it.answered.is_none()) {
+    if broken.is_some() && sent(trace).iter().any(|it| it.answered.is_none()) {
         return None;
     }
-    let broken = gives_up.map(|(at, _)| format!("it gives way {} ms later", at - it.first_ms));
-    Some(met_when(it.first_ms, words(it), broken))
+    Some(met_when(it.first_ms, it.words(), broken))
 }
 
-fn insists_against_silence(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let rivalries = rivalries(exchange).into_iter();
+fn insists_against_silence(trace: &Trace) -> Vec<Met> {
     let silent =
-        rivalries.filter(|it| it.beats.len() == 1 && it.rival.goes_before(it.own) == Some(true));
-    silent
-        .filter_map(|it| insists(exchange, terms, &it))
-        .collect()
+        rivalries(trace).filter(|it| it.beats.len() == 1 && it.rival_goes_before() == Some(true));
+    silent.filter_map(|it| insists(trace, &it)).collect()
 }
 
-fn insists_against_later(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let rivalries = rivalries(exchange).into_iter();
-    let later = rivalries.filter(|it| it.rival.goes_before(it.own) == Some(false));
-    later
-        .filter_map(|it| insists(exchange, terms, &it))
-        .collect()
+fn insists_against_later(trace: &Trace) -> Vec<Met> {
+    let later = rivalries(trace).filter(|it| it.rival_goes_before() == Some(false));
+    later.filter_map(|it| insists(trace, &it)).collect()
 }

@@ -1,11 +1,9 @@
 //! What a leader shows to pedestrians, where its RAM say so.
 
-use crossguard_codec::PublicSignal;
-use crossguard_protocol::{Command, Coordination, Heartbeat, Progress, SessionId, StationId};
+use crossguard_protocol::{Command, Coordination, Heartbeat, Progress, SessionId};
 
-use super::{Met, due, met_when, news};
-use crate::bench::Terms;
-use crate::exchange::{Exchange, Happening, Message, RamSeen, following, session_of};
+use super::{Met, Trace, met_when, news};
+use crate::exchange::RamSeen;
 use crate::subject::Local;
 
 statements! {
@@ -24,34 +22,11 @@ statements! {
 /// RAM say what is shown twice a second.
 const SAID_MS: u64 = 500;
 
-fn shows_go(state: &RamSeen) -> bool {
-    state.sign == Some(PublicSignal::Go)
-}
-
-fn listed(state: &RamSeen) -> Vec<StationId> {
-    match state.ram.coordination {
-        Coordination::Leader { followers, .. } => followers.iter().map(|it| it.station).collect(),
-        _ => Vec::new(),
-    }
-}
-
-/// The newest command to a follower by this time.
-fn command_to(
-    exchange: &Exchange,
-    session: SessionId,
-    to: StationId,
-    until_ms: u64,
-) -> Option<Command> {
-    let mut commands = exchange.commands();
-    let newest = commands.rfind(|(at, it)| *at <= until_ms && it.session == session && it.to == to);
-    newest.map(|(_, command)| command)
-}
-
 /// What a follower has reported at last of a command by this time.
-fn progress_of(exchange: &Exchange, command: Command, until_ms: u64) -> Option<Progress> {
+fn progress_of(trace: &Trace, command: Command, until_ms: u64) -> Option<Progress> {
     let mut newest: Option<Heartbeat> = None;
     let mut known = None;
-    for (_, _, played) in exchange.played_rams().filter(|(at, ..)| *at <= until_ms) {
+    for (_, played) in trace.played_rams().filter(|(at, _)| *at <= until_ms) {
         let Coordination::Follower {
             session,
             echo,
@@ -83,34 +58,13 @@ fn progress_of(exchange: &Exchange, command: Command, until_ms: u64) -> Option<P
     known
 }
 
-/// When a follower echoed something new for the last time by this time.
-fn newest_echo(
-    exchange: &Exchange,
-    session: SessionId,
-    from: StationId,
-    until_ms: u64,
-) -> Option<u64> {
-    let echoes = exchange.played_rams().filter_map(|(at, _, played)| {
-        let Coordination::Follower {
-            session: now, echo, ..
-        } = played.ram.coordination
-        else {
-            return None;
-        };
-        let is_of_it = (played.ram.station, now) == (from, session);
-        (is_of_it && at <= until_ms).then_some((at, echo))
-    });
-    news(echoes).last().map(|(at, _)| at)
-}
-
 /// Why go may not be shown at this time.
-fn obstacle(exchange: &Exchange, terms: &Terms, session: SessionId, at_ms: u64) -> Option<String> {
-    let state = exchange.state_at(at_ms)?.1;
-    let listed = listed(state);
-    let asked = exchange
+fn obstacle(trace: &Trace, session: SessionId, at_ms: u64) -> Option<String> {
+    let listed = trace.state_at(at_ms)?.listed();
+    let asked = trace
         .rams()
         .find_map(|(_, state)| match state.ram.coordination {
-            Coordination::NeedHelp { request, .. } if session_of(&state.ram) == Some(session) => {
+            Coordination::NeedHelp { request, .. } if state.session() == Some(session) => {
                 Some(usize::from(request.followers))
             }
             _ => None,
@@ -118,221 +72,202 @@ fn obstacle(exchange: &Exchange, terms: &Terms, session: SessionId, at_ms: u64) 
     if listed.len() < asked.unwrap_or(1) {
         return Some("a follower is missing".to_owned());
     }
-    for station in listed {
-        let Some(command) = command_to(exchange, session, station, at_ms) else {
+    for (station, _) in listed {
+        let mut commands = trace.commands();
+        let command =
+            commands.rfind(|(at, it)| *at <= at_ms && (it.session, it.to) == (session, station));
+        let Some((_, command)) = command else {
             return Some(format!("{station} has no command"));
         };
-        let Some(progress) = progress_of(exchange, command, at_ms) else {
+        let Some(progress) = progress_of(trace, command, at_ms) else {
             return Some(format!("{station} reports nothing of its command"));
         };
-        if !terms.settings.guarding.contains(command.task) {
+        let settings = &trace.terms.settings;
+        if !settings.guarding.contains(command.task) {
             return Some(format!("{station} does not guard"));
         }
         let is_in_place = progress == Progress::InPosition
-            || (progress == Progress::Executing && !terms.settings.holding.contains(command.task));
+            || (progress == Progress::Executing && !settings.holding.contains(command.task));
         if !is_in_place {
             let progress = crate::words::progress(progress);
             return Some(format!("{station} reports {progress}"));
         }
-        let since = newest_echo(exchange, session, station, at_ms);
-        if since.is_none_or(|since| since + terms.ms(|s| s.t_lease) < at_ms) {
+        let echoes = trace.echoes(session, station);
+        let newest = news(echoes.filter(|(at, _)| *at <= at_ms)).last();
+        if newest.is_none_or(|(since, _)| since + trace.ms(|s| s.t_lease) < at_ms) {
             return Some(format!("{station} echoes nothing new"));
         }
     }
     None
 }
 
-fn go_over_guards(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let mut all: Vec<Met> = Vec::new();
+/// Why go may not be shown, as a situation: sentences begin with the number of a station.
+fn situation(why: &str) -> &str {
+    why.trim_start_matches(|c: char| c.is_ascii_digit() || c == ' ')
+}
+
+/// The orders to open, each with the robot's session, where its RAM say what is shown.
+fn orders_to_open(trace: &Trace) -> impl Iterator<Item = (u64, SessionId)> {
+    let says = trace.rams().any(|(_, state)| state.sign.is_some());
+    trace.told_in_state().filter_map(move |(at, local, state)| {
+        let session = state.session().filter(|it| it.leader == trace.robot)?;
+        (local == Local::Open && says).then_some((at, session))
+    })
+}
+
+fn go_over_guards(trace: &Trace) -> Vec<Met> {
     // Each order to open that must be refused, and each time that go is shown.
-    for (at, local) in exchange.told() {
-        let Some((_, state)) = exchange.state_at(at) else {
-            continue;
-        };
-        let Some(session) = session_of(&state.ram).filter(|it| it.leader == exchange.robot) else {
-            continue;
-        };
-        let says = exchange.rams().any(|(_, state)| state.sign.is_some());
-        let is_settled = exchange.undisturbed_until(at) >= at + SAID_MS + 150;
-        if local == Local::Open
-            && says
-            && is_settled
-            && let Some(why) = obstacle(exchange, terms, session, at)
-        {
-            // The sentences name stations; the situation does not.
-            let why = why.trim_start_matches(|c: char| c.is_ascii_digit() || c == ' ');
-            all.push(met_when(at, format!("asked to open, {why}"), None));
-        }
-    }
-    for (at, state) in exchange.rams().filter(|(_, state)| shows_go(state)) {
-        let Some(session) = session_of(&state.ram) else {
-            all.push(met_when(
-                at,
-                "without a session",
-                Some("it shows go".to_owned()),
-            ));
+    let refused = orders_to_open(trace).filter_map(|(at, session)| {
+        let is_settled = trace.undisturbed_until(at) >= at + SAID_MS + 150;
+        let why = obstacle(trace, session, at).filter(|_| is_settled)?;
+        Some(met_when(
+            at,
+            format!("asked to open, {}", situation(&why)),
+            None,
+        ))
+    });
+    let mut all: Vec<Met> = refused.collect();
+    for (at, state) in trace.rams().filter(|(_, state)| state.shows_go()) {
+        let Some(session) = state.session() else {
+            let broken = Some("it shows go".to_owned());
+            all.push(met_when(at, "without a session", broken));
             continue;
         };
         // What was so a moment ago may have been what it knew.
-        let since = at.saturating_sub(terms.soon_ms());
-        let times = exchange.seen.iter().map(|seen| seen.at_ms);
-        let mut times = times
-            .filter(|then| (since..=at).contains(then))
-            .chain([since, at]);
-        let has_reason = times.any(|then| obstacle(exchange, terms, session, then).is_none());
-        let why = obstacle(exchange, terms, session, at);
-        let broken = (!has_reason).then(|| format!("it shows go, and {}", why.unwrap_or_default()));
+        let since = at.saturating_sub(trace.soon_ms());
+        let times = trace.seen.iter().map(|seen| seen.at_ms);
+        let times = times.filter(|then| (since..=at).contains(then));
+        let has_reason = times
+            .chain([since, at])
+            .any(|then| obstacle(trace, session, then).is_none());
+        let broken = (!has_reason).then(|| {
+            let why = obstacle(trace, session, at).unwrap_or_default();
+            format!("it shows go, and {why}")
+        });
         let is_first = all.iter().all(|met| met.situation != "go is shown");
         if broken.is_some() || is_first {
             all.push(met_when(at, "go is shown", broken));
         }
     }
-    for met in ended_by_reports(exchange, terms) {
-        all.push(met);
-    }
+    all.extend(ended_by_reports(trace));
     all
 }
 
 /// Reports after which go must not be shown any more.
-fn ended_by_reports(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
+fn ended_by_reports(trace: &Trace) -> Vec<Met> {
     let mut all = Vec::new();
     let mut shown = None;
-    for (at, state) in exchange.rams() {
-        match (shows_go(state), state.sign.is_some()) {
-            (true, _) => shown = Some((at, session_of(&state.ram))),
-            (false, true) => {
-                if let Some((before, Some(session))) = shown.take()
-                    && let Some(why) = obstacle(exchange, terms, session, at)
-                {
-                    let why = why.trim_start_matches(|c: char| c.is_ascii_digit() || c == ' ');
-                    all.push(met_when(before, format!("go ends, {why}"), None));
-                }
-            }
-            _ => {}
+    for (at, state) in trace.rams().filter(|(_, state)| state.sign.is_some()) {
+        if state.shows_go() {
+            shown = Some((at, state.session()));
+        } else if let Some((before, Some(session))) = shown.take()
+            && let Some(why) = obstacle(trace, session, at)
+        {
+            all.push(met_when(
+                before,
+                format!("go ends, {}", situation(&why)),
+                None,
+            ));
         }
     }
     all
 }
 
-fn go_can_be_shown(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let judge = |(at, local): (u64, Local)| {
-        let (_, state) = exchange.state_at(at)?;
-        let session = session_of(&state.ram).filter(|it| it.leader == exchange.robot)?;
-        let says = exchange.rams().any(|(_, state)| state.sign.is_some());
+fn go_can_be_shown(trace: &Trace) -> Vec<Met> {
+    let judge = |(at, session): (u64, SessionId)| {
         // What is so must have been heard.
-        let was_so = obstacle(exchange, terms, session, at.saturating_sub(200)).is_none();
-        let is_so = obstacle(exchange, terms, session, at).is_none();
-        if local != Local::Open || !says || !is_so || !was_so {
+        let was_so = obstacle(trace, session, at.saturating_sub(200)).is_none();
+        if !was_so || obstacle(trace, session, at).is_some() {
             return None;
         }
-        let limit_ms = SAID_MS + terms.soon_ms();
-        due(
-            exchange,
-            at,
-            limit_ms,
-            "no RAM that shows go",
-            |seen| matches!(&seen.what, Happening::Said(Message::Ram(state)) if shows_go(state)),
-        )
+        let limit_ms = SAID_MS + trace.soon_ms();
+        trace.ram_due(at, limit_ms, "no RAM that shows go", RamSeen::shows_go)
     };
-    exchange.told().filter_map(judge).collect()
+    orders_to_open(trace).filter_map(judge).collect()
 }
 
-fn go_ends_by_itself(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let lease_ms = terms.ms(|settings| settings.t_lease);
+fn go_ends_by_itself(trace: &Trace) -> Vec<Met> {
+    let lease_ms = trace.ms(|settings| settings.t_lease);
+    let slack_ms = trace.terms.slack_ms;
     let mut all: Vec<Met> = Vec::new();
-    for (at, state) in exchange.rams().filter(|(_, state)| shows_go(state)) {
-        let Some(session) = session_of(&state.ram) else {
+    for (at, state) in trace.rams().filter(|(_, state)| state.shows_go()) {
+        let Some(session) = state.session() else {
             continue;
         };
-        for station in listed(state) {
-            let Some(since) = newest_echo(exchange, session, station, at) else {
+        for (station, _) in state.listed() {
+            let echoes = trace.echoes(session, station);
+            let Some((since, _)) = news(echoes.filter(|(then, _)| *then <= at)).last() else {
                 continue;
             };
             let shown_ms = at - since;
-            let broken = (shown_ms > lease_ms + terms.slack_ms)
-                .then(|| format!("it shows go {shown_ms} ms after the newest echo of {station}"));
-            if broken.is_some() {
-                all.push(met_when(since, "a silent follower", broken));
+            if shown_ms > lease_ms + slack_ms {
+                let how = format!("it shows go {shown_ms} ms after the newest echo of {station}");
+                all.push(met_when(since, "a silent follower", Some(how)));
             }
         }
     }
     // Where a follower was silent for long enough, go had to end.
-    let shown = exchange.rams().rfind(|(_, state)| shows_go(state));
+    let shown = trace.rams().rfind(|(_, state)| state.shows_go());
     if let Some((last, state)) = shown
-        && let Some(session) = session_of(&state.ram)
+        && let Some(session) = state.session()
     {
-        let echoes = exchange
-            .played_rams()
-            .filter(|(_, _, played)| following(&played.ram).is_some_and(|(now, _)| now == session));
-        let newest = echoes.map(|(at, ..)| at).max().unwrap_or_default();
-        let told = exchange.told().any(|(at, _)| at > newest);
-        if !told
-            && exchange.ended_ms > newest + lease_ms + SAID_MS + terms.slack_ms
-            && last >= newest
-        {
+        let echoes = trace.played_rams().filter(|(_, it)| it.follows(session));
+        let newest = echoes.map(|(at, _)| at).max().unwrap_or_default();
+        let told = trace.told().any(|(at, _)| at > newest);
+        if !told && trace.ended_ms > newest + lease_ms + SAID_MS + slack_ms && last >= newest {
             all.push(met_when(newest, "a silent follower", None));
         }
     }
     all
 }
 
-fn other_reports_do_not_count(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let mut all: Vec<Met> = Vec::new();
-    for (at, _, played) in exchange.played_rams() {
-        let Some((session, Some(report))) = following(&played.ram) else {
-            continue;
-        };
-        let newest = exchange.commands().rfind(|(then, it)| {
-            *then <= at && it.to == played.ram.station && it.session == session
-        });
-        let is_other = newest.is_some_and(|(_, it)| it.request != report.request);
+fn other_reports_do_not_count(trace: &Trace) -> Vec<Met> {
+    let judge = |(at, played): (u64, &RamSeen)| {
+        let (session, report) = played.following()?;
+        let follower = (session, played.ram.station);
+        let mut commands = trace.commands();
+        let (_, newest) =
+            commands.rfind(|(then, it)| *then <= at && (it.session, it.to) == follower)?;
         // The newest RAM that says what is shown.
-        let mut before = exchange
-            .rams()
-            .filter(|(then, state)| *then <= at && state.sign.is_some());
-        let showed = before.next_back().is_some_and(|(_, state)| shows_go(state));
-        let until_ms = exchange.undisturbed_until(at);
+        let mut before = trace.rams().filter(|(_, state)| state.sign.is_some());
+        let (_, showed) = before.rfind(|(then, _)| *then <= at)?;
+        let until_ms = trace.undisturbed_until(at);
         let is_settled = until_ms >= at + SAID_MS + 100;
-        if !is_other || !showed || !is_settled || !all.is_empty() {
-            continue;
+        if newest.request == report?.request || !showed.shows_go() || !is_settled {
+            return None;
         }
-        let limit_ms = at + terms.soon_ms() + SAID_MS;
-        let mut after = exchange
+        let until_ms = until_ms.min(at + trace.soon_ms() + SAID_MS);
+        let mut after = trace
             .rams()
-            .filter(|(then, _)| (at + 1..=until_ms.min(limit_ms)).contains(then));
-        let ends = after.find(|(_, state)| state.sign.is_some() && !shows_go(state));
+            .filter(|(then, _)| *then > at && *then <= until_ms);
+        let ends = after.find(|(_, state)| state.sign.is_some() && !state.shows_go());
         let broken = ends.map(|(then, _)| format!("go ends {} ms later", then - at));
-        all.push(met_when(at, "go is shown", broken));
-    }
-    all
+        Some(met_when(at, "go is shown", broken))
+    };
+    trace.played_rams().filter_map(judge).take(1).collect()
 }
 
-fn guards_are_kept(exchange: &Exchange, terms: &Terms) -> Vec<Met> {
-    let judge = |(at, local): (u64, Local)| {
+fn guards_are_kept(trace: &Trace) -> Vec<Met> {
+    let judge = |(at, local, state): (u64, Local, &RamSeen)| {
         let Local::Order(to, _) = local else {
             return None;
         };
-        let (_, state) = exchange.state_at(at)?;
-        let session = session_of(&state.ram)?;
-        let mut shown = exchange.rams().filter(|(then, state)| {
-            *then <= at && shows_go(state) && session_of(&state.ram) == Some(session)
-        });
-        let (opened, _) = shown.next()?;
-        let is_clear = exchange
+        let session = state.session()?;
+        let mut shown = trace.rams().filter(|(_, state)| state.shows_go());
+        let (opened, _) =
+            shown.find(|(then, state)| *then <= at && state.session() == Some(session))?;
+        let is_clear = trace
             .told()
             .any(|(then, local)| local == Local::Clear && then > opened && then <= at);
-        let guards = obstacle(exchange, terms, session, at).is_none();
-        let until_ms = exchange.undisturbed_until(at);
-        if is_clear || !guards || until_ms < at + terms.soon_ms() {
+        let until_ms = trace.undisturbed_until(at);
+        if is_clear || obstacle(trace, session, at).is_some() || until_ms < at + trace.soon_ms() {
             return None;
         }
-        let mut commands = exchange
-            .commands()
-            .filter(|(then, _)| (at..until_ms).contains(then));
-        let commanded = commands.find(|(_, command)| command.to == to);
+        let mut commands = trace.commands().filter(|(_, command)| command.to == to);
+        let commanded = commands.find(|(then, _)| (at..until_ms).contains(then));
         let broken = commanded
             .map(|(then, command)| format!("it commands {} {} ms later", command.task, then - at));
         Some(met_when(at, "people may be on the road", broken))
     };
-    exchange.told().filter_map(judge).collect()
+    trace.told_in_state().filter_map(judge).collect()
 }
