@@ -15,6 +15,8 @@ mod text;
 pub use coverage::of_coverage;
 pub use load::of_load;
 
+use std::fmt::Display;
+
 use serde::Serialize;
 
 use super::behaviour::Behaviour;
@@ -31,76 +33,65 @@ const DEVIATIONS: f64 = 2.0;
 /// How far it may be at least, in percentage points.
 const ROUNDING_PERCENT: f64 = 0.5;
 
-/// A statement of the paper.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
-pub enum Statement {
-    /// The grid of streets.
-    Grid,
-    /// Sidewalks, and crossings near intersections only.
-    Crossings,
-    /// The program that moves people and vehicles.
-    Mobility,
-    /// The network stack of the simulation.
-    NetworkStack,
-    /// The number of vehicles.
-    Vehicles,
-    /// The numbers of pedestrians.
-    Pedestrians,
-    /// The sensing radii.
-    Radii,
-    /// Where a single robot is.
-    CentralIntersection,
-    /// Where nine robots are.
-    EveryIntersection,
-    /// Robots stand.
-    StaticRobots,
-    /// People go the same ways whatever the number of robots.
-    SameRoutes,
-    /// Everybody has a device.
-    Equipped,
-    /// The transmission power.
-    Power,
-    /// The carrier frequency.
-    Frequency,
-    /// The width of the channel.
-    Bandwidth,
-    /// How stations get at the channel.
-    Access,
-    /// The data rate: not the paper's, but assumed here.
-    DataRate,
-    /// Nobody is covered without robots.
-    CoverageOfNone,
-    /// The coverage of one robot at the larger radius.
-    CoverageOfOne,
-    /// The coverage of nine robots at the larger radius.
-    CoverageOfNine,
-    /// It occurs mostly at intersections.
-    CoverageAtIntersections,
-    /// Coverage at the smaller radius is less in proportion.
-    ProportionalDecrease,
-    /// Several robots cover more than one.
-    SeveralAreBetter,
-    /// The mean channel busy ratio is comparatively low everywhere.
-    LowLoad,
-    /// Robots reduce it at every number of pedestrians.
-    ConsistentReduction,
-    /// The more pedestrians, the larger the reduction.
-    GrowsWithDensity,
-    /// The largest reduction.
-    LargestReduction,
-    /// At the smaller radius the reduction is smaller, and still there.
-    SmallerRadius,
-    /// Each further robot adds less than the first one.
-    DiminishingGain,
-    /// At the larger radius robots stand for a larger share of the people.
-    LargerRadiusStandsForMore,
-    /// At the smaller radius they send less.
-    SmallerRadiusSendsLess,
-    /// Only those fall silent that a robot perceives.
-    ConservativeSilence,
-    /// Devices need no change.
-    UnchangedDevices,
+/// A table of statements: what each is about, and by what rule what was measured is compared with the paper.
+macro_rules! statements {
+    ($($statement:ident $about:literal: $rule:expr;)*) => {
+        /// A statement of the paper.
+        #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+        #[serde(rename_all = "camelCase")]
+        pub enum Statement {
+            $(#[doc = $about] $statement,)*
+        }
+
+        impl Statement {
+            const fn about(self) -> &'static str {
+                [$($about),*][self as usize]
+            }
+
+            const fn rule(self) -> &'static str {
+                [$($rule),*][self as usize]
+            }
+        }
+    };
+}
+
+const SAME: &str = "the same";
+const FIGURE_RULE: &str = "the range within two standard deviations of a run, at every density";
+
+statements! {
+    Grid "grid of streets": SAME;
+    Crossings "sidewalks, and crossings near intersections only": "nobody is on a road farther than 20 m from an intersection";
+    Mobility "people and vehicles are moved by": SAME;
+    NetworkStack "the network is simulated by": SAME;
+    Vehicles "vehicles": SAME;
+    Pedestrians "pedestrians": SAME;
+    Radii "sensing radii in m": SAME;
+    CentralIntersection "intersection of a single robot": "the same, counted from 1";
+    EveryIntersection "intersections of 9 robots": SAME;
+    StaticRobots "robots": SAME;
+    SameRoutes "time that all people travel together, by density": "the same in every cell of a density";
+    Equipped "people with a device": SAME;
+    Power "transmission power": "within 1 %";
+    Frequency "carrier frequency, by the path loss at 1 m": "within 1 %";
+    Bandwidth "width of the channel": "80 samples a symbol (IEEE 802.11, clause 17), of 8 us here";
+    Access "access to the channel": "stations contend for the channel";
+    DataRate "data rate": "the default of the 10 MHz channel";
+    CoverageOfNone "coverage without robots": "exactly";
+    CoverageOfOne "coverage, 1 robot, 15 m, all densities": FIGURE_RULE;
+    CoverageOfNine "coverage, 9 robots, 15 m, all densities": FIGURE_RULE;
+    CoverageAtIntersections "share of the covered time at intersections, all cells": "more than half of it within 20 m of an intersection's middle";
+    ProportionalDecrease "coverage at 10 m by that at 15 m, all cells": "every ratio within a fifth of that of the radii";
+    SeveralAreBetter "several robots cover more than one": "9 robots above 1 robot in every cell";
+    LowLoad "mean channel busy ratio, all cells": "below 30 %, where congestion control (TS 102 687) holds nobody back";
+    ConsistentReduction "reduction by robots, all cells": "above 0 in every cell";
+    GrowsWithDensity "reduction at 15 m with 20, 50, 100, by 1 and by 9 robots": "each above the one before";
+    LargestReduction "largest reduction: 9 robots, 100 pedestrians, 15 m": "the largest of all cells, and the figure within two standard deviations of a run";
+    SmallerRadius "reduction at 10 m and at 15 m, all cells": "at 10 m above 0 and below that at 15 m, in every cell";
+    DiminishingGain "reduction of 9 robots by that of 1, 15 m": "more than once and less than nine times that of one robot";
+    LargerRadiusStandsForMore "silent devices at 10 m and at 15 m, all cells": "more at 15 m, in every cell";
+    SmallerRadiusSendsLess "RAM per second at 10 m and at 15 m, all cells": "fewer at 10 m, in every cell";
+    ConservativeSilence "share of the silence of devices that no robot perceives": "at most 5 %, in every cell";
+    UnchangedDevices "devices": "devices understand nothing but ETSI's messages";
 }
 
 /// What comes of a statement.
@@ -161,46 +152,61 @@ pub struct Setting<'a> {
     pub behaviour: Option<&'a Behaviour>,
 }
 
-const FIGURE_RULE: &str = "the range within two standard deviations of a run, at every density";
-
 /// Whether our mean agrees with what the paper states.
 fn is_of(measured: Estimate, range: StatedRange) -> bool {
     let tolerance = (DEVIATIONS * measured.sd).max(ROUNDING_PERCENT);
     measured.mean + tolerance >= range.least && measured.mean - tolerance <= range.most
 }
 
-/// A comparison by what was measured, if it was.
-fn compare<T>(
-    (statement, about, paper): (Statement, &'static str, &str),
-    measured: Option<T>,
-    judge: impl Fn(&T) -> (String, bool),
-    rule: &'static str,
-) -> Comparison {
-    let (measured, outcome) = match measured.map(|measured| judge(&measured)) {
-        Some((words, is_met)) => (words, outcome(is_met)),
-        None => ("-".to_owned(), Outcome::NotMeasured),
-    };
-    Comparison {
-        statement,
-        about,
-        paper: paper.to_owned(),
-        measured,
-        rule,
-        outcome,
+impl Statement {
+    /// A comparison with this outcome.
+    fn with(self, paper: &dyn Display, measured: &dyn Display, outcome: Outcome) -> Comparison {
+        Comparison {
+            statement: self,
+            about: self.about(),
+            paper: paper.to_string(),
+            measured: measured.to_string(),
+            rule: self.rule(),
+            outcome,
+        }
     }
-}
 
-const fn outcome(is_met: bool) -> Outcome {
-    if is_met {
-        Outcome::Met
-    } else {
-        Outcome::NotMet
+    /// A comparison that is met or not.
+    fn compare(self, paper: &dyn Display, measured: &dyn Display, is_met: bool) -> Comparison {
+        let outcome = if is_met {
+            Outcome::Met
+        } else {
+            Outcome::NotMet
+        };
+        self.with(paper, measured, outcome)
+    }
+
+    /// A comparison by what was measured, if it was.
+    fn judge<T>(
+        self,
+        paper: &dyn Display,
+        measured: Option<T>,
+        judge: impl Fn(T) -> (String, bool),
+    ) -> Comparison {
+        match measured.map(judge) {
+            Some((words, is_met)) => self.compare(paper, &words, is_met),
+            None => self.with(paper, &"-", Outcome::NotMeasured),
+        }
     }
 }
 
 /// An estimate for each of the paper's densities, if there is one for all.
 fn over_densities(at: impl Fn(usize) -> Option<Estimate>) -> Option<Vec<Estimate>> {
     PAPER.pedestrians.into_iter().map(at).collect()
+}
+
+/// What there is of each of these, in a row, if there is something of all.
+fn all_of<K: Copy, T, I: IntoIterator<Item = T>>(
+    keys: &[K],
+    of: impl Fn(K) -> Option<I>,
+) -> Option<Vec<T>> {
+    let all: Option<Vec<I>> = keys.iter().map(|key| of(*key)).collect();
+    Some(all?.into_iter().flatten().collect())
 }
 
 fn same(a: f64, b: f64) -> bool {

@@ -5,7 +5,7 @@ use super::super::paper::PAPER;
 use super::super::statistics::Estimate;
 use super::setup::{on_the_air, setup};
 use super::text::{list, spread, words};
-use super::{Comparison, LOW_MCBR, Setting, Statement, compare, is_of, over_densities, same};
+use super::{Comparison, LOW_MCBR, Setting, Statement, all_of, is_of, over_densities, same};
 
 /// How much of the silence may be of devices that no robot perceives, in percent.
 const WRONG_MAX_PERCENT: f64 = 5.0;
@@ -30,205 +30,112 @@ pub fn of_load(setting: Setting<'_>, cells: &[CbrCell]) -> Vec<Comparison> {
     let reductions = |robots, radius_m| {
         over_densities(|people| Some(find(robots, people, radius_m)?.reduction_percent))
     };
-    let loads = PAPER
-        .robots
-        .into_iter()
-        .try_fold(Vec::new(), |mut loads, robots| {
-            for radius_m in PAPER.radii_m {
-                loads.extend(over_densities(|people| {
-                    find(robots, people, radius_m).map(|it| it.mcbr)
-                })?);
-            }
-            Some(loads)
-        });
-    lines.push(compare(
-        (
-            Statement::LowLoad,
-            "mean channel busy ratio, all cells",
-            "comparatively low",
-        ),
-        loads,
-        |loads| {
+    let loads = all_of(&PAPER.robots, |robots| {
+        all_of(&PAPER.radii_m, |radius_m| {
+            over_densities(|people| Some(find(robots, people, radius_m)?.mcbr))
+        })
+    });
+    lines.push(
+        Statement::LowLoad.judge(&"comparatively low", loads, |loads| {
             let percent = loads.iter().map(|it| 100.0 * it.mean);
-            (
-                spread(percent, "%"),
-                loads.iter().all(|it| it.mean < LOW_MCBR),
-            )
-        },
-        "below 30 %, where congestion control (TS 102 687) holds nobody back",
-    ));
-    let everywhere = [one, nine]
-        .into_iter()
-        .try_fold(Vec::new(), |mut all, robots| {
-            for radius_m in PAPER.radii_m {
-                all.extend(reductions(robots, radius_m)?);
-            }
-            Some(all)
-        });
-    lines.push(compare(
-        (
-            Statement::ConsistentReduction,
-            "reduction by robots, all cells",
-            "consistent at all densities",
-        ),
-        everywhere,
-        |all| {
-            (
-                spread(all.iter().map(|it| it.mean), "%"),
-                all.iter().all(|it| it.mean > 0.0),
-            )
-        },
-        "above 0 in every cell",
-    ));
-    lines.push(by_density(
-        reductions(one, large_m).zip(reductions(nine, large_m)),
-    ));
+            let is_low = loads.iter().all(|it| it.mean < LOW_MCBR);
+            (spread(percent, "%"), is_low)
+        }),
+    );
+    let everywhere = all_of(&[one, nine], |robots| {
+        all_of(&PAPER.radii_m, |radius_m| reductions(robots, radius_m))
+    });
+    let paper = "consistent at all densities";
+    lines.push(
+        Statement::ConsistentReduction.judge(&paper, everywhere, |all| {
+            let is_there = all.iter().all(|it| it.mean > 0.0);
+            (spread(all.iter().map(|it| it.mean), "%"), is_there)
+        }),
+    );
+    let of_both = reductions(one, large_m).zip(reductions(nine, large_m));
+    lines.push(by_density(of_both.clone()));
     lines.push(largest(
         cells,
         find(nine, PAPER.pedestrians[2], large_m).map(|it| it.reduction_percent),
     ));
-    let of_robots = |robots| {
-        let pair = |people| {
-            Some([
-                find(robots, people, small_m)?,
-                find(robots, people, large_m)?,
-            ])
-        };
-        PAPER
-            .pedestrians
-            .into_iter()
-            .map(pair)
-            .collect::<Option<Pairs<'_>>>()
-    };
-    let pairs = of_robots(one)
-        .zip(of_robots(nine))
-        .map(|(one, nine)| [one, nine].concat());
+    let pairs = all_of(&[one, nine], |robots| {
+        all_of(&PAPER.pedestrians, |people| {
+            let small = find(robots, people, small_m)?;
+            Some([[small, find(robots, people, large_m)?]])
+        })
+    });
     lines.extend(by_radius(pairs.as_ref()));
-    lines.push(by_robots(
-        reductions(one, large_m).zip(reductions(nine, large_m)),
-    ));
+    lines.push(by_robots(of_both));
     lines.push(conservative(cells));
     lines
 }
 
 /// How the reductions of one robot and of nine grow with the number of people.
 fn by_density(reductions: Option<(Vec<Estimate>, Vec<Estimate>)>) -> Comparison {
-    compare(
-        (
-            Statement::GrowsWithDensity,
-            "reduction at 15 m with 20, 50, 100, by 1 and by 9 robots",
-            "increasingly pronounced with density",
-        ),
-        reductions,
-        |(one, nine)| {
-            let grows = |all: &[Estimate]| all.is_sorted_by(|a, b| a.mean < b.mean);
-            (
-                format!("{}; {}", list(one), list(nine)),
-                grows(one) && grows(nine),
-            )
-        },
-        "each above the one before",
-    )
+    let paper = "increasingly pronounced with density";
+    Statement::GrowsWithDensity.judge(&paper, reductions, |(one, nine)| {
+        let grows = |all: &[Estimate]| all.is_sorted_by(|a, b| a.mean < b.mean);
+        let text = format!("{}; {}", list(&one), list(&nine));
+        (text, grows(&one) && grows(&nine))
+    })
 }
 
 /// Whether the reduction where the paper has its largest is the largest, and as large.
 fn largest(cells: &[CbrCell], there: Option<Estimate>) -> Comparison {
     let means = cells.iter().map(|it| it.reduction_percent.mean);
     let most = means.fold(f64::MIN, f64::max);
-    compare(
-        (
-            Statement::LargestReduction,
-            "largest reduction: 9 robots, 100 pedestrians, 15 m",
-            &format!("up to {}", words(PAPER.reduction_most_percent)),
-        ),
-        there,
-        |it| {
-            let is_largest = most <= it.mean;
-            (
-                list(&[*it]),
-                is_largest && is_of(*it, PAPER.reduction_most_percent),
-            )
-        },
-        "the largest of all cells, and the figure within two standard deviations of a run",
-    )
+    let paper = format!("up to {}", words(PAPER.reduction_most_percent));
+    Statement::LargestReduction.judge(&paper, there, |it| {
+        let is_met = most <= it.mean && is_of(it, PAPER.reduction_most_percent);
+        (list(&[it]), is_met)
+    })
 }
 
 /// What the larger radius brings, and the smaller one saves.
 fn by_radius(pairs: Option<&Pairs<'_>>) -> [Comparison; 3] {
-    let of = |pairs: &Pairs<'_>, at: usize, value: fn(&CbrCell) -> f64, unit: &str| {
-        spread(pairs.iter().map(|pair| value(pair[at])), unit)
+    let judge = |statement: Statement, paper, value: fn(&CbrCell) -> f64, unit, least: f64| {
+        statement.judge(paper, pairs, |pairs| {
+            let of = |at: usize| spread(pairs.iter().map(|pair| value(pair[at])), unit);
+            let grows = |[small, large]: &[&CbrCell; 2]| {
+                value(small) > least && value(small) < value(large)
+            };
+            (format!("{}; {}", of(0), of(1)), pairs.iter().all(grows))
+        })
     };
-    let reduction: fn(&CbrCell) -> f64 = |it| it.reduction_percent.mean;
-    let silent: fn(&CbrCell) -> f64 = |it| it.passive_percent.mean;
-    let ram_rate: fn(&CbrCell) -> f64 = |it| it.messages_per_s[2].mean;
     [
-        compare(
-            (
-                Statement::SmallerRadius,
-                "reduction at 10 m and at 15 m, all cells",
-                "less at 10 m, a clear benefit in all configurations",
-            ),
-            pairs,
-            |pairs| {
-                let [small, large] = [0, 1].map(|at| of(pairs, at, reduction, "%"));
-                let fits = |[small, large]: &[&CbrCell; 2]| {
-                    reduction(small) > 0.0 && reduction(small) < reduction(large)
-                };
-                (format!("{small}; {large}"), pairs.iter().all(fits))
-            },
-            "at 10 m above 0 and below that at 15 m, in every cell",
+        judge(
+            Statement::SmallerRadius,
+            &"less at 10 m, a clear benefit in all configurations",
+            |it| it.reduction_percent.mean,
+            "%",
+            0.0,
         ),
-        compare(
-            (
-                Statement::LargerRadiusStandsForMore,
-                "silent devices at 10 m and at 15 m, all cells",
-                "a larger share at the larger radius",
-            ),
-            pairs,
-            |pairs| {
-                let [small, large] = [0, 1].map(|at| of(pairs, at, silent, "%"));
-                let fits = |[small, large]: &[&CbrCell; 2]| silent(small) < silent(large);
-                (format!("{small}; {large}"), pairs.iter().all(fits))
-            },
-            "more at 15 m, in every cell",
+        judge(
+            Statement::LargerRadiusStandsForMore,
+            &"a larger share at the larger radius",
+            |it| it.passive_percent.mean,
+            "%",
+            f64::NEG_INFINITY,
         ),
-        compare(
-            (
-                Statement::SmallerRadiusSendsLess,
-                "RAM per second at 10 m and at 15 m, all cells",
-                "less overhead at the smaller radius",
-            ),
-            pairs,
-            |pairs| {
-                let [small, large] = [0, 1].map(|at| of(pairs, at, ram_rate, ""));
-                let fits = |[small, large]: &[&CbrCell; 2]| ram_rate(small) < ram_rate(large);
-                (format!("{small}; {large}"), pairs.iter().all(fits))
-            },
-            "fewer at 10 m, in every cell",
+        judge(
+            Statement::SmallerRadiusSendsLess,
+            &"less overhead at the smaller radius",
+            |it| it.messages_per_s[2].mean,
+            "",
+            f64::NEG_INFINITY,
         ),
     ]
 }
 
 /// What more robots bring.
 fn by_robots(reductions: Option<(Vec<Estimate>, Vec<Estimate>)>) -> Comparison {
-    compare(
-        (
-            Statement::DiminishingGain,
-            "reduction of 9 robots by that of 1, 15 m",
-            "diminishing gain of each further robot",
-        ),
-        reductions,
-        |(one, nine)| {
-            let pairs = one.iter().zip(nine);
-            let factors: Vec<f64> = pairs.map(|(one, nine)| nine.mean / one.mean).collect();
-            let fits = |factor: &f64| *factor > 1.0 && *factor < 9.0;
-            (
-                spread(factors.iter().copied(), "times as much"),
-                factors.iter().all(fits),
-            )
-        },
-        "more than once and less than nine times that of one robot",
-    )
+    let paper = "diminishing gain of each further robot";
+    Statement::DiminishingGain.judge(&paper, reductions, |(one, nine)| {
+        let pairs = one.iter().zip(&nine);
+        let mut factors = pairs.map(|(one, nine)| nine.mean / one.mean);
+        let text = spread(factors.clone(), "times as much");
+        (text, factors.all(|factor| factor > 1.0 && factor < 9.0))
+    })
 }
 
 /// Whether the silence is of devices that a robot perceives (section II-D, clustering of people on foot).
@@ -237,19 +144,10 @@ fn conservative(cells: &[CbrCell]) -> Comparison {
     let shares: Vec<f64> = silent
         .map(|it| 100.0 * it.wrongly_silent_percent.mean / it.passive_percent.mean)
         .collect();
-    compare(
-        (
-            Statement::ConservativeSilence,
-            "share of the silence of devices that no robot perceives",
-            "suppression is conservative and local",
-        ),
-        (!shares.is_empty()).then_some(shares),
-        |shares| {
-            (
-                spread(shares.iter().copied(), "%"),
-                shares.iter().all(|it| *it <= WRONG_MAX_PERCENT),
-            )
-        },
-        "at most 5 %, in every cell",
-    )
+    let paper = "suppression is conservative and local";
+    let judged = (!shares.is_empty()).then_some(shares);
+    Statement::ConservativeSilence.judge(&paper, judged, |shares| {
+        let is_little = shares.iter().all(|it| *it <= WRONG_MAX_PERCENT);
+        (spread(shares.into_iter(), "%"), is_little)
+    })
 }

@@ -5,7 +5,7 @@ use super::super::messages::{DATA_RATE_MBPS, SYMBOL_US};
 use super::super::paper::PAPER;
 use super::super::vru::Understands;
 use super::text::numbers;
-use super::{Comparison, Outcome, Setting, Statement, compare, outcome, same};
+use super::{Comparison, Outcome, Setting, Statement, same};
 
 /// Samples of a symbol of IEEE 802.11 (clause 17), its guard interval included; their rate is the channel's width.
 const SAMPLES_PER_SYMBOL: u64 = 80;
@@ -24,92 +24,46 @@ pub(super) fn setup(setting: Setting<'_>, people: impl Iterator<Item = usize>) -
     people.dedup();
     let has_people = |it: &usize| people.contains(it);
     let has_radius = |it: &f64| axes.radii_m.iter().any(|radius_m| same(*radius_m, *it));
-    let of = |statement, about, paper: String, measured: String, is_met| Comparison {
-        statement,
-        about,
-        paper,
-        measured,
-        rule: "the same",
-        outcome: outcome(is_met),
-    };
     let one = intersections(setting, 1);
     let nine = intersections(setting, 9);
     let has = |robots: usize| axes.robots.contains(&robots);
     let mut distinct = nine.clone();
     distinct.sort_unstable();
     distinct.dedup();
-    let mut lines = vec![
-        of(
-            Statement::Grid,
-            "grid of streets",
-            format!("{0} x {0}, {1} m", PAPER.nodes_per_side, PAPER.segment_m),
-            format!("{side} x {side}, {} m", grid.segment_m),
+    let place = |[column, row]: [usize; 2]| format!("({column}, {row})");
+    let central = place(PAPER.central_intersection);
+    let patrol_mps = axes.stationing.patrol_mps;
+    let robots = patrol_mps.map_or("stand".to_owned(), |speed| format!("walk at {speed} m/s"));
+    vec![
+        Statement::Grid.compare(
+            &format_args!("{0} x {0}, {1} m", PAPER.nodes_per_side, PAPER.segment_m),
+            &format_args!("{side} x {side}, {} m", grid.segment_m),
             side == PAPER.nodes_per_side && same(grid.segment_m, PAPER.segment_m),
         ),
-        of(
-            Statement::Mobility,
-            "people and vehicles are moved by",
-            "SUMO".to_owned(),
-            grid.mobility.clone(),
-            grid.mobility.contains("SUMO"),
-        ),
-        of(
-            Statement::Vehicles,
-            "vehicles",
-            PAPER.vehicles.to_string(),
-            vehicles.to_string(),
-            vehicles == PAPER.vehicles,
-        ),
-        of(
-            Statement::Pedestrians,
-            "pedestrians",
-            numbers(&PAPER.pedestrians),
-            numbers(&people),
+        Statement::Mobility.compare(&"SUMO", &grid.mobility, grid.mobility.contains("SUMO")),
+        Statement::Vehicles.compare(&PAPER.vehicles, &vehicles, vehicles == PAPER.vehicles),
+        Statement::Pedestrians.compare(
+            &numbers(&PAPER.pedestrians),
+            &numbers(&people),
             PAPER.pedestrians.iter().all(has_people),
         ),
-        of(
-            Statement::Radii,
-            "sensing radii in m",
-            numbers(&PAPER.radii_m),
-            numbers(&axes.radii_m),
+        Statement::Radii.compare(
+            &numbers(&PAPER.radii_m),
+            &numbers(&axes.radii_m),
             PAPER.radii_m.iter().all(has_radius),
         ),
-    ];
-    let [column, row] = PAPER.central_intersection;
-    lines.push(compare(
-        (
-            Statement::CentralIntersection,
-            "intersection of a single robot",
-            &format!("({column}, {row}), central"),
+        Statement::CentralIntersection.judge(
+            &format_args!("{central}, central"),
+            one.first().filter(|_| has(1)),
+            |at| (place(*at), *at == PAPER.central_intersection),
         ),
-        one.first().filter(|_| has(1)),
-        |[column, row]| {
-            (
-                format!("({column}, {row})"),
-                [*column, *row] == PAPER.central_intersection,
-            )
-        },
-        "the same, counted from 1",
-    ));
-    lines.push(compare(
-        (
-            Statement::EveryIntersection,
-            "intersections of 9 robots",
-            "one at each of the 9",
+        Statement::EveryIntersection.judge(
+            &"one at each of the 9",
+            (has(9) && !nine.is_empty()).then_some(distinct.len()),
+            |distinct| (format!("{distinct} different ones"), distinct == 9),
         ),
-        (has(9) && !nine.is_empty()).then_some(distinct.len()),
-        |distinct| (format!("{distinct} different ones"), *distinct == 9),
-        "the same",
-    ));
-    let patrol_mps = axes.stationing.patrol_mps;
-    lines.push(of(
-        Statement::StaticRobots,
-        "robots",
-        "stand".to_owned(),
-        patrol_mps.map_or("stand".to_owned(), |speed| format!("walk at {speed} m/s")),
-        patrol_mps.is_none(),
-    ));
-    lines
+        Statement::StaticRobots.compare(&"stand", &robots, patrol_mps.is_none()),
+    ]
 }
 
 /// Column and row, from 1, of the intersection that each of these robots is nearest to at the beginning; none if
@@ -142,92 +96,46 @@ pub(super) fn on_the_air(behaviour: &Behaviour) -> [Comparison; 8] {
     let frequency_ghz =
         0.299_792_458 / (4.0 * std::f64::consts::PI) * 10_f64.powf(radio.loss_at_1_m_db / 20.0);
     let is_near = |value: f64, stated: f64| (value / stated - 1.0).abs() < 0.01;
-    let of = |statement, about, paper: String, measured: String, rule, outcome| Comparison {
-        statement,
-        about,
-        paper,
-        measured,
-        rule,
-        outcome,
-    };
     let share = behaviour.v2x_share;
     let contention = if radio.ideal {
         "no contention".to_owned()
     } else {
-        format!(
-            "EDCA: AIFSN {}, window {}",
-            radio.aifsn, radio.contention_window
-        )
+        let (aifsn, window) = (radio.aifsn, radio.contention_window);
+        format!("EDCA: AIFSN {aifsn}, window {window}")
     };
     let width_mhz = SAMPLES_PER_SYMBOL / SYMBOL_US;
+    let (understood, is_unchanged) = match behaviour.understands {
+        Understands::Ram => ("understand RAM", false),
+        Understands::ClusterVam => ("understand VAM", true),
+    };
     [
-        of(
-            Statement::NetworkStack,
-            "the network is simulated by",
-            "Artery".to_owned(),
-            "a model of this kit".to_owned(),
-            "the same",
-            Outcome::NotMet,
+        Statement::NetworkStack.compare(&"Artery", &"a model of this kit", false),
+        Statement::Equipped.compare(
+            &"all",
+            &format_args!("{:.0} %", 100.0 * share),
+            same(share, 1.0),
         ),
-        of(
-            Statement::Equipped,
-            "people with a device",
-            "all".to_owned(),
-            format!("{:.0} %", 100.0 * share),
-            "the same",
-            outcome(same(share, 1.0)),
+        Statement::Power.compare(
+            &format_args!("{} mW", PAPER.power_mw),
+            &format_args!("{power_mw:.1} mW"),
+            is_near(power_mw, PAPER.power_mw),
         ),
-        of(
-            Statement::Power,
-            "transmission power",
-            format!("{} mW", PAPER.power_mw),
-            format!("{power_mw:.1} mW"),
-            "within 1 %",
-            outcome(is_near(power_mw, PAPER.power_mw)),
+        Statement::Frequency.compare(
+            &format_args!("{} GHz", PAPER.frequency_ghz),
+            &format_args!("{frequency_ghz:.2} GHz"),
+            is_near(frequency_ghz, PAPER.frequency_ghz),
         ),
-        of(
-            Statement::Frequency,
-            "carrier frequency, by the path loss at 1 m",
-            format!("{} GHz", PAPER.frequency_ghz),
-            format!("{frequency_ghz:.2} GHz"),
-            "within 1 %",
-            outcome(is_near(frequency_ghz, PAPER.frequency_ghz)),
+        Statement::Bandwidth.compare(
+            &format_args!("{} MHz", PAPER.channel_mhz),
+            &format_args!("{width_mhz} MHz"),
+            width_mhz == PAPER.channel_mhz,
         ),
-        of(
-            Statement::Bandwidth,
-            "width of the channel",
-            format!("{} MHz", PAPER.channel_mhz),
-            format!("{width_mhz} MHz"),
-            "80 samples a symbol (IEEE 802.11, clause 17), of 8 us here",
-            outcome(width_mhz == PAPER.channel_mhz),
-        ),
-        of(
-            Statement::Access,
-            "access to the channel",
-            "IEEE 802.11p, EDCA".to_owned(),
-            contention,
-            "stations contend for the channel",
-            outcome(!radio.ideal),
-        ),
-        of(
-            Statement::DataRate,
-            "data rate",
-            "not stated".to_owned(),
-            format!("{DATA_RATE_MBPS} Mbit/s"),
-            "the default of the 10 MHz channel",
+        Statement::Access.compare(&"IEEE 802.11p, EDCA", &contention, !radio.ideal),
+        Statement::DataRate.with(
+            &"not stated",
+            &format_args!("{DATA_RATE_MBPS} Mbit/s"),
             Outcome::Assumed,
         ),
-        of(
-            Statement::UnchangedDevices,
-            "devices",
-            "no change is required".to_owned(),
-            match behaviour.understands {
-                Understands::Ram => "understand RAM",
-                Understands::ClusterVam => "understand VAM",
-            }
-            .to_owned(),
-            "devices understand nothing but ETSI's messages",
-            outcome(behaviour.understands == Understands::ClusterVam),
-        ),
+        Statement::UnchangedDevices.compare(&"no change is required", &understood, is_unchanged),
     ]
 }
