@@ -61,11 +61,11 @@ fn operation_container(operation: Operation) -> VruClusterOperationContainer {
 mod tests {
     use crossguard_codec::{ConfidenceEllipse, Measurement, Position, golden};
     use crossguard_endpoint::ras::area::Area;
+    use crossguard_endpoint::ras::containers::Announced;
     use crossguard_endpoint::ras::motion::Motion;
 
     use super::super::vru::{
-        AnnouncedCluster, Announcement, LeaveReason, Reaction, Understands, VamRule, VamTrigger,
-        VruStation,
+        Announcement, LeaveReason, Reaction, Understands, VamRule, VamTrigger, VruStation,
     };
     use super::*;
 
@@ -112,16 +112,15 @@ mod tests {
     fn what_a_device_sends_is_what_the_golden_vectors_say() {
         let mut device = VruStation::new(VamRule::Periodic(100), Understands::ClusterVam);
         let standing = Motion::default();
-        let area = Area::around(&[[0.0, 0.0]], 5.0).unwrap();
         let announced = Announcement {
             head: 9,
             by: Understands::ClusterVam,
-            cluster: Some(AnnouncedCluster {
+            cluster: Some(Announced {
                 id: Some(7),
-                area: &area,
+                area: Area::around(&[[0.0, 0.0]], 5.0).unwrap(),
                 cardinality: 5,
-                velocity_mps: Some([0.0, 0.0]),
             }),
+            velocity_mps: Some([0.0, 0.0]),
             ended: None,
         };
         let sent = |device: &mut VruStation, now_ms| {

@@ -1,7 +1,7 @@
 //! The whole matrix: robots, people, radii and seeds, over all cores.
 
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use serde::Serialize;
 
@@ -170,38 +170,30 @@ pub fn cbr(
     let jobs = jobs(traces, axes);
     let results = Mutex::new(vec![None; jobs.len()]);
     let (next, finished) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let failed = Mutex::new(None);
+    let work = || {
+        // A job that is taken is the thread's own.
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            let Some(job) = jobs.get(number) else { return };
+            let measured = measure(traces, axes, behaviour, sizes, job);
+            let has_failed = measured.is_err();
+            results.lock().unwrap_or_else(PoisonError::into_inner)[number] = Some(measured);
+            let count = finished.fetch_add(1, Ordering::Relaxed) + 1;
+            if has_failed || !done(count, jobs.len()) {
+                return;
+            }
+        }
+    };
     std::thread::scope(|scope| {
         for _ in 0..axes.threads.clamp(1, jobs.len().max(1)) {
-            scope.spawn(|| {
-                // A job that is taken is the thread's own.
-                while let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    match measure(traces, axes, behaviour, sizes, job) {
-                        Ok(it) => set(&results, &jobs, job, it),
-                        Err(error) => {
-                            failed
-                                .lock()
-                                .unwrap_or_else(std::sync::PoisonError::into_inner)
-                                .replace(error);
-                            return;
-                        }
-                    }
-                    if !done(finished.fetch_add(1, Ordering::Relaxed) + 1, jobs.len()) {
-                        return;
-                    }
-                }
-            });
+            scope.spawn(work);
         }
     });
-    if let Some(error) = failed
-        .into_inner()
-        .unwrap_or_else(std::sync::PoisonError::into_inner)
-    {
-        return Err(error);
-    }
-    let results = results
-        .into_inner()
-        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    let results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let results: Vec<Option<Done>> = results
+        .into_iter()
+        .map(Option::transpose)
+        .collect::<Result<_, _>>()?;
     let find = |wanted: Job| {
         let index = jobs.iter().position(|job| *job == wanted)?;
         results[index].clone()
@@ -234,14 +226,6 @@ fn silences(traces: &[Traces], jobs: &[Job], results: &[Option<Done>]) -> Vec<Si
     runs.flat_map(of_run).collect()
 }
 
-fn set(results: &Mutex<Vec<Option<Done>>>, jobs: &[Job], job: &Job, done: Done) {
-    if let Some(index) = jobs.iter().position(|it| it == job) {
-        results
-            .lock()
-            .unwrap_or_else(std::sync::PoisonError::into_inner)[index] = Some(done);
-    }
-}
-
 /// Without robots there is one run whatever the radius; it is what the others are compared with.
 fn jobs(traces: &[Traces], axes: &Axes) -> Vec<Job> {
     let mut jobs = Vec::new();
@@ -250,10 +234,9 @@ fn jobs(traces: &[Traces], axes: &Axes) -> Vec<Job> {
             jobs.push(baseline(index, run));
             for &robots in axes.robots.iter().filter(|robots| **robots > 0) {
                 jobs.extend(axes.radii_m.iter().map(|&radius_m| Job {
-                    traces: index,
-                    run,
                     robots,
                     radius_m,
+                    ..baseline(index, run)
                 }));
             }
         }
@@ -303,17 +286,9 @@ fn cells(traces: &[Traces], axes: &Axes, find: impl Fn(Job) -> Option<Done>) -> 
         for &robots in &axes.robots {
             for &radius_m in &axes.radii_m {
                 let job = |run| Job {
-                    traces: index,
-                    run,
                     robots,
-                    radius_m,
-                };
-                let job = |run| {
-                    if robots == 0 {
-                        baseline(index, run)
-                    } else {
-                        job(run)
-                    }
+                    radius_m: if robots == 0 { 0.0 } else { radius_m },
+                    ..baseline(index, run)
                 };
                 let after: Vec<Done> = (0..runs).filter_map(|run| find(job(run))).collect();
                 if before.len() == runs && after.len() == runs {

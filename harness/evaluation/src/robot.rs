@@ -9,7 +9,7 @@ use crossguard_codec::{
 };
 use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::{Cluster, PerceivedVru, VruClass};
-use crossguard_endpoint::ras::containers;
+use crossguard_endpoint::ras::containers::{self, Announced};
 use crossguard_endpoint::ras::etsi::NotMade;
 use crossguard_endpoint::ras::generation::{Generation, Limits, Status, Trigger};
 use crossguard_endpoint::ras::motion::{Plane, Point, distance_m};
@@ -19,7 +19,7 @@ use crossguard_protocol::{Availability, Coordination, Ram, StationId, TaskSet, T
 
 use super::behaviour::Behaviour;
 use super::trace::{Run, Track};
-use super::vru::{AnnouncedCluster, Announcement, Understands};
+use super::vru::{Announcement, Understands};
 
 /// Where the grid's origin is, in degrees.
 const ORIGIN: [f64; 2] = [49.01, 8.41];
@@ -28,36 +28,11 @@ const FIRST_STATION: u32 = 1_000_000;
 /// The robot's sensors lose people this far outside of the perception radius, in metres.
 const SENSED_BEYOND_M: f64 = 5.0;
 
-/// What a robot announced, as it is received.
-#[derive(Clone, Debug)]
-pub(super) struct Announced {
-    head: u32,
-    by: Understands,
-    cluster: Option<containers::Announced>,
-    velocity_mps: Option<[f64; 2]>,
-    ended: Option<u8>,
-}
-
-impl Announced {
-    pub(super) fn announcement(&self) -> Announcement<'_> {
-        Announcement {
-            head: self.head,
-            by: self.by,
-            cluster: self.cluster.as_ref().map(|cluster| AnnouncedCluster {
-                id: cluster.id,
-                area: &cluster.area,
-                cardinality: cluster.cardinality,
-                velocity_mps: self.velocity_mps,
-            }),
-            ended: self.ended,
-        }
-    }
-}
-
 /// A message of a robot.
 pub(super) struct Message {
     pub(super) octets: usize,
-    pub(super) announced: Announced,
+    /// What it announces, as it is received.
+    pub(super) announced: Announcement,
 }
 
 /// Why a robot's message cannot be sent.
@@ -183,7 +158,7 @@ impl<'a> Robot<'a> {
     }
 
     /// Another robot's RAM.
-    pub(super) fn hear(&mut self, now_ms: u64, heard: &Announced) {
+    pub(super) fn hear(&mut self, now_ms: u64, heard: &Announcement) {
         if heard.by == Understands::Ram {
             if let Some(id) = heard.ended {
                 self.surroundings.hear_ended(now_ms, heard.head, id);
@@ -198,12 +173,12 @@ impl<'a> Robot<'a> {
     }
 
     /// What is on the grid's plane, on the one that the robot keeps.
-    fn on_own_plane(&self, cluster: &containers::Announced) -> Option<containers::Announced> {
+    fn on_own_plane(&self, cluster: &Announced) -> Option<Announced> {
         let origin = self
             .surroundings
             .plane()?
             .point(&grid().position([0.0, 0.0]))?;
-        Some(containers::Announced {
+        Some(Announced {
             area: cluster.area.clone().moved(origin),
             ..cluster.clone()
         })
@@ -271,7 +246,7 @@ impl<'a> Robot<'a> {
         let parameters = &received.ram.ram_parameters;
         let container = parameters.vru_cluster_information_container.as_ref();
         let information = container.map(|it| &it.vru_cluster_information);
-        let announced = Announced {
+        let announced = Announcement {
             head: self.station,
             by: Understands::Ram,
             cluster: containers::read(&received, &grid()),
@@ -291,10 +266,10 @@ impl<'a> Robot<'a> {
             let wire = cluster.area.to_wire(own.point(&self.state.position)?);
             Some(Area::of_wire(&wire, grid().point(&self.state.position)?))
         };
-        let announced = Announced {
+        let announced = Announcement {
             head: self.station,
             by: Understands::ClusterVam,
-            cluster: on_grid().map(|area| containers::Announced {
+            cluster: on_grid().map(|area| Announced {
                 id: Some(cluster.id),
                 area,
                 cardinality: cluster.cardinality,
@@ -307,7 +282,7 @@ impl<'a> Robot<'a> {
 
     /// That one of these is over.
     fn breakup_vam(&self, id: u8, octets: usize) -> Message {
-        let announced = Announced {
+        let announced = Announcement {
             head: self.station,
             by: Understands::ClusterVam,
             cluster: None,

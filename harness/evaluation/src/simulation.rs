@@ -19,9 +19,9 @@ use serde::{Deserialize, Serialize};
 use super::behaviour::Behaviour;
 use super::messages::{CERTIFICATE_INTERVAL_MS, Signed, Sizes, air_time_us, frame_octets};
 use super::radio::{Channel, Transmission, WINDOW_US};
-use super::robot::{Announced, Robot, RobotError};
+use super::robot::{Robot, RobotError};
 use super::trace::{Run, Track};
-use super::vru::VruStation;
+use super::vru::{Announcement, VruStation};
 
 /// How often a generation rule is checked, in ms (`T_CheckVamGen`): what is sent at an interval is sent at a
 /// multiple of it.
@@ -76,7 +76,7 @@ pub(super) enum Payload {
     Cam,
     Vam,
     /// RAM or a robot's cluster VAM.
-    Robot(Box<Announced>),
+    Robot(Box<Announcement>),
 }
 
 /// A frame that waits to be sent.
@@ -500,7 +500,7 @@ impl<'a> Simulation<'a> {
     }
 
     /// Everybody in range hears what a robot announces. Only devices are counted.
-    fn announce(&mut self, now_us: u64, transmission: &Transmission, announced: &Announced) {
+    fn announce(&mut self, now_us: u64, transmission: &Transmission, announced: &Announcement) {
         let now_ms = now_us / 1_000;
         for (number, station) in self.stations.iter_mut().enumerate() {
             if matches!(station.role, Role::Vehicle { .. })
@@ -516,7 +516,7 @@ impl<'a> Simulation<'a> {
                     self.sums.lost += u64::from(!is_received);
                     if is_received {
                         let motion = track.motion(now_us);
-                        station.hear(now_ms, &motion, &announced.announcement());
+                        station.hear(now_ms, &motion, announced);
                     }
                 }
                 Role::Robot(robot) if is_received => robot.hear(now_ms, announced),

@@ -30,6 +30,7 @@
 
 use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::CONTINUITY_MS;
+use crossguard_endpoint::ras::containers::Announced;
 use crossguard_endpoint::ras::generation::Trigger;
 use crossguard_endpoint::ras::motion::{Change, MATCH, Motion, STANDING_MPS, distance_m};
 use serde::{Deserialize, Serialize};
@@ -87,28 +88,17 @@ pub enum Suppression {
 
 /// What a device hears of the cluster of one head.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Announcement<'a> {
+pub struct Announcement {
     /// Station id of the head.
     pub head: u32,
     /// By which message.
     pub by: Understands,
     /// The cluster; `None` for a head that has none any more, or that says that one is over.
-    pub cluster: Option<AnnouncedCluster<'a>>,
+    pub cluster: Option<Announced>,
+    /// The velocity of the cluster in m/s, to the east and to the north, if it says one.
+    pub velocity_mps: Option<[f64; 2]>,
     /// The id of a cluster that is over.
     pub ended: Option<u8>,
-}
-
-/// The cluster of an [`Announcement`].
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct AnnouncedCluster<'a> {
-    /// Its id, if it says one.
-    pub id: Option<u8>,
-    /// What bounds it.
-    pub area: &'a Area,
-    /// How many belong to it.
-    pub cardinality: u8,
-    /// Its velocity in m/s, to the east and to the north, if it says one.
-    pub velocity_mps: Option<[f64; 2]>,
 }
 
 /// What came of an announcement.
@@ -282,7 +272,7 @@ impl VruStation {
     }
 
     /// Takes in an announcement, at `now_ms`, in this motion.
-    pub fn hear(&mut self, now_ms: u64, motion: &Motion, heard: &Announcement<'_>) -> Reaction {
+    pub fn hear(&mut self, now_ms: u64, motion: &Motion, heard: &Announcement) -> Reaction {
         if heard.by != self.understands {
             return Reaction::NotUnderstood;
         }
@@ -290,11 +280,11 @@ impl VruStation {
         match &mut self.state {
             State::Joining(membership) | State::Passive(membership) => {
                 if membership.head != heard.head {
-                    let fits = |cluster: AnnouncedCluster<'_>| {
-                        by.misfit(motion, cluster.area, cluster.velocity_mps)
+                    let fits = |cluster: &Announced| {
+                        by.misfit(motion, &cluster.area, heard.velocity_mps)
                             .is_none()
                     };
-                    let fits_there = heard.cluster.is_some_and(fits);
+                    let fits_there = heard.cluster.as_ref().is_some_and(fits);
                     if by == Fit::Etsi || !fits_there || membership.fits(by, now_ms, motion) {
                         return Reaction::InAnother;
                     }
@@ -303,7 +293,7 @@ impl VruStation {
                 }
                 membership.heard_ms = now_ms;
                 let id = membership.id;
-                let Some(cluster) = heard.cluster else {
+                let Some(cluster) = &heard.cluster else {
                     if heard.ended.is_some_and(|ended| id != Some(ended)) {
                         return Reaction::GoesOn;
                     }
@@ -313,7 +303,7 @@ impl VruStation {
                 if by == Fit::Etsi && id != cluster.id {
                     return Reaction::InAnother;
                 }
-                match by.misfit(motion, cluster.area, cluster.velocity_mps) {
+                match by.misfit(motion, &cluster.area, heard.velocity_mps) {
                     // Its own cluster is elsewhere now.
                     Some(reason) if by == Fit::Strict && id == cluster.id => {
                         self.leave(now_ms, id, reason);
@@ -325,7 +315,7 @@ impl VruStation {
                 membership.id = cluster.id;
                 membership.covered_ms = now_ms;
                 membership.area = cluster.area.clone();
-                membership.velocity_mps = cluster.velocity_mps;
+                membership.velocity_mps = heard.velocity_mps;
                 Reaction::GoesOn
             }
             State::Standalone | State::Leaving { .. } => self.consider(now_ms, motion, heard),
@@ -341,8 +331,8 @@ impl VruStation {
     }
 
     /// Whether the device, which is in no cluster, enters this one.
-    fn consider(&mut self, now_ms: u64, motion: &Motion, heard: &Announcement<'_>) -> Reaction {
-        let Some(cluster) = heard.cluster else {
+    fn consider(&mut self, now_ms: u64, motion: &Motion, heard: &Announcement) -> Reaction {
+        let Some(cluster) = &heard.cluster else {
             return Reaction::GoesOn;
         };
         let by = self.fit();
@@ -351,7 +341,7 @@ impl VruStation {
         if cluster.area.distance_m(motion.position_m) > near_m {
             return Reaction::Outside;
         }
-        if !by.is_of_velocity(motion, cluster.velocity_mps) {
+        if !by.is_of_velocity(motion, heard.velocity_mps) {
             return Reaction::VelocityDiffers;
         }
         if by_vam && cluster.cardinality >= SIZE_MAX {
@@ -364,7 +354,7 @@ impl VruStation {
             covered_ms: now_ms,
             heard_ms: now_ms,
             area: cluster.area.clone(),
-            velocity_mps: cluster.velocity_mps,
+            velocity_mps: heard.velocity_mps,
         };
         if by_vam {
             self.state = State::Joining(membership);

@@ -9,9 +9,7 @@ use crossguard_endpoint::ras::containers::{self, Announced};
 use crossguard_endpoint::ras::motion::{Motion, Plane, Point};
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_evaluation::vru::{
-    AnnouncedCluster, Announcement, Reaction, Understands, VamRule, VruStation,
-};
+use crossguard_evaluation::vru::{Announcement, Reaction, Understands, VamRule, VruStation};
 use crossguard_protocol::{Config, Robot, StationId};
 
 const HEAD: u32 = 7;
@@ -135,12 +133,8 @@ fn device_hears(motion: &Motion, (cluster, velocity_mps): (&Announced, [f64; 2])
     let announcement = Announcement {
         head: HEAD,
         by: Understands::Ram,
-        cluster: Some(AnnouncedCluster {
-            id: cluster.id,
-            area: &cluster.area,
-            cardinality: cluster.cardinality,
-            velocity_mps: Some(velocity_mps),
-        }),
+        cluster: Some(cluster.clone()),
+        velocity_mps: Some(velocity_mps),
         ended: None,
     };
     VruStation::new(VamRule::Etsi, Understands::Ram).hear(0, motion, &announcement)

@@ -29,16 +29,16 @@ fn circle(radius_m: f64) -> Area {
     }
 }
 
-fn announcement(by: Understands, area: &Area) -> Announcement<'_> {
+fn announcement(by: Understands, area: &Area) -> Announcement {
     Announcement {
         head: HEAD,
         by,
-        cluster: Some(AnnouncedCluster {
+        cluster: Some(Announced {
             id: Some(7),
-            area,
+            area: area.clone(),
             cardinality: 3,
-            velocity_mps: Some([0.0, 0.0]),
         }),
+        velocity_mps: Some([0.0, 0.0]),
         ended: None,
     }
 }
@@ -135,6 +135,7 @@ fn a_robot_without_a_cluster_releases_its_devices_and_nobody_elses() {
         head,
         by: Understands::Ram,
         cluster: None,
+        velocity_mps: None,
         ended: None,
     };
     assert_eq!(
@@ -263,9 +264,9 @@ fn an_unmodified_device_that_is_not_confirmed_gives_up() {
 }
 
 /// A cluster that walks to the east at 1.4 m/s, around where somebody was at `now_ms` who began at the origin.
-fn walking_cluster(area: &Area) -> Announcement<'_> {
+fn walking_cluster(area: &Area) -> Announcement {
     let mut announced = announcement(Understands::Ram, area);
-    announced.cluster.as_mut().unwrap().velocity_mps = Some([1.4, 0.0]);
+    announced.velocity_mps = Some([1.4, 0.0]);
     announced
 }
 
@@ -290,7 +291,7 @@ fn by_the_strict_rule_a_device_walks_on_silently_with_its_cluster() {
 #[test]
 fn who_moves_otherwise_than_a_cluster_that_covers_it_was_not_perceived() {
     let area = circle(5.0);
-    let heard = |motion: &Motion, announced: &Announcement<'_>| {
+    let heard = |motion: &Motion, announced: &Announcement| {
         VruStation::new(VamRule::Etsi, Understands::Ram).hear(0, motion, announced)
     };
     let north = Motion {
@@ -307,7 +308,7 @@ fn who_moves_otherwise_than_a_cluster_that_covers_it_was_not_perceived() {
     }
     // Nor does it know that when the cluster does not say how it moves.
     let mut unknown = walking_cluster(&area);
-    unknown.cluster.as_mut().unwrap().velocity_mps = None;
+    unknown.velocity_mps = None;
     assert_eq!(heard(&walking(0.0), &unknown), Reaction::VelocityDiffers);
     assert_eq!(
         heard(&walking(0.0), &walking_cluster(&area)),
