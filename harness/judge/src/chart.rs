@@ -200,8 +200,7 @@ impl Chart {
 
     fn drawn(&self, marks: Vec<(u64, Mark)>) -> Vec<String> {
         let line = |(at_us, mark)| {
-            #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
-            let seconds = at_us as f64 / 1e6;
+            let seconds = seconds(at_us);
             self.fit(match mark {
                 Mark::Note { lane, text } => {
                     lines::note(seconds, LEFT + lane * self.spacing, &text)
@@ -280,11 +279,10 @@ impl Chart {
                 .filter(|go| go.saturating_add(slack_us) < record.at_us);
             if let Some(at_us) = ended {
                 lane.go_until_us = None;
-                #[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
-                let seconds = at_us as f64 / 1e6;
+                let at_s = seconds(at_us);
                 marks.push(Mark::Note {
                     lane: i,
-                    text: format!("! the sign went to stop by itself at {seconds:.3}"),
+                    text: format!("! the sign went to stop by itself at {at_s:.3}"),
                 });
             }
         }
@@ -468,6 +466,11 @@ impl Chart {
     }
 }
 
+#[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
+fn seconds(us: u64) -> f64 {
+    us as f64 / 1e6
+}
+
 /// A note, unless it says the same as the last one; the last one becomes this note.
 fn changed(known: &mut String, text: String) -> Option<String> {
     if *known == text {
@@ -517,7 +520,7 @@ const fn addressee(input: &Input) -> Option<StationId> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::{Swarm, run};
+    use crate::sim::{Swarm, run_recorded};
 
     #[test]
     fn a_chart_fits_a_terminal_or_there_is_none() {
@@ -537,10 +540,7 @@ mod tests {
 
     /// What two robots record in a crossing.
     fn crossing() -> Vec<Record> {
-        let mut records = Vec::new();
-        let mut watch = |record: Record| records.push(record);
-        let _ = run(&Swarm::quiet(2), Some(&mut watch));
-        records
+        run_recorded(&Swarm::quiet(2)).1
     }
 
     /// Whether a robot acknowledges a command and starts it in the step of a record.

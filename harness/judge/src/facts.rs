@@ -28,7 +28,7 @@ use crossguard_endpoint::counters::{CauseName, Counts};
 use crossguard_endpoint::station::listen::{message_of, overhear, service_of};
 use crossguard_protocol::{Input, Output, Outputs, Robot, StationId};
 use crossguard_robot::around::Around;
-use crossguard_robot::sight::{Outline, Sight};
+use crossguard_robot::sight::{Degrees, Outline, Sight};
 use crossguard_robot::trace::{Entry, Record};
 use serde::{Serialize, Serializer};
 
@@ -126,6 +126,11 @@ pub struct Placed {
 }
 
 impl Placed {
+    /// Degrees of latitude and longitude.
+    pub(crate) const fn degrees(&self) -> Degrees {
+        (self.latitude, self.longitude)
+    }
+
     fn of(state: &RobotState) -> Option<Box<Self>> {
         let position = &state.position;
         Some(Box::new(Self {

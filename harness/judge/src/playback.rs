@@ -222,7 +222,7 @@ impl Playback {
     /// A site at the first place that anything has, if anything has one.
     fn origin(&self) -> Option<Site> {
         let first = |track: &Track| {
-            let place = track.places.first().map(|body| body.place);
+            let place = track.places.first().map(|placed| placed.degrees());
             place.or_else(|| Some(*track.zone.first()?.waiting.first()?))
         };
         let (latitude, longitude) = self.robots.iter().find_map(first)?;

@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use crossguard_judge::sim::{Deed, Happening, Swarm, run};
+use crossguard_judge::sim::{Deed, Happening, Swarm, run_recorded};
 use crossguard_judge::validate::{Log, Validated, all};
 use crossguard_robot::trace::{Entry, Record, write};
 use crossguard_robot::transport::Outage;
@@ -22,10 +22,7 @@ fn parted_pair() -> Swarm {
 }
 
 fn records(swarm: &Swarm) -> Vec<Record> {
-    let mut records = Vec::new();
-    let mut watch = |record: Record| records.push(record);
-    let _ = run(swarm, Some(&mut watch));
-    records
+    run_recorded(swarm).1
 }
 
 fn validated(logs: &[&[Record]]) -> Result<Validated, String> {

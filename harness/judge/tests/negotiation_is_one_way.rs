@@ -1,7 +1,7 @@
 //! `T_neg` is the way of a command to its follower, and not the way of the acknowledgement back: it agrees with the delay
 //! that the simulated network was given, also where the logs of leader and follower have clocks of their own.
 
-use crossguard_judge::sim::{Swarm, run};
+use crossguard_judge::sim::{Swarm, run_recorded};
 use crossguard_judge::timing::{NoOffset, Summary, Timing};
 use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Delay, Faults};
@@ -27,9 +27,7 @@ fn pair(there_ms: u32, back_ms: u32) -> Swarm {
 }
 
 fn records(swarm: &Swarm) -> Vec<Record> {
-    let mut records = Vec::new();
-    let mut watch = |record: Record| records.push(record);
-    let outcome = run(swarm, Some(&mut watch));
+    let (outcome, records) = run_recorded(swarm);
     assert!(outcome.finding.is_none(), "{:?}", outcome.finding);
     records
 }

@@ -6,7 +6,7 @@ use crossguard_codec::core::ram::RAM;
 use crossguard_codec::{Identifiers, Service, decode, encode};
 use crossguard_endpoint::ras::clustering::VruClass;
 use crossguard_endpoint::station::listen::overhear;
-use crossguard_judge::sim::{Swarm, run};
+use crossguard_judge::sim::{Swarm, run_recorded};
 use crossguard_judge::validate::{self, Validated};
 use crossguard_protocol::{Event, Input, Output, TaskType};
 use crossguard_robot::plan::{Leg, Stage, Who};
@@ -46,9 +46,7 @@ impl Crossing {
             robot.plan.roles = vec![None, None];
             robot.plan.stages = vec![kerb, Stage { parts }];
         }
-        let mut records = Vec::new();
-        let mut watch = |record: Record| records.push(record);
-        let outcome = run(&swarm, Some(&mut watch));
+        let (outcome, records) = run_recorded(&swarm);
         assert!(outcome.finding.is_none(), "{:?}", outcome.finding);
         Self(records)
     }

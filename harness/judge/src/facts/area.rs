@@ -43,8 +43,7 @@ impl Areas {
 
     /// Somebody is somewhere.
     pub(super) fn place(&mut self, station: StationId, placed: &Placed) {
-        let place = (placed.latitude, placed.longitude);
-        self.places.insert(station, place);
+        self.places.insert(station, placed.degrees());
     }
 
     /// A session is over. Whether there was something in it.

@@ -249,13 +249,13 @@ impl Playback {
     }
 
     fn body(&self, track: &Track, at_us: u64) -> Option<BodyMoment> {
-        let (since_us, body) = track.places.at(at_us)?;
+        let (since_us, placed) = track.places.at(at_us)?;
         Some(BodyMoment {
-            place: self.metres(body.place),
-            heading: body.heading,
-            speed: body.speed,
-            length: body.length,
-            width: body.width,
+            place: self.metres(placed.degrees()),
+            heading: placed.heading,
+            speed: placed.speed,
+            length: placed.dimensions.length,
+            width: placed.dimensions.width,
             age_ms: (at_us - since_us) / 1_000,
         })
     }
@@ -269,7 +269,7 @@ impl Playback {
         trail.extend(places.last());
         let mut trail: Vec<_> = trail
             .into_iter()
-            .map(|(_, body)| self.metres(body.place))
+            .map(|(_, placed)| self.metres(placed.degrees()))
             .collect();
         trail.dedup();
         trail

@@ -328,7 +328,7 @@ impl Playback {
         let mut points: Vec<Metres> = Vec::new();
         let (mut waiting, mut road) = (Vec::new(), Vec::new());
         for track in &self.robots {
-            let places = track.places.iter().map(|(_, body)| body.place);
+            let places = track.places.iter().map(|(_, placed)| placed.degrees());
             points.extend(places.map(|place| self.metres(place)));
             let areas = track.areas.iter().flat_map(|(_, areas)| areas);
             points.extend(areas.map(|area| self.metres(area.to)));

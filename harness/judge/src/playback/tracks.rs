@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use crossguard_endpoint::counters::CauseName;
 use crossguard_protocol::{StationId, Timer};
-use crossguard_robot::sight::{Degrees, Outline, Seen};
+use crossguard_robot::sight::{Outline, Seen};
 
-use crate::facts::{Area, ClusterView, Fact, View};
+use crate::facts::{Area, ClusterView, Fact, Placed, View};
 
 /// How many causes of drops of a robot are kept.
 const CAUSES_MAX: usize = 200;
@@ -53,16 +53,6 @@ impl<T> Series<T> {
     }
 }
 
-/// A robot's body, by its own RAM.
-#[derive(Clone, Copy)]
-pub(super) struct Body {
-    pub(super) place: Degrees,
-    pub(super) heading: Option<f64>,
-    pub(super) speed: Option<f64>,
-    pub(super) length: Option<f64>,
-    pub(super) width: Option<f64>,
-}
-
 /// A time in which a corridor was open.
 pub(super) struct Open {
     pub(super) from_us: u64,
@@ -80,7 +70,7 @@ pub(super) struct Track {
     pub(super) views: Series<View>,
     /// The armed timers with the milliseconds that they had left.
     pub(super) timers: Series<Box<[(Timer, u32)]>>,
-    pub(super) places: Series<Body>,
+    pub(super) places: Series<Box<Placed>>,
     pub(super) sights: Series<Vec<Seen>>,
     pub(super) clusters: Series<Option<ClusterView>>,
     pub(super) areas: Series<Vec<Area>>,
@@ -121,16 +111,7 @@ impl Track {
                 self.is(view.station);
                 self.views.push(at_us, view);
             }
-            Fact::Place(placed) => self.places.push(
-                at_us,
-                Body {
-                    place: (placed.latitude, placed.longitude),
-                    heading: placed.heading,
-                    speed: placed.speed,
-                    length: placed.dimensions.length,
-                    width: placed.dimensions.width,
-                },
-            ),
+            Fact::Place(placed) => self.places.push(at_us, placed),
             Fact::Areas(areas) => self.areas.push(at_us, areas),
             Fact::Zone(outline) => self.zone.push(at_us, outline),
             Fact::People(sight) => self.sights.push(at_us, sight.people),

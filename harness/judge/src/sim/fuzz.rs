@@ -198,15 +198,9 @@ impl Fuzz<'_> {
                 at_ms: 0,
                 robot: String::new(),
             }),
-            virtual_ms: 0,
             robots: swarm.robots.len(),
-            steps: 0,
-            packets: 0,
-            premises: std::collections::BTreeSet::new(),
             hazards: swarm.hazards().collect(),
-            left_out: Vec::new(),
-            worst: Worst::default(),
-            waits: Default::default(),
+            ..Outcome::default()
         })
     }
 }

@@ -34,4 +34,4 @@ pub use report::{Files, write_failure};
 pub use script::{Deed, Happening};
 pub use swarm::{CarDraw, Hazard, Ids, InsiderDraw, Replay, RobotDraw, Sensing, SourceDraw, Swarm};
 pub use times::{Longest, Measure, Worst};
-pub use world::{Finding, Outcome, Waits, Watch, run, run_with};
+pub use world::{Finding, Outcome, Waits, Watch, run, run_recorded, run_with};

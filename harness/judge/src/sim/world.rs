@@ -78,7 +78,7 @@ impl fmt::Display for Finding {
 }
 
 /// What came of a run.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Outcome {
     /// What was wrong, if anything was. The run ended there.
     pub finding: Option<Finding>,
@@ -121,6 +121,15 @@ impl<F: FnMut(Record)> Watch for F {
 #[must_use]
 pub fn run<'a>(swarm: &'a Swarm, watch: Option<&'a mut dyn Watch>) -> Outcome {
     run_with(swarm, &Protocol, watch)
+}
+
+/// [`run`], with all that its robots recorded.
+#[must_use]
+pub fn run_recorded(swarm: &Swarm) -> (Outcome, Vec<Record>) {
+    let mut records = Vec::new();
+    let mut watch = |record| records.push(record);
+    let outcome = run(swarm, Some(&mut watch));
+    (outcome, records)
 }
 
 /// [`run`] with another transition function in place of the kit's.

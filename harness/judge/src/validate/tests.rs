@@ -6,13 +6,10 @@ use crossguard_protocol::{Input, Millis, Output};
 use crossguard_robot::trace;
 
 use super::*;
-use crate::sim::{Swarm, run};
+use crate::sim::{Swarm, run_recorded};
 
 pub(super) fn records(seed: u64) -> Vec<Record> {
-    let mut records = Vec::new();
-    let mut watch = |record: Record| records.push(record);
-    let _ = run(&Swarm::draw(seed, 4, None), Some(&mut watch));
-    records
+    run_recorded(&Swarm::draw(seed, 4, None)).1
 }
 
 pub(super) fn text<'a>(records: impl IntoIterator<Item = &'a Record>) -> Vec<u8> {
