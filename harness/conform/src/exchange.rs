@@ -320,12 +320,6 @@ impl Exchange {
         })
     }
 
-    /// What was told to the robot, each with the newest RAM that had arrived of it by then.
-    pub(crate) fn told_in_state(&self) -> impl Iterator<Item = (u64, Local, &RamSeen)> {
-        self.told()
-            .filter_map(|(at, local)| Some((at, local, self.state_at(at)?)))
-    }
-
     /// When it was started anew.
     pub(crate) fn restarts(&self) -> impl DoubleEndedIterator<Item = u64> {
         let restarts = self.seen.iter();

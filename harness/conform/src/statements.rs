@@ -7,14 +7,18 @@
 //!   exchange ──► statement ──► met here, in this situation: kept, or broken and how
 //! ```
 
-/// A table of statements: the name, the rule, who judges it, and what it says.
+/// A table of statements: the name, the rule, who judges it, of what each if it judges one at a time, and what it says.
 macro_rules! statements {
-    ($($name:literal $rule:literal $judge:ident: $says:literal;)*) => {
+    (@ $judge:ident) => { $judge };
+    (@ $judge:ident $each:ident) => {
+        |trace| $each(trace).into_iter().filter_map(|it| $judge(trace, it)).collect()
+    };
+    ($($name:literal $rule:literal $judge:ident $(of $each:ident)?: $says:literal;)*) => {
         pub(super) const ALL: &[super::Statement] = &[$(super::Statement {
             name: $name,
             rule: $rule,
             says: $says,
-            judge: $judge,
+            judge: statements!(@ $judge $($each)?),
         }),*];
     };
 }
@@ -36,6 +40,7 @@ use crossguard_protocol::{Heartbeat, Millis, SessionId, Settings, StationId};
 
 use crate::bench::Terms;
 use crate::exchange::{Exchange, Message, RamSeen};
+use crate::subject::Local;
 
 /// How a statement was broken, if it was.
 type Breach = Option<String>;
@@ -108,6 +113,15 @@ impl Deref for Trace<'_> {
     fn deref(&self) -> &Exchange {
         self.exchange
     }
+}
+
+/// Something that was told to the robot: when, what, and the newest RAM that had arrived of it by then.
+type Told<'a> = (u64, Local, &'a RamSeen);
+
+/// All that was told to the robot once it had sent a RAM.
+fn told<'a>(trace: &'a Trace<'_>) -> impl Iterator<Item = Told<'a>> {
+    let told = trace.told();
+    told.filter_map(|(at, local)| Some((at, local, trace.state_at(at)?)))
 }
 
 /// A statement that was met when something was so.

@@ -325,27 +325,16 @@ fn every_verdict_has_been_tried_on_a_robot_that_breaks_its_rule() {
 
 #[test]
 fn what_the_air_does_not_tell_is_seen_by_nobody() {
+    let order = "acknowledgement and report leave in one order, whenever the body starts";
+    let policy = "a robot's policy is its own setting; the air tells that it falls back, not how";
+    let lease = "the next echo renews the lease that was lost";
+    let identity = "nothing that is sent or told makes a robot change its pseudonym";
     let unseen: [(&'static dyn Rules, &str); 5] = [
-        (
-            &StartsBeforeItAcknowledges,
-            "acknowledgement and report leave in one order, whenever the body starts",
-        ),
-        (
-            &StopsInPlace,
-            "a robot's policy is its own setting; the air tells that it falls back, not how",
-        ),
-        (
-            &LosesTwoForOne,
-            "the next echo renews the lease that was lost",
-        ),
-        (
-            &NEVER_LOCKS_ITS_IDENTITY,
-            "nothing that is sent or told makes a robot change its pseudonym",
-        ),
-        (
-            &TakesItsLeadersPseudonym,
-            "nothing that is sent or told makes a robot change its pseudonym",
-        ),
+        (&StartsBeforeItAcknowledges, order),
+        (&StopsInPlace, policy),
+        (&LosesTwoForOne, lease),
+        (&NEVER_LOCKS_ITS_IDENTITY, identity),
+        (&TakesItsLeadersPseudonym, identity),
     ];
     for (rules, why) in unseen {
         assert_eq!(broken(rules, &[]), Vec::<&str>::new(), "it was: {why}");

@@ -5,7 +5,7 @@ use crossguard_protocol::{
     Verdict,
 };
 
-use super::{Breach, Met, Trace};
+use super::{Breach, Met, Told, Trace, told};
 use crate::exchange::{Happening, RamSeen};
 use crate::subject::Local;
 use crate::words;
@@ -13,11 +13,11 @@ use crate::words;
 statements! {
     "acknowledged-before-executed" "R7" acknowledged_before_executed:
         "A command is acknowledged by an RMCM before a RAM reports it.";
-    "commands-are-answered" "R7" commands_are_answered:
+    "commands-are-answered" "R7" commands_are_answered of new_commands:
         "A new command of the own leader is answered.";
     "impossible-commands-are-rejected" "R7" impossible_is_rejected:
         "A command for a task that was not offered is rejected, with that reason.";
-    "repeats-are-acknowledged-again" "R8" repeats_are_answered:
+    "repeats-are-acknowledged-again" "R8" repeats_are_answered of repeats:
         "A repeated command is answered as before.";
     "repeats-start-nothing" "R8" repeats_start_nothing:
         "A repeated command is not started again: its progress does not go back, and a body that stands goes on standing.";
@@ -29,7 +29,7 @@ statements! {
         "A command to another station is not answered and not started.";
     "fallen-back-stays" "R15" fallen_back_stays:
         "A command that fell back is never reported as running again, whatever is repeated.";
-    "progress-is-reported" "R11" progress_is_reported:
+    "progress-is-reported" "R11" progress_is_reported of told:
         "What the body has done is reported in a RAM that names session, command and progress.";
     "unavailable-robots-reject" "R24" unavailable_rejects:
         "An unavailable follower rejects a new command, with that reason.";
@@ -108,9 +108,8 @@ fn answered(
     })
 }
 
-fn commands_are_answered(trace: &Trace) -> Vec<Met> {
-    let judge = |(at, it, _): Commanded| answered(trace, at, &it, "no answer", |_| true);
-    new_commands(trace).into_iter().filter_map(judge).collect()
+fn commands_are_answered(trace: &Trace, (at, command, _): Commanded) -> Option<Met> {
+    answered(trace, at, &command, "no answer", |_| true)
 }
 
 /// New commands that must be rejected for a reason, where the robot's newest RAM is of that kind.
@@ -194,12 +193,12 @@ fn play_before(trace: &Trace, at_ms: u64) -> u64 {
     play.map_or(0, |seen| seen.at_ms)
 }
 
-fn repeats_are_answered(trace: &Trace) -> Vec<Met> {
-    let judge = |((at, command, _), verdict): (Commanded, Verdict)| {
-        let what = "no answer to the repeated command like the one before";
-        answered(trace, at, &command, what, |it| it == verdict)
-    };
-    repeats(trace).into_iter().filter_map(judge).collect()
+fn repeats_are_answered(
+    trace: &Trace,
+    ((at, command, _), verdict): (Commanded, Verdict),
+) -> Option<Met> {
+    let what = "no answer to the repeated command like the one before";
+    answered(trace, at, &command, what, |it| it == verdict)
 }
 
 /// How far a progress is: it never gets less.
@@ -301,25 +300,22 @@ fn to_others_changes_nothing(trace: &Trace) -> Vec<Met> {
     change_nothing(trace, commands.filter(|(_, it)| it.to != trace.robot))
 }
 
-fn progress_is_reported(trace: &Trace) -> Vec<Met> {
-    let judge = |(at, local, state): (u64, Local, &RamSeen)| {
-        let (session, report) = state.following()?;
-        let request = report.filter(|it| it.progress.is_running())?.request;
-        let is_it = |progress: Progress| match local {
-            // A body may be in position and done in one RAM period.
-            Local::InPosition => progress != Progress::Executing,
-            Local::Done => progress == Progress::Completed,
-            Local::Fail => matches!(progress, Progress::Failed(_)),
-            _ => false,
-        };
-        if !matches!(local, Local::InPosition | Local::Done | Local::Fail) {
-            return None;
-        }
-        trace.ram_soon(at, "no RAM that reports it", |state| {
-            let last = state.following().filter(|(now, _)| *now == session);
-            let last = last.and_then(|(_, last)| last);
-            last.is_some_and(|last| last.request == request && is_it(last.progress))
-        })
+fn progress_is_reported(trace: &Trace, (at, local, state): Told) -> Option<Met> {
+    let (session, report) = state.following()?;
+    let request = report.filter(|it| it.progress.is_running())?.request;
+    let is_it = |progress: Progress| match local {
+        // A body may be in position and done in one RAM period.
+        Local::InPosition => progress != Progress::Executing,
+        Local::Done => progress == Progress::Completed,
+        Local::Fail => matches!(progress, Progress::Failed(_)),
+        _ => false,
     };
-    trace.told_in_state().filter_map(judge).collect()
+    if !matches!(local, Local::InPosition | Local::Done | Local::Fail) {
+        return None;
+    }
+    trace.ram_soon(at, "no RAM that reports it", |state| {
+        let last = state.following().filter(|(now, _)| *now == session);
+        let last = last.and_then(|(_, last)| last);
+        last.is_some_and(|last| last.request == request && is_it(last.progress))
+    })
 }

@@ -5,13 +5,13 @@ use crossguard_protocol::{Coordination, Heartbeat, Progress, SessionId};
 use super::{Met, Trace, met_when, news};
 
 statements! {
-    "falls-back-not-before-t-safety" "R12" not_before_t_safety:
+    "falls-back-not-before-t-safety" "R12" not_before_t_safety of fallbacks:
         "A follower does not fall back before its t_safety is over, counted from the newest heartbeat or command.";
-    "falls-back-after-t-safety" "R12" after_t_safety:
+    "falls-back-after-t-safety" "R12" after_t_safety of silences:
         "A follower falls back when t_safety is over, and no old heartbeat, repeated heartbeat or repeated command keeps it from that.";
-    "fallback-is-a-duty" "R14" fallback_is_a_duty:
+    "fallback-is-a-duty" "R14" fallback_is_a_duty of fallbacks:
         "A follower that falls back says that it is on duty.";
-    "leaves-after-t-leave" "R14" leaves_after_t_leave:
+    "leaves-after-t-leave" "R14" leaves_after_t_leave of silences:
         "A follower without contact names the session as left when t_safety and t_leave are over, and not before.";
     "echoes-what-it-heard" "R13" echoes_what_it_heard:
         "A helper and a follower echo the newest heartbeat that they heard, none that was never sent, and never an older one after it.";
@@ -60,19 +60,16 @@ fn fallbacks(trace: &Trace) -> Vec<(u64, SessionId)> {
     found
 }
 
-fn not_before_t_safety(trace: &Trace) -> Vec<Met> {
+fn not_before_t_safety(trace: &Trace, (at, session): (u64, SessionId)) -> Option<Met> {
     let early_ms = trace.terms.early_ms;
-    let judge = |(at, session): (u64, SessionId)| {
-        // What arrived just before cannot have been in that RAM.
-        let since = newest_news(trace, session, at.saturating_sub(early_ms))?;
-        let t_safety_ms = t_safety_ms(trace, session);
-        let waited_ms = at - since;
-        let broken = (waited_ms + early_ms < t_safety_ms).then(|| {
-            format!("it fell back {waited_ms} ms after the newest heartbeat, with a t_safety of {t_safety_ms} ms")
-        });
-        Some(trace.met(at.saturating_sub(1), broken))
-    };
-    fallbacks(trace).into_iter().filter_map(judge).collect()
+    // What arrived just before cannot have been in that RAM.
+    let since = newest_news(trace, session, at.saturating_sub(early_ms))?;
+    let t_safety_ms = t_safety_ms(trace, session);
+    let waited_ms = at - since;
+    let broken = (waited_ms + early_ms < t_safety_ms).then(|| {
+        format!("it fell back {waited_ms} ms after the newest heartbeat, with a t_safety of {t_safety_ms} ms")
+    });
+    Some(trace.met(at.saturating_sub(1), broken))
 }
 
 /// How a leader kept silent after `at_ms`, in words.
@@ -111,51 +108,44 @@ fn silences(trace: &Trace) -> Vec<(u64, SessionId, bool)> {
     sessions.into_iter().filter_map(silence).collect()
 }
 
-fn after_t_safety(trace: &Trace) -> Vec<Met> {
-    let judge = |(since, session, runs): (u64, SessionId, bool)| {
-        let limit_ms = t_safety_ms(trace, session) + trace.soon_ms();
-        if !runs || trace.ended_ms < since + limit_ms {
-            return None;
-        }
-        let during = since..=since + limit_ms;
-        let mut after = trace.rams().filter(|(at, _)| during.contains(at));
-        let is_safe = after.any(|(_, state)| state.executes() != Some(session));
-        let broken = (!is_safe)
-            .then(|| format!("{limit_ms} ms after the newest heartbeat it still executes"));
-        let situation = trace.situation_at(since + 300);
-        let how = silence(trace, session, since);
-        Some(met_when(since, format!("{situation} after {how}"), broken))
-    };
-    silences(trace).into_iter().filter_map(judge).collect()
+fn after_t_safety(trace: &Trace, (since, session, runs): (u64, SessionId, bool)) -> Option<Met> {
+    let limit_ms = t_safety_ms(trace, session) + trace.soon_ms();
+    if !runs || trace.ended_ms < since + limit_ms {
+        return None;
+    }
+    let during = since..=since + limit_ms;
+    let mut after = trace.rams().filter(|(at, _)| during.contains(at));
+    let is_safe = after.any(|(_, state)| state.executes() != Some(session));
+    let broken =
+        (!is_safe).then(|| format!("{limit_ms} ms after the newest heartbeat it still executes"));
+    let situation = trace.situation_at(since + 300);
+    let how = silence(trace, session, since);
+    Some(met_when(since, format!("{situation} after {how}"), broken))
 }
 
-fn fallback_is_a_duty(trace: &Trace) -> Vec<Met> {
+fn fallback_is_a_duty(trace: &Trace, (at, _): (u64, SessionId)) -> Option<Met> {
     let what = "no RAM that says it is on duty";
-    let judge = |(at, _): (u64, SessionId)| trace.ram_soon(at, what, |state| state.ram.on_duty);
-    fallbacks(trace).into_iter().filter_map(judge).collect()
+    trace.ram_soon(at, what, |state| state.ram.on_duty)
 }
 
-fn leaves_after_t_leave(trace: &Trace) -> Vec<Met> {
+fn leaves_after_t_leave(trace: &Trace, (since, session, _): (u64, SessionId, bool)) -> Option<Met> {
     let t_leave_ms = trace.ms(|settings| settings.t_leave);
-    let judge = |(since, session, _): (u64, SessionId, bool)| {
-        let due_ms = since + t_safety_ms(trace, session) + t_leave_ms;
-        let limit_ms = due_ms + trace.soon_ms();
-        let mut after = trace.rams().filter(|(at, _)| *at > since);
-        let broken = match after.find(|(_, state)| state.names_as_left(session)) {
-            Some((at, _)) if at + trace.terms.early_ms < due_ms => {
-                Some(format!("it left {} ms too early", due_ms - at))
-            }
-            Some((at, _)) if at > limit_ms => Some(format!("it left {} ms too late", at - due_ms)),
-            Some(_) => None,
-            None if trace.ended_ms >= limit_ms => Some(format!(
-                "it had not left {} ms after the newest heartbeat",
-                limit_ms - since
-            )),
-            None => return None,
-        };
-        Some(met_when(since, trace.situation_at(since + 300), broken))
+    let due_ms = since + t_safety_ms(trace, session) + t_leave_ms;
+    let limit_ms = due_ms + trace.soon_ms();
+    let mut after = trace.rams().filter(|(at, _)| *at > since);
+    let broken = match after.find(|(_, state)| state.names_as_left(session)) {
+        Some((at, _)) if at + trace.terms.early_ms < due_ms => {
+            Some(format!("it left {} ms too early", due_ms - at))
+        }
+        Some((at, _)) if at > limit_ms => Some(format!("it left {} ms too late", at - due_ms)),
+        Some(_) => None,
+        None if trace.ended_ms >= limit_ms => Some(format!(
+            "it had not left {} ms after the newest heartbeat",
+            limit_ms - since
+        )),
+        None => return None,
     };
-    silences(trace).into_iter().filter_map(judge).collect()
+    Some(met_when(since, trace.situation_at(since + 300), broken))
 }
 
 fn echoes_what_it_heard(trace: &Trace) -> Vec<Met> {

@@ -2,24 +2,24 @@
 
 use crossguard_protocol::{Availability, Coordination, Ending, Farewell, SessionId};
 
-use super::{Met, Trace, met_when};
+use super::{Met, Told, Trace, met_when, told};
 use crate::exchange::RamSeen;
 use crate::subject::Local;
 
 statements! {
-    "completed-sessions-free" "R19" completed_frees:
+    "completed-sessions-free" "R19" completed_frees of played_ends:
         "A robot whose leader names the session as completed is free: no part, no duty, and its body stands.";
     "aborted-sessions-are-a-duty" "R19" aborted_is_a_duty:
         "A follower that executes when its session ends otherwise, or when it is not listed any more, is on duty.";
-    "own-ends-are-named" "R19" own_ends_are_named:
+    "own-ends-are-named" "R19" own_ends_are_named of told:
         "A leader or requester names its session as completed when its pedestrian is across, and as aborted when it leaves.";
-    "other-ends-change-nothing" "R1" other_ends_change_nothing:
+    "other-ends-change-nothing" "R1" other_ends_change_nothing of played_ends:
         "The end of another session changes no part.";
     "a-bare-none-releases-nobody" "R1" bare_none_changes_nothing:
         "A leader's RAM that says none, and names no session as ended, releases nobody.";
     "farewells-are-said-for-t-farewell" "R21" farewells_last:
         "What is left or ended is named in every RAM for t_farewell, and not for longer.";
-    "leaving-is-named" "R21" leaving_is_named:
+    "leaving-is-named" "R21" leaving_is_named of told:
         "A helper or follower that wants to leave names the session as left.";
     "stale-sessions-are-named" "R21" stale_is_named:
         "A robot that hears of a session of its own which is over names it as ended, unless it is naming another one.";
@@ -27,7 +27,7 @@ statements! {
         "A duty ends when the road is said to be clear, and nothing else ends it.";
     "unavailability-is-said" "R24" unavailability_is_said:
         "A robot that becomes unavailable says so in its RAM.";
-    "unavailability-ends-the-part" "R24" unavailability_ends_the_part:
+    "unavailability-ends-the-part" "R24" unavailability_ends_the_part of told:
         "A helper, or a follower that executes nothing, leaves when it becomes unavailable; a requester or leader ends its session.";
 }
 
@@ -47,28 +47,25 @@ fn played_ends(trace: &Trace) -> Vec<(u64, SessionId, Ending)> {
     all
 }
 
-fn completed_frees(trace: &Trace) -> Vec<Met> {
-    let judge = |(at, session, how): (u64, SessionId, Ending)| {
-        let state = trace.state_at(at)?;
-        if how != Ending::Completed || state.session() != Some(session) || state.ram.on_duty {
-            return None;
-        }
-        let met = trace.ram_soon(at, "no RAM without part and duty", |state| {
-            state.session() != Some(session) && !state.ram.on_duty
-        })?;
-        // A body needs a moment to stand.
-        let stands_ms = at + trace.soon_ms();
-        let until_ms = trace.undisturbed_until(at).max(stands_ms + 800);
-        let mut later = trace.rams().filter(|(then, state)| {
-            *then > stands_ms && *then <= until_ms && state.session().is_none()
-        });
-        let moves = later.find(|(_, state)| state.moves());
-        let moves =
-            moves.map(|(then, _)| format!("its body moves {} ms after it was released", then - at));
-        let broken = met.broken.or(moves);
-        Some(Met { broken, ..met })
-    };
-    played_ends(trace).into_iter().filter_map(judge).collect()
+fn completed_frees(trace: &Trace, (at, session, how): (u64, SessionId, Ending)) -> Option<Met> {
+    let state = trace.state_at(at)?;
+    if how != Ending::Completed || state.session() != Some(session) || state.ram.on_duty {
+        return None;
+    }
+    let met = trace.ram_soon(at, "no RAM without part and duty", |state| {
+        state.session() != Some(session) && !state.ram.on_duty
+    })?;
+    // A body needs a moment to stand.
+    let stands_ms = at + trace.soon_ms();
+    let until_ms = trace.undisturbed_until(at).max(stands_ms + 800);
+    let mut later = trace.rams().filter(|(then, state)| {
+        *then > stands_ms && *then <= until_ms && state.session().is_none()
+    });
+    let moves = later.find(|(_, state)| state.moves());
+    let moves =
+        moves.map(|(then, _)| format!("its body moves {} ms after it was released", then - at));
+    let broken = met.broken.or(moves);
+    Some(Met { broken, ..met })
 }
 
 fn aborted_is_a_duty(trace: &Trace) -> Vec<Met> {
@@ -100,42 +97,36 @@ fn aborted_is_a_duty(trace: &Trace) -> Vec<Met> {
     causes.into_iter().filter_map(judge).collect()
 }
 
-fn own_ends_are_named(trace: &Trace) -> Vec<Met> {
-    let judge = |(at, local, state): (u64, Local, &RamSeen)| {
-        let expected = match local {
-            Local::TaskCompleted => Ending::Completed,
-            Local::Leave => Ending::Aborted,
-            _ => return None,
-        };
-        let farewell = Some(Farewell::Ended(state.own_number()?, expected));
-        let what = "no RAM that names the session as ended so";
-        trace.ram_soon(at, what, |state| state.ram.farewell == farewell)
+fn own_ends_are_named(trace: &Trace, (at, local, state): Told) -> Option<Met> {
+    let expected = match local {
+        Local::TaskCompleted => Ending::Completed,
+        Local::Leave => Ending::Aborted,
+        _ => return None,
     };
-    trace.told_in_state().filter_map(judge).collect()
+    let farewell = Some(Farewell::Ended(state.own_number()?, expected));
+    let what = "no RAM that names the session as ended so";
+    trace.ram_soon(at, what, |state| state.ram.farewell == farewell)
 }
 
-fn leaving_is_named(trace: &Trace) -> Vec<Met> {
-    let judge = |(at, local, state): (u64, Local, &RamSeen)| {
-        let (session, _) = state.echo().filter(|_| local == Local::Leave)?;
-        let what = "no RAM that names the session as left";
-        trace.ram_soon(at, what, |state| state.names_as_left(session))
-    };
-    trace.told_in_state().filter_map(judge).collect()
+fn leaving_is_named(trace: &Trace, (at, local, state): Told) -> Option<Met> {
+    let (session, _) = state.echo().filter(|_| local == Local::Leave)?;
+    let what = "no RAM that names the session as left";
+    trace.ram_soon(at, what, |state| state.names_as_left(session))
 }
 
-fn other_ends_change_nothing(trace: &Trace) -> Vec<Met> {
-    let judge = |(at, session, _): (u64, SessionId, Ending)| {
-        let own = trace.state_at(at)?.session()?;
-        // What else that RAM says must not be news.
-        let spoke = trace
-            .played_rams()
-            .any(|(then, it)| it.ram.station == session.leader && then < at && then + 300 > at);
-        if own == session || !spoke {
-            return None;
-        }
-        Some(trace.met(at, trace.part_unchanged(at)?))
-    };
-    played_ends(trace).into_iter().filter_map(judge).collect()
+fn other_ends_change_nothing(
+    trace: &Trace,
+    (at, session, _): (u64, SessionId, Ending),
+) -> Option<Met> {
+    let own = trace.state_at(at)?.session()?;
+    // What else that RAM says must not be news.
+    let spoke = trace
+        .played_rams()
+        .any(|(then, it)| it.ram.station == session.leader && then < at && then + 300 > at);
+    if own == session || !spoke {
+        return None;
+    }
+    Some(trace.met(at, trace.part_unchanged(at)?))
 }
 
 fn bare_none_changes_nothing(trace: &Trace) -> Vec<Met> {
@@ -266,19 +257,16 @@ fn unavailability_is_said(trace: &Trace) -> Vec<Met> {
     trace.told().filter_map(judge).collect()
 }
 
-fn unavailability_ends_the_part(trace: &Trace) -> Vec<Met> {
-    let judge = |(at, local, state): (u64, Local, &RamSeen)| {
-        let session = state.session()?;
-        if !matches!(local, Local::Unavailable(_)) || state.executes().is_some() {
-            return None;
-        }
-        let ended = state.own_number();
-        let ended = ended.map(|number| Farewell::Ended(number, Ending::Aborted));
-        let what = "no RAM that fails, leaves or ends";
-        trace.ram_soon(at, what, |state| match ended {
-            Some(_) => state.ram.farewell == ended,
-            None => state.names_as_left(session),
-        })
-    };
-    trace.told_in_state().filter_map(judge).collect()
+fn unavailability_ends_the_part(trace: &Trace, (at, local, state): Told) -> Option<Met> {
+    let session = state.session()?;
+    if !matches!(local, Local::Unavailable(_)) || state.executes().is_some() {
+        return None;
+    }
+    let ended = state.own_number();
+    let ended = ended.map(|number| Farewell::Ended(number, Ending::Aborted));
+    let what = "no RAM that fails, leaves or ends";
+    trace.ram_soon(at, what, |state| match ended {
+        Some(_) => state.ram.farewell == ended,
+        None => state.names_as_left(session),
+    })
 }

@@ -5,16 +5,16 @@ use crossguard_protocol::{
     UniqueNumber,
 };
 
-use super::{Met, Trace, met_when, news};
+use super::{Met, Told, Trace, met_when, news, told};
 use crate::exchange::RamSeen;
 use crate::subject::Local;
 
 statements! {
-    "free-robots-offer" "R3" free_robots_offer:
+    "free-robots-offer" "R3" free_robots_offer of requests:
         "A robot that is free and can do one of the tasks offers, with those tasks.";
     "offers-are-for-what-can-be-done" "R3" impossible_gets_no_offer:
         "A robot that can do none of the tasks does not offer.";
-    "offers-lapse-after-t-offer" "R3" offers_lapse:
+    "offers-lapse-after-t-offer" "R3" offers_lapse of requests:
         "An offer lapses when t_offer is over since the newest heartbeat of the request, and not before.";
     "offers-go-to-one-requester" "R3" one_requester:
         "A robot that offers to one requester, or follows, offers to nobody else.";
@@ -22,7 +22,7 @@ statements! {
         "A robot that is on duty offers to nobody, and asks nobody.";
     "unavailable-robots-do-not-offer" "R24" unavailable_does_not_offer:
         "An unavailable robot offers to nobody.";
-    "pedestrians-are-asked-for" "R4" pedestrians_are_asked_for:
+    "pedestrians-are-asked-for" "R4" pedestrians_are_asked_for of told:
         "A robot that has detected a pedestrian asks for as many followers as it needs.";
     "requests-end-at-t-help" "R5" requests_end:
         "A request that nobody meets is named as aborted when t_help is over, and not before.";
@@ -31,6 +31,7 @@ statements! {
 }
 
 /// A request that was played: when first, by which session, and for what.
+#[derive(Clone, Copy)]
 struct Request {
     at_ms: u64,
     session: SessionId,
@@ -54,27 +55,24 @@ fn requests(trace: &Trace) -> Vec<Request> {
     all
 }
 
-fn free_robots_offer(trace: &Trace) -> Vec<Met> {
-    let judge = |it: Request| {
-        let tasks = possible(trace, &it);
-        if !trace.state_at(it.at_ms)?.is_free() || tasks.is_empty() {
-            return None;
+fn free_robots_offer(trace: &Trace, it: Request) -> Option<Met> {
+    let tasks = possible(trace, &it);
+    if !trace.state_at(it.at_ms)?.is_free() || tasks.is_empty() {
+        return None;
+    }
+    let what = "no offer with the tasks that it can do";
+    trace.ram_soon(it.at_ms, what, |state| match state.ram.coordination {
+        Coordination::OfferHelp {
+            session,
+            capabilities,
+            ..
+        } => {
+            session == it.session
+                && capabilities.intersection(tasks) == capabilities
+                && capabilities != TaskSet::EMPTY
         }
-        let what = "no offer with the tasks that it can do";
-        trace.ram_soon(it.at_ms, what, |state| match state.ram.coordination {
-            Coordination::OfferHelp {
-                session,
-                capabilities,
-                ..
-            } => {
-                session == it.session
-                    && capabilities.intersection(tasks) == capabilities
-                    && capabilities != TaskSet::EMPTY
-            }
-            _ => false,
-        })
-    };
-    requests(trace).into_iter().filter_map(judge).collect()
+        _ => false,
+    })
 }
 
 /// Requests that must not be offered to, where the robot's newest RAM is of that kind.
@@ -121,7 +119,7 @@ fn on_duty_does_not_offer(trace: &Trace) -> Vec<Met> {
     let mut all = not_offered(trace, |state, it| {
         state.ram.on_duty && is_possible(trace, it)
     });
-    all.extend(trace.told_in_state().filter_map(|(at, local, state)| {
+    all.extend(told(trace).filter_map(|(at, local, state)| {
         if !matches!(local, Local::Detect(_)) || !state.ram.on_duty {
             return None;
         }
@@ -139,73 +137,67 @@ fn unavailable_does_not_offer(trace: &Trace) -> Vec<Met> {
     })
 }
 
-fn offers_lapse(trace: &Trace) -> Vec<Met> {
+fn offers_lapse(trace: &Trace, it: Request) -> Option<Met> {
     let t_offer_ms = trace.ms(|settings| settings.t_offer);
-    let judge = |it: Request| {
-        let requests = trace.played_rams().filter(|(_, played)| played.asks());
-        let beats: Vec<_> = requests
-            .filter(|(_, played)| played.session() == Some(it.session))
-            .filter_map(|(at, played)| Some((at, played.heartbeat()?)))
-            .collect();
-        // The first offer: a request that is heard again once it has lapsed is a new one.
-        let (first, offering) = trace
-            .rams()
-            .find(|(_, state)| state.offers_to(it.session))?;
-        let offer = offering.offer();
-        let (last, _) = trace.rams().rfind(|(_, state)| state.offer() == offer)?;
-        let (since, _) = news(beats.iter().copied().filter(|(at, _)| *at <= last)).last()?;
-        let since = since.max(first);
-        let is_settled = trace.played_rams().any(|(_, played)| {
-            let has_ended = matches!(played.ram.farewell, Some(Farewell::Ended(..)));
-            played.ram.station == it.session.leader && (played.leads() || has_ended)
-        });
-        if is_settled || trace.is_disturbed(since.saturating_sub(200)..) {
-            return None;
-        }
-        // Where there is none, it goes on offering, and the tester did not wait for longer.
-        let next = trace.rams().map(|(at, _)| at).find(|at| *at > last);
-        let limit_ms = t_offer_ms + trace.soon_ms();
-        let earliest_ms = since + t_offer_ms.saturating_sub(trace.terms.early_ms);
-        let broken = if let Some(at) = next.filter(|at| *at < earliest_ms) {
-            let waited_ms = at.saturating_sub(since);
-            Some(format!(
-                "the offer lapsed {waited_ms} ms after the newest heartbeat"
-            ))
-        } else if last > since + limit_ms {
-            let late_ms = last - since;
-            Some(format!(
-                "it still offers {late_ms} ms after the newest heartbeat"
-            ))
-        } else {
-            next?;
-            None
-        };
-        let is_silent = beats.last().is_some_and(|(at, _)| *at <= since);
-        let how = if is_silent {
-            "silence"
-        } else {
-            "old heartbeats"
-        };
-        Some(met_when(since, format!("offering after {how}"), broken))
+    let requests = trace.played_rams().filter(|(_, played)| played.asks());
+    let beats: Vec<_> = requests
+        .filter(|(_, played)| played.session() == Some(it.session))
+        .filter_map(|(at, played)| Some((at, played.heartbeat()?)))
+        .collect();
+    // The first offer: a request that is heard again once it has lapsed is a new one.
+    let (first, offering) = trace
+        .rams()
+        .find(|(_, state)| state.offers_to(it.session))?;
+    let offer = offering.offer();
+    let (last, _) = trace.rams().rfind(|(_, state)| state.offer() == offer)?;
+    let (since, _) = news(beats.iter().copied().filter(|(at, _)| *at <= last)).last()?;
+    let since = since.max(first);
+    let is_settled = trace.played_rams().any(|(_, played)| {
+        let has_ended = matches!(played.ram.farewell, Some(Farewell::Ended(..)));
+        played.ram.station == it.session.leader && (played.leads() || has_ended)
+    });
+    if is_settled || trace.is_disturbed(since.saturating_sub(200)..) {
+        return None;
+    }
+    // Where there is none, it goes on offering, and the tester did not wait for longer.
+    let next = trace.rams().map(|(at, _)| at).find(|at| *at > last);
+    let limit_ms = t_offer_ms + trace.soon_ms();
+    let earliest_ms = since + t_offer_ms.saturating_sub(trace.terms.early_ms);
+    let broken = if let Some(at) = next.filter(|at| *at < earliest_ms) {
+        let waited_ms = at.saturating_sub(since);
+        Some(format!(
+            "the offer lapsed {waited_ms} ms after the newest heartbeat"
+        ))
+    } else if last > since + limit_ms {
+        let late_ms = last - since;
+        Some(format!(
+            "it still offers {late_ms} ms after the newest heartbeat"
+        ))
+    } else {
+        next?;
+        None
     };
-    requests(trace).into_iter().filter_map(judge).collect()
+    let is_silent = beats.last().is_some_and(|(at, _)| *at <= since);
+    let how = if is_silent {
+        "silence"
+    } else {
+        "old heartbeats"
+    };
+    Some(met_when(since, format!("offering after {how}"), broken))
 }
 
-fn pedestrians_are_asked_for(trace: &Trace) -> Vec<Met> {
-    let judge = |(at, local, state): (u64, Local, &RamSeen)| {
-        let Local::Detect(followers) = local else {
-            return None;
-        };
-        if !state.is_free() {
-            return None;
-        }
-        let what = format!("no request for {followers} followers");
-        trace.ram_soon(at, &what, |state| {
-            matches!(state.ram.coordination, Coordination::NeedHelp { request, .. }
-                if request.followers == followers)
-        })
+fn pedestrians_are_asked_for(trace: &Trace, (at, local, state): Told) -> Option<Met> {
+    let Local::Detect(followers) = local else {
+        return None;
     };
-    trace.told_in_state().filter_map(judge).collect()
+    if !state.is_free() {
+        return None;
+    }
+    let what = format!("no request for {followers} followers");
+    trace.ram_soon(at, &what, |state| {
+        matches!(state.ram.coordination, Coordination::NeedHelp { request, .. }
+            if request.followers == followers)
+    })
 }
 
 fn requests_end(trace: &Trace) -> Vec<Met> {

@@ -3,8 +3,7 @@
 use crossguard_protocol::{Command, Farewell, StationId};
 
 use super::select::begun;
-use super::{Breach, Met, Trace, met_when};
-use crate::exchange::RamSeen;
+use super::{Breach, Met, Told, Trace, met_when, told};
 use crate::subject::Local;
 
 statements! {
@@ -218,7 +217,7 @@ fn other_answers_do_not_count(trace: &Trace) -> Vec<Met> {
 
 fn orders_are_commanded(trace: &Trace) -> Vec<Met> {
     let all_sent = sent(trace);
-    let judge = |(at, local, state): (u64, Local, &RamSeen)| {
+    let judge = |(at, local, state): Told| {
         let Local::Order(to, task) = local else {
             return None;
         };
@@ -242,7 +241,7 @@ fn orders_are_commanded(trace: &Trace) -> Vec<Met> {
                 .is_some_and(|it| (it.to, it.task) == (to, task))
         })
     };
-    trace.told_in_state().filter_map(judge).collect()
+    told(trace).filter_map(judge).collect()
 }
 
 fn one_is_outstanding(trace: &Trace) -> Vec<Met> {

@@ -8,11 +8,11 @@ use crate::exchange::RamSeen;
 statements! {
     "follows-the-leader-that-listed-it" "R2" follows_only_confirmed:
         "A robot follows only after a leader has listed the offer that it made to that session.";
-    "takes-the-role" "R2" takes_the_role:
+    "takes-the-role" "R2" takes_the_role of first_lists:
         "A robot whose standing offer is listed follows.";
-    "not-listed-is-released" "R2" not_listed_is_released:
+    "not-listed-is-released" "R2" not_listed_is_released of first_lists:
         "A helper or follower that its leader does not list, or lists for another offer, has no part any more.";
-    "declines-what-does-not-stand" "R2" declines_what_lapsed:
+    "declines-what-does-not-stand" "R2" declines_what_lapsed of first_lists:
         "A robot that is listed for an offer that has lapsed names the session as left.";
 }
 
@@ -97,37 +97,28 @@ fn follows_only_confirmed(trace: &Trace) -> Vec<Met> {
     all
 }
 
-fn takes_the_role(trace: &Trace) -> Vec<Met> {
-    let judge = |(at, session, listed): Listing| {
-        // The robot's newest RAM says that the offer stands.
-        if trace.state_at(at)?.offer() != Some((session, listed?)) {
-            return None;
-        }
-        trace.ram_soon(at, "no RAM that follows", |state| state.follows(session))
-    };
-    first_lists(trace).into_iter().filter_map(judge).collect()
+fn takes_the_role(trace: &Trace, (at, session, listed): Listing) -> Option<Met> {
+    // The robot's newest RAM says that the offer stands.
+    if trace.state_at(at)?.offer() != Some((session, listed?)) {
+        return None;
+    }
+    trace.ram_soon(at, "no RAM that follows", |state| state.follows(session))
 }
 
-fn not_listed_is_released(trace: &Trace) -> Vec<Met> {
-    let judge = |(at, session, listed): Listing| {
-        let is_released = |state: &RamSeen| state.session() != Some(session);
-        let own = offer_to(trace, session, at)?;
-        if is_released(trace.state_at(at)?) || listed == Some(own) {
-            return None;
-        }
-        trace.ram_soon(at, "no RAM without a part in the session", is_released)
-    };
-    first_lists(trace).into_iter().filter_map(judge).collect()
+fn not_listed_is_released(trace: &Trace, (at, session, listed): Listing) -> Option<Met> {
+    let is_released = |state: &RamSeen| state.session() != Some(session);
+    let own = offer_to(trace, session, at)?;
+    if is_released(trace.state_at(at)?) || listed == Some(own) {
+        return None;
+    }
+    trace.ram_soon(at, "no RAM without a part in the session", is_released)
 }
 
-fn declines_what_lapsed(trace: &Trace) -> Vec<Met> {
-    let judge = |(at, session, listed): Listing| {
-        let was_made = offer_to(trace, session, at) == Some(listed?);
-        if !was_made || trace.state_at(at)?.session().is_some() {
-            return None;
-        }
-        let what = "no RAM that names the session as left";
-        trace.ram_soon(at, what, |state| state.names_as_left(session))
-    };
-    first_lists(trace).into_iter().filter_map(judge).collect()
+fn declines_what_lapsed(trace: &Trace, (at, session, listed): Listing) -> Option<Met> {
+    let was_made = offer_to(trace, session, at) == Some(listed?);
+    if !was_made || trace.state_at(at)?.session().is_some() {
+        return None;
+    }
+    let what = "no RAM that names the session as left";
+    trace.ram_soon(at, what, |state| state.names_as_left(session))
 }

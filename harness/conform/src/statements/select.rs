@@ -10,7 +10,7 @@ statements! {
         "A requester with offers enough leads when t_select is over.";
     "leads-chosen-helpers-alone" "R4" leads_chosen_helpers_alone:
         "A leader lists as many followers as it asked for, each by an offer that was made to its session, and adds nobody.";
-    "the-nearer-is-chosen" "R4" nearer_is_chosen:
+    "the-nearer-is-chosen" "R4" nearer_is_chosen of begun:
         "Of two helpers that can do the same, the nearer one is chosen.";
     "unfit-offers-are-not-taken" "R3" unfit_is_not_taken:
         "A helper whose t_safety does not fit the lease is not confirmed.";
@@ -136,19 +136,19 @@ fn nobody_is_added(trace: &Trace) -> Option<Met> {
 /// How long before it leads an offer must have been sent to be sure to count, in ms.
 const COUNTS_MS: u64 = 120;
 
-fn nearer_is_chosen(trace: &Trace) -> Vec<Met> {
+fn nearer_is_chosen(
+    trace: &Trace,
+    (at, session, state, asked): (u64, SessionId, &RamSeen, Option<u8>),
+) -> Option<Met> {
     let [ada, bo] = trace.players;
-    let judge = |(at, session, state, asked): (u64, SessionId, &RamSeen, Option<u8>)| {
-        let has_offered = |who: StationId| {
-            offers(trace, session).any(|(then, by, ..)| by == who && then + COUNTS_MS <= at)
-        };
-        if asked != Some(1) || !has_offered(ada) || !has_offered(bo) {
-            return None;
-        }
-        let broken = (!state.lists(bo)).then(|| format!("it chose {ada}, and {bo} is nearer"));
-        Some(met_when(at, "two offers", broken))
+    let has_offered = |who: StationId| {
+        offers(trace, session).any(|(then, by, ..)| by == who && then + COUNTS_MS <= at)
     };
-    begun(trace).into_iter().filter_map(judge).collect()
+    if asked != Some(1) || !has_offered(ada) || !has_offered(bo) {
+        return None;
+    }
+    let broken = (!state.lists(bo)).then(|| format!("it chose {ada}, and {bo} is nearer"));
+    Some(met_when(at, "two offers", broken))
 }
 
 fn unfit_is_not_taken(trace: &Trace) -> Vec<Met> {

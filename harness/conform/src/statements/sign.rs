@@ -2,20 +2,20 @@
 
 use crossguard_protocol::{Command, Coordination, Heartbeat, Progress, SessionId};
 
-use super::{Met, Trace, met_when, news};
+use super::{Met, Told, Trace, met_when, news, told};
 use crate::exchange::RamSeen;
 use crate::subject::Local;
 
 statements! {
     "go-is-shown-over-guards" "R16" go_over_guards:
         "Go is shown only while every follower that was asked for is listed and reports that it guards, from its place where it has one.";
-    "go-can-be-shown" "R16" go_can_be_shown:
+    "go-can-be-shown" "R16" go_can_be_shown of orders_to_open:
         "Go is shown when the application asks for it and every follower guards.";
     "go-ends-by-itself" "R17" go_ends_by_itself:
         "Go is not shown for longer than the lease after a follower's newest echo.";
     "reports-of-other-commands-do-not-count" "R11" other_reports_do_not_count:
         "A report of another command than the follower's does not end go.";
-    "guards-are-not-commanded-away" "R18" guards_are_kept:
+    "guards-are-not-commanded-away" "R18" guards_are_kept of told:
         "While people may be on the road no guard is commanded to do something else.";
 }
 
@@ -109,7 +109,7 @@ fn situation(why: &str) -> &str {
 /// The orders to open, each with the robot's session, where its RAM say what is shown.
 fn orders_to_open(trace: &Trace) -> impl Iterator<Item = (u64, SessionId)> {
     let says = trace.rams().any(|(_, state)| state.sign.is_some());
-    trace.told_in_state().filter_map(move |(at, local, state)| {
+    told(trace).filter_map(move |(at, local, state)| {
         let session = state.session().filter(|it| it.leader == trace.robot)?;
         (local == Local::Open && says).then_some((at, session))
     })
@@ -173,17 +173,14 @@ fn ended_by_reports(trace: &Trace) -> Vec<Met> {
     all
 }
 
-fn go_can_be_shown(trace: &Trace) -> Vec<Met> {
-    let judge = |(at, session): (u64, SessionId)| {
-        // What is so must have been heard.
-        let was_so = obstacle(trace, session, at.saturating_sub(200)).is_none();
-        if !was_so || obstacle(trace, session, at).is_some() {
-            return None;
-        }
-        let limit_ms = SAID_MS + trace.soon_ms();
-        trace.ram_due(at, limit_ms, "no RAM that shows go", RamSeen::shows_go)
-    };
-    orders_to_open(trace).filter_map(judge).collect()
+fn go_can_be_shown(trace: &Trace, (at, session): (u64, SessionId)) -> Option<Met> {
+    // What is so must have been heard.
+    let was_so = obstacle(trace, session, at.saturating_sub(200)).is_none();
+    if !was_so || obstacle(trace, session, at).is_some() {
+        return None;
+    }
+    let limit_ms = SAID_MS + trace.soon_ms();
+    trace.ram_due(at, limit_ms, "no RAM that shows go", RamSeen::shows_go)
 }
 
 fn go_ends_by_itself(trace: &Trace) -> Vec<Met> {
@@ -247,27 +244,24 @@ fn other_reports_do_not_count(trace: &Trace) -> Vec<Met> {
     trace.played_rams().filter_map(judge).take(1).collect()
 }
 
-fn guards_are_kept(trace: &Trace) -> Vec<Met> {
-    let judge = |(at, local, state): (u64, Local, &RamSeen)| {
-        let Local::Order(to, _) = local else {
-            return None;
-        };
-        let session = state.session()?;
-        let mut shown = trace.rams().filter(|(_, state)| state.shows_go());
-        let (opened, _) =
-            shown.find(|(then, state)| *then <= at && state.session() == Some(session))?;
-        let is_clear = trace
-            .told()
-            .any(|(then, local)| local == Local::Clear && then > opened && then <= at);
-        let until_ms = trace.undisturbed_until(at);
-        if is_clear || obstacle(trace, session, at).is_some() || until_ms < at + trace.soon_ms() {
-            return None;
-        }
-        let mut commands = trace.commands().filter(|(_, command)| command.to == to);
-        let commanded = commands.find(|(then, _)| (at..until_ms).contains(then));
-        let broken = commanded
-            .map(|(then, command)| format!("it commands {} {} ms later", command.task, then - at));
-        Some(met_when(at, "people may be on the road", broken))
+fn guards_are_kept(trace: &Trace, (at, local, state): Told) -> Option<Met> {
+    let Local::Order(to, _) = local else {
+        return None;
     };
-    trace.told_in_state().filter_map(judge).collect()
+    let session = state.session()?;
+    let mut shown = trace.rams().filter(|(_, state)| state.shows_go());
+    let (opened, _) =
+        shown.find(|(then, state)| *then <= at && state.session() == Some(session))?;
+    let is_clear = trace
+        .told()
+        .any(|(then, local)| local == Local::Clear && then > opened && then <= at);
+    let until_ms = trace.undisturbed_until(at);
+    if is_clear || obstacle(trace, session, at).is_some() || until_ms < at + trace.soon_ms() {
+        return None;
+    }
+    let mut commands = trace.commands().filter(|(_, command)| command.to == to);
+    let commanded = commands.find(|(then, _)| (at..until_ms).contains(then));
+    let broken = commanded
+        .map(|(then, command)| format!("it commands {} {} ms later", command.task, then - at));
+    Some(met_when(at, "people may be on the road", broken))
 }
