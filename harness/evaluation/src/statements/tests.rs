@@ -23,23 +23,29 @@ fn axes(site: Site) -> Axes {
     }
 }
 
-/// The outcome of a statement about these coverages, by robots, people and radius.
-fn coverage(statement: Statement, percent: impl Fn(usize, usize, f64) -> Estimate) -> Outcome {
-    let (grid, axes) = (streets(), axes(Site::SouthWest));
+/// All cells of the paper, by robots, people and radius.
+fn cells<C>(cell: impl Fn(usize, usize, f64) -> C) -> Vec<C> {
     let mut cells = Vec::new();
     for robots in PAPER.robots {
         for pedestrians in PAPER.pedestrians {
-            cells.extend(PAPER.radii_m.map(|radius_m| ObsCell {
-                robots,
-                pedestrians,
-                radius_m,
-                obs_percent: percent(robots, pedestrians, radius_m),
-                covered_at_intersections_percent: exactly(93.0),
-                at_intersections_percent: exactly(47.0),
-                ..ObsCell::default()
-            }));
+            cells.extend(PAPER.radii_m.map(|it| cell(robots, pedestrians, it)));
         }
     }
+    cells
+}
+
+/// The outcome of a statement about these coverages, by robots, people and radius.
+fn coverage(statement: Statement, percent: impl Fn(usize, usize, f64) -> Estimate) -> Outcome {
+    let (grid, axes) = (streets(), axes(Site::SouthWest));
+    let cells = cells(|robots, pedestrians, radius_m| ObsCell {
+        robots,
+        pedestrians,
+        radius_m,
+        obs_percent: percent(robots, pedestrians, radius_m),
+        covered_at_intersections_percent: exactly(93.0),
+        at_intersections_percent: exactly(47.0),
+        ..ObsCell::default()
+    });
     outcome_of(statement, &of_coverage(setting(&grid, &axes), &cells))
 }
 
@@ -77,22 +83,21 @@ fn every_statement_on_coverage_can_be_met_and_missed() {
         ProportionalDecrease,
         SeveralAreBetter,
     ] {
-        assert_eq!(
-            coverage(statement, as_stated),
-            Outcome::Met,
-            "{statement:?}"
-        );
+        let outcome = coverage(statement, as_stated);
+        assert_eq!(outcome, Outcome::Met, "{statement:?}");
     }
     let everywhere = |mean| move |_: usize, _: usize, _: f64| exactly(mean);
-    assert_eq!(coverage(CoverageOfNone, everywhere(1.0)), Outcome::NotMet);
-    assert_eq!(coverage(CoverageOfOne, everywhere(6.6)), Outcome::NotMet);
-    assert_eq!(coverage(CoverageOfNine, everywhere(16.4)), Outcome::NotMet);
-    // As much at 10 m as at 15 m, and with one robot as with nine.
-    assert_eq!(
-        coverage(ProportionalDecrease, everywhere(5.5)),
-        Outcome::NotMet
-    );
-    assert_eq!(coverage(SeveralAreBetter, everywhere(5.5)), Outcome::NotMet);
+    for (statement, percent) in [
+        (CoverageOfNone, 1.0),
+        (CoverageOfOne, 6.6),
+        (CoverageOfNine, 16.4),
+        // As much at 10 m as at 15 m, and with one robot as with nine.
+        (ProportionalDecrease, 5.5),
+        (SeveralAreBetter, 5.5),
+    ] {
+        let outcome = coverage(statement, everywhere(percent));
+        assert_eq!(outcome, Outcome::NotMet, "{statement:?}");
+    }
 }
 
 #[test]
@@ -192,25 +197,20 @@ type Load = [f64; 5];
 fn load(percent: impl Fn(usize, usize, f64) -> Load) -> Vec<Comparison> {
     let (grid, axes) = (streets(), axes(Site::SouthWest));
     let behaviour = Behaviour::default();
-    let mut cells = Vec::new();
-    for robots in PAPER.robots {
-        for pedestrians in PAPER.pedestrians {
-            cells.extend(PAPER.radii_m.map(|radius_m| {
-                let [mcbr, reduction, silent, wrong, ram] = percent(robots, pedestrians, radius_m);
-                CbrCell {
-                    robots,
-                    pedestrians,
-                    radius_m,
-                    mcbr: exactly(mcbr / 100.0),
-                    reduction_percent: exactly(reduction),
-                    passive_percent: exactly(silent),
-                    wrongly_silent_percent: exactly(silent * wrong / 100.0),
-                    messages_per_s: [exactly(0.0), exactly(0.0), exactly(ram)],
-                    ..CbrCell::default()
-                }
-            }));
+    let cells = cells(|robots, pedestrians, radius_m| {
+        let [mcbr, reduction, silent, wrong, ram] = percent(robots, pedestrians, radius_m);
+        CbrCell {
+            robots,
+            pedestrians,
+            radius_m,
+            mcbr: exactly(mcbr / 100.0),
+            reduction_percent: exactly(reduction),
+            passive_percent: exactly(silent),
+            wrongly_silent_percent: exactly(silent * wrong / 100.0),
+            messages_per_s: [exactly(0.0), exactly(0.0), exactly(ram)],
+            ..CbrCell::default()
         }
-    }
+    });
     let setting = Setting {
         behaviour: Some(&behaviour),
         ..setting(&grid, &axes)
@@ -253,20 +253,12 @@ fn every_statement_on_channel_load_can_be_met_and_missed() {
         SmallerRadiusSendsLess,
         ConservativeSilence,
     ];
-    for statement in missed {
-        assert_eq!(
-            outcome_of(statement, &high),
-            Outcome::NotMet,
-            "{statement:?}"
-        );
-    }
     let none = load(|_, _, _| [1.0, 0.0, 0.0, 0.0, 0.0]);
-    for statement in [ConsistentReduction, LargestReduction] {
-        assert_eq!(
-            outcome_of(statement, &none),
-            Outcome::NotMet,
-            "{statement:?}"
-        );
+    let missed = missed.map(|statement| (statement, &high));
+    let without = [ConsistentReduction, LargestReduction].map(|it| (it, &none));
+    for (statement, lines) in missed.into_iter().chain(without) {
+        let outcome = outcome_of(statement, lines);
+        assert_eq!(outcome, Outcome::NotMet, "{statement:?}");
     }
     let [too_little, too_much] = [0.9, 1.1].map(|factor| {
         load(move |robots, people, radius_m| {
