@@ -47,6 +47,8 @@ pub mod sign;
 pub mod site;
 pub mod site_file;
 pub mod street;
+#[cfg(test)]
+mod table;
 pub mod tally;
 pub mod trace;
 pub mod transport;

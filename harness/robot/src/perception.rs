@@ -529,6 +529,7 @@ mod tests {
     use crossguard_codec::core::cdd::{CardinalNumber1B, Identifier1B};
 
     use super::*;
+    use crate::table::rows;
 
     #[test]
     fn a_frame_has_defaults_and_takes_what_is_said() {
@@ -606,49 +607,28 @@ mod tests {
         assert_eq!(announced.note(None), None);
     }
 
+    /// A line that is no observation, and what is said of it. `MANY` stands for one person more than there can be.
+    const MISUNDERSTOOD: &str = r#"
+{}                                                               | missing field `people`
+{"people": []}                                                   | a frame wants either 'at_s'
+{"people": [], "at_s": 1, "unix_s": 1}                           | a frame wants either 'at_s'
+{"people": [MANY], "at_s": 1}                                    | 257 people: at most 256 are possible
+{"people": [], "at_s": -1}                                       | at_s is -1
+{"people": [], "at_s": 1, "source": -1}                          | invalid value
+{"people": [{"position_m": [1, 2], "error_m": -1}], "at_s": 1}   | error_m is -1
+{"id": 1, "place": 3}                                            | unknown field `place`
+{"id": 1, "position_m": [1, 2], "class": "car"}                  | unknown variant `car`
+{"id": 1, "position_m": [1, 2], "confidence": 1.5}               | confidence is 1.5: 0 to 1 is wanted
+{"id": 1, "position_m": [1, 1e9]}                                | position_m is 1000000000: metres on the site is wanted
+{"id": 1, "position_m": [1, 2], "at_s": -1}                      | at_s is -1
+"#;
+
     #[test]
     fn what_is_no_observation_is_answered_with_what_would_be() {
-        let many = format!(
-            r#"{{"at_s": 1, "people": [{}]}}"#,
-            vec![r#"{"position_m": [1, 2]}"#; PEOPLE_MAX + 1].join(", ")
-        );
-        for (line, answer) in [
-            ("{}", "missing field `people`"),
-            (r#"{"people": []}"#, "a frame wants either 'at_s'"),
-            (
-                r#"{"people": [], "at_s": 1, "unix_s": 1}"#,
-                "a frame wants either 'at_s'",
-            ),
-            (&many, "257 people: at most 256 are possible"),
-            (r#"{"people": [], "at_s": -1}"#, "at_s is -1"),
-            (
-                r#"{"people": [], "at_s": 1, "source": -1}"#,
-                "invalid value",
-            ),
-            (
-                r#"{"people": [{"position_m": [1, 2], "error_m": -1}], "at_s": 1}"#,
-                "error_m is -1",
-            ),
-            (r#"{"id": 1, "place": 3}"#, "unknown field `place`"),
-            (
-                r#"{"id": 1, "position_m": [1, 2], "class": "car"}"#,
-                "unknown variant `car`",
-            ),
-            (
-                r#"{"id": 1, "position_m": [1, 2], "confidence": 1.5}"#,
-                "confidence is 1.5: 0 to 1 is wanted",
-            ),
-            (
-                r#"{"id": 1, "position_m": [1, 1e9]}"#,
-                "position_m is 1000000000: metres on the site is wanted",
-            ),
-            (
-                r#"{"id": 1, "position_m": [1, 2], "at_s": -1}"#,
-                "at_s is -1",
-            ),
-        ] {
-            let error = parse(line).unwrap_err().to_string();
-            assert!(error.contains(answer), "{line}: {error}");
+        let many = vec![r#"{"position_m": [1, 2]}"#; PEOPLE_MAX + 1].join(", ");
+        for [line, answer] in rows(MISUNDERSTOOD) {
+            let error = parse(&line.replace("MANY", &many)).unwrap_err();
+            assert!(error.to_string().contains(&answer), "{line}: {error}");
         }
     }
 }

@@ -320,13 +320,7 @@ impl LaneTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn refused(from: &str, to: &str) -> String {
-        assert!(STREET.contains(from), "{from}");
-        let text = STREET.replacen(from, to, 1);
-        let error = SiteFile::parse("s.toml", "s", &text).unwrap_err();
-        error.to_string()
-    }
+    use crate::table::rows;
 
     #[test]
     fn the_street_is_a_site() {
@@ -342,77 +336,30 @@ mod tests {
         assert_eq!(lane("near-kerb"), None);
     }
 
+    /// What is replaced in the street, by what, and what is said then.
+    const MISFITS: &str = r#"
+latitude = 49    | latitude = 95     | s.toml:5: 95.0101, 8.4124 is not a latitude
+width_m = 3.5    | width_m = nan     | s.toml:20: NaN is not possible: 1 to 30 m
+[20.0, 1.75]     | [-20.0, 1.75]     | s.toml:19: lane 'near' is shorter than a metre
+[-4.0, 2.0]      | [-4.0, 9.0]       | place 'near-lane' is for guarding, and on no lane
+[1.0, -1.0]      | [1.0, 1.0]        | place 'near-kerb' is on lane 'near'
+[1.0, -1.0]      | [1.0, 1e30]       | is no place: metres east and north
+[5.0, 0.0]]      | [-3.0, 0.5]]      | s.toml:10: the kerb is shorter than a metre
+[5.0, 7.0]]      | [5.0, 3.0]]       | s.toml:10: the two kerbs meet, or will within 10 m beside the crossing
+# along_m = 10.0 | along_m = -1.0 #  | s.toml:11: -1 is not possible: 0 to 100 m
+for = "wait"     | for = "rest"      | s.toml:30: unknown variant `rest`
+name = "near"    | nam = "near"      | s.toml:17: unknown field `nam`
+# reference = "276:4711"       | reference = "0:0"      | s.toml:12: '0:0' is no crossing
+# map_place = "segment 276:12" | map_place = "street 1" | s.toml:13:
+"#;
+
     #[test]
     fn a_site_that_does_not_fit_is_refused_with_its_line() {
-        for (from, to, cause) in [
-            (
-                "latitude = 49",
-                "latitude = 95",
-                "s.toml:5: 95.0101, 8.4124 is not a latitude",
-            ),
-            (
-                "width_m = 3.5",
-                "width_m = nan",
-                "s.toml:20: NaN is not possible: 1 to 30 m",
-            ),
-            (
-                "[20.0, 1.75]",
-                "[-20.0, 1.75]",
-                "s.toml:19: lane 'near' is shorter than a metre",
-            ),
-            (
-                "[-4.0, 2.0]",
-                "[-4.0, 9.0]",
-                "place 'near-lane' is for guarding, and on no lane",
-            ),
-            (
-                "[1.0, -1.0]",
-                "[1.0, 1.0]",
-                "place 'near-kerb' is on lane 'near'",
-            ),
-            (
-                "[1.0, -1.0]",
-                "[1.0, 1e30]",
-                "is no place: metres east and north",
-            ),
-            (
-                "[5.0, 0.0]]",
-                "[-3.0, 0.5]]",
-                "s.toml:10: the kerb is shorter than a metre",
-            ),
-            (
-                "[5.0, 7.0]]",
-                "[5.0, 3.0]]",
-                "s.toml:10: the two kerbs meet, or will within 10 m beside the crossing",
-            ),
-            (
-                "# along_m = 10.0",
-                "along_m = -1.0 #",
-                "s.toml:11: -1 is not possible: 0 to 100 m",
-            ),
-            (
-                "# reference = \"276:4711\"",
-                "reference = \"0:0\"",
-                "s.toml:12: '0:0' is no crossing",
-            ),
-            (
-                "# map_place = \"segment 276:12\"",
-                "map_place = \"street 1\"",
-                "s.toml:13: ",
-            ),
-            (
-                "for = \"wait\"",
-                "for = \"rest\"",
-                "s.toml:30: unknown variant `rest`",
-            ),
-            (
-                "name = \"near\"",
-                "nam = \"near\"",
-                "s.toml:17: unknown field `nam`",
-            ),
-        ] {
-            let error = refused(from, to);
-            assert!(error.contains(cause), "{to}: {error}");
+        for [from, to, cause] in rows(MISFITS) {
+            assert!(STREET.contains(&from), "{from}");
+            let text = STREET.replacen(&from, &to, 1);
+            let error = SiteFile::parse("s.toml", "s", &text).unwrap_err();
+            assert!(error.to_string().contains(&cause), "{to}: {error}");
         }
     }
 }

@@ -4,6 +4,7 @@ use crossguard_protocol::{Event, StationId, TaskNames, TaskSet, TaskType, Urgenc
 
 use super::*;
 use crate::site::Place;
+use crate::table::rows;
 
 fn parsed(text: &str) -> Result<Line, String> {
     parse(text, &Site::default()).map_err(|error| error.to_string())
@@ -88,69 +89,43 @@ fn each_command_is_an_order() {
     }
 }
 
+/// A line that means nothing, and what is said of it.
+const MISUNDERSTOOD: &str = r#"
+fly                 | no command 'fly'; type 'help'
+unavailable         | 'unavailable' wants a reason
+unavailable bored   | 'bored' is not a reason to be unavailable; see 'help'
+detect 17           | '17' is not a number of followers from 1 to 16
+detect soon         | 'soon' is not a task: TASKS
+order 2             | 'order' wants a station and a task
+order two move      | 'two' is not a station id
+order 2 move 1      | '1' is not a place: two numbers of metres are
+order 2 move 1 8 -1 | '-1' is not a speed in m/s
+battery             | 'battery' wants a charge in percent
+battery 120         | '120' is not a charge from 0 to 100 percent
+battery 20 full     | 'full' is not 'charging'
+job                 | 'job' wants a job
+job king            | 'king' is not a job; see 'help'
+job patrol 2        | '2' is one word too many
+serve               | 'serve' wants a road segment, an intersection, or none
+serve bridge 3      | 'bridge 3' is not a road segment or intersection, like 'segment 276:12' or 'intersection 4711'
+show                | 'show' wants what is shown to vehicles
+show hello          | 'hello' is not none, stop, go or caution
+show stop go        | 'go' is not for pedestrians here; 'open' opens the corridor
+show stop stop whistle | 'whistle' is not gesture, display, lights or speech
+wait long           | 'long' is not a number of seconds up to a day
+wait inf            | 'inf' is not a number of seconds up to a day
+until done          | 'done' is not a state; see 'help'
+quit now            | 'now' is one word too many
+help fly            | no command 'fly'; type 'help'
+order 2 move segment 70000 | 'segment 70000' is not a road segment or intersection, like 'segment 276:12' or 'intersection 4711'
+{"id": 1, "position_m": [1, 2], "at_s": 3} | frames and at_s are for files of --perceived; here 'wait' does it
+"#;
+
 #[test]
 fn what_means_nothing_is_answered_with_what_would() {
-    for (text, answer) in [
-        ("fly", "no command 'fly'; type 'help'"),
-        ("unavailable", "'unavailable' wants a reason"),
-        (
-            "unavailable bored",
-            "'bored' is not a reason to be unavailable; see 'help'",
-        ),
-        (
-            "detect 17",
-            "'17' is not a number of followers from 1 to 16",
-        ),
-        (
-            "detect soon",
-            format!("'soon' is not a task: {TaskNames}").as_str(),
-        ),
-        ("order 2", "'order' wants a station and a task"),
-        ("order two move", "'two' is not a station id"),
-        (
-            "order 2 move 1",
-            "'1' is not a place: two numbers of metres are",
-        ),
-        ("order 2 move 1 8 -1", "'-1' is not a speed in m/s"),
-        ("battery", "'battery' wants a charge in percent"),
-        ("battery 120", "'120' is not a charge from 0 to 100 percent"),
-        ("battery 20 full", "'full' is not 'charging'"),
-        ("job", "'job' wants a job"),
-        ("job king", "'king' is not a job; see 'help'"),
-        ("job patrol 2", "'2' is one word too many"),
-        (
-            "serve",
-            "'serve' wants a road segment, an intersection, or none",
-        ),
-        (
-            "serve bridge 3",
-            "'bridge 3' is not a road segment or intersection, like 'segment 276:12' or 'intersection 4711'",
-        ),
-        ("show", "'show' wants what is shown to vehicles"),
-        ("show hello", "'hello' is not none, stop, go or caution"),
-        (
-            "show stop go",
-            "'go' is not for pedestrians here; 'open' opens the corridor",
-        ),
-        (
-            "show stop stop whistle",
-            "'whistle' is not gesture, display, lights or speech",
-        ),
-        ("wait long", "'long' is not a number of seconds up to a day"),
-        ("wait inf", "'inf' is not a number of seconds up to a day"),
-        ("until done", "'done' is not a state; see 'help'"),
-        ("quit now", "'now' is one word too many"),
-        ("help fly", "no command 'fly'; type 'help'"),
-        (
-            "order 2 move segment 70000",
-            "'segment 70000' is not a road segment or intersection, like 'segment 276:12' or 'intersection 4711'",
-        ),
-        (
-            r#"{"id": 1, "position_m": [1, 2], "at_s": 3}"#,
-            "frames and at_s are for files of --perceived; here 'wait' does it",
-        ),
-    ] {
-        assert_eq!(parsed(text), Err(answer.to_owned()), "{text}");
+    for [text, answer] in rows(MISUNDERSTOOD) {
+        let answer = answer.replace("TASKS", &TaskNames.to_string());
+        assert_eq!(parsed(&text), Err(answer), "{text}");
     }
 }
 

@@ -3,6 +3,7 @@
 use crossguard_protocol::TaskType;
 
 use super::*;
+use crate::table::rows;
 
 const TWO_DOGS: &str = r#"
 [[roles]]
@@ -79,114 +80,38 @@ fn two_dogs_go_to_two_places() {
 }
 
 /// What is replaced in [`TWO_DOGS`], by what, and what is said then.
-const MISFITS: [(&str, &str, &str); 23] = [
-    (
-        "[2.5, -1.0]",
-        "\"near-kerb\"",
-        "p.toml:12: roles 'first' and 'second' are 0.00 m apart",
-    ),
-    (
-        "[2.5, -1.0]",
-        "[1.9, -1.0]",
-        "are 0.90 m apart in this stage: at least 1 m is wanted",
-    ),
-    (
-        "[2.5, -1.0]",
-        "\"corner\"",
-        "p.toml:13: roles 'second' and 'leader' are 0.00 m apart",
-    ),
-    (
-        "\"far-kerb\"",
-        "\"bench\"",
-        "p.toml:17: site 'street' has no place 'bench'; it has ",
-    ),
-    (
-        "\"far-kerb\"",
-        "\"far-lane\"",
-        "p.toml:17: place 'far-lane' is not for a move",
-    ),
-    (
-        "\"far-lane\"",
-        "\"corner\"",
-        "p.toml:15: place 'corner' is not for a block",
-    ),
-    ("\"move\"", "\"dance\"", "p.toml:17: 'dance' is no task: "),
-    ("0.424", "9", "p.toml:17: "),
-    (
-        "0.424",
-        "0.1",
-        "p.toml:17: role 'first' goes 9.0 m at 0.1 m/s, which takes 90.0 s: t_exec is 60 s",
-    ),
-    (
-        "0.424",
-        "0.25",
-        "p.toml:17: role 'first' goes 9.0 m at 0.25 m/s, which takes 36.0 s: t_cross is 30 s",
-    ),
-    (
-        "[[stages]]\nfirst = { task = \"move\"",
-        "first = { task = \"move\"",
-        "p.toml:15: role 'second' is sent to guard in stage 2, and a person is escorted from stage 2 on",
-    ),
-    (
-        "task = \"initialPos\", to = \"near-kerb\"",
-        "task = \"move\", to = \"near-kerb\"",
-        "p.toml:15: role 'second' is sent to guard in stage 2, and a person is escorted from stage 1 on",
-    ),
-    (
-        "\n[[roles]]\nname = \"leader\"",
-        "crossing_s = 30.5\n[[roles]]\nname = \"leader\"",
-        "p.toml:1: a pedestrian crosses in 30.5 s: t_cross is 30 s",
-    ),
-    (
-        "heading_deg = 90.0",
-        "heading_deg = 361.0",
-        "361 is not possible: 0 to 360 degrees",
-    ),
-    (
-        "second = { task = \"initialPos\"",
-        "third = { task = \"initialPos\"",
-        "p.toml:13: no follower has the role 'third'; there are first, second",
-    ),
-    (
-        "name = \"second\"",
-        "name = \"first\"",
-        "there are two roles 'first'",
-    ),
-    ("leads = true", "", "no role has 'leads = true'"),
-    (
-        "name = \"first\"",
-        "name = \"first\"\nstands = \"corner\"",
-        "role 'first' does not lead",
-    ),
-    (
-        "name = \"first\"",
-        "name = \"first\"\nshows = \"stop\"",
-        "role 'first' does not lead: no command says what a follower shows",
-    ),
-    (
-        "leads = true",
-        "leads = true\nshows = \"dance\"",
-        "unknown variant `dance`",
-    ),
-    ("to = [2.5, -1.0]", "to = [1e30, 0.0]", "p.toml:13: [1"),
-    (
-        "to = [2.5, -1.0]",
-        "to = 7",
-        "a place is wanted: its name on the site",
-    ),
-    (
-        "waits = \"corner\"",
-        "wait = \"corner\"",
-        "p.toml:5: unknown field `wait`",
-    ),
-];
+const MISFITS: &str = r#"
+[2.5, -1.0]       | "near-kerb"         | p.toml:12: roles 'first' and 'second' are 0.00 m apart
+[2.5, -1.0]       | [1.9, -1.0]         | are 0.90 m apart in this stage: at least 1 m is wanted
+[2.5, -1.0]       | "corner"            | p.toml:13: roles 'second' and 'leader' are 0.00 m apart
+"far-kerb"        | "bench"             | p.toml:17: site 'street' has no place 'bench'; it has
+"far-kerb"        | "far-lane"          | p.toml:17: place 'far-lane' is not for a move
+"far-lane"        | "corner"            | p.toml:15: place 'corner' is not for a block
+"move"            | "dance"             | p.toml:17: 'dance' is no task:
+0.424             | 9                   | p.toml:17:
+0.424             | 0.1                 | p.toml:17: role 'first' goes 9.0 m at 0.1 m/s, which takes 90.0 s: t_exec is 60 s
+0.424             | 0.25                | p.toml:17: role 'first' goes 9.0 m at 0.25 m/s, which takes 36.0 s: t_cross is 30 s
+heading_deg = 90.0 | heading_deg = 361.0 | 361 is not possible: 0 to 360 degrees
+name = "second"   | name = "first"      | there are two roles 'first'
+leads = true      |                     | no role has 'leads = true'
+to = [2.5, -1.0]  | to = [1e30, 0.0]    | p.toml:13: [1
+to = [2.5, -1.0]  | to = 7              | a place is wanted: its name on the site
+waits = "corner"  | wait = "corner"     | p.toml:5: unknown field `wait`
+name = "first"    | name = "first"\nstands = "corner" | role 'first' does not lead
+name = "first"    | name = "first"\nshows = "stop"    | role 'first' does not lead: no command says what a follower shows
+leads = true      | leads = true\nshows = "dance"     | unknown variant `dance`
+second = { task = "initialPos" | third = { task = "initialPos"  | p.toml:13: no follower has the role 'third'; there are first, second
+[[stages]]\nfirst = { task = "move" | first = { task = "move"  | p.toml:15: role 'second' is sent to guard in stage 2, and a person is escorted from stage 2 on
+task = "initialPos", to = "near-kerb" | task = "move", to = "near-kerb" | p.toml:15: role 'second' is sent to guard in stage 2, and a person is escorted from stage 1 on
+\n[[roles]]\nname = "leader" | crossing_s = 30.5\n[[roles]]\nname = "leader" | p.toml:1: a pedestrian crosses in 30.5 s: t_cross is 30 s
+"#;
 
 #[test]
 fn a_plan_that_does_not_fit_is_refused_with_its_line() {
-    for (from, to, cause) in MISFITS {
-        assert!(TWO_DOGS.contains(from), "{from}");
-        let error = parse(&TWO_DOGS.replacen(from, to, 1)).unwrap_err();
-        assert!(error.contains(cause), "{to}: {error}");
+    for [from, to, cause] in rows(MISFITS) {
+        assert!(TWO_DOGS.contains(&from), "{from}");
+        let error = parse(&TWO_DOGS.replacen(&from, &to, 1)).unwrap_err();
+        assert!(error.contains(&cause), "{to}: {error}");
     }
     let unknown = PlanFile::open(Path::new("parade"), SiteFile::street()).unwrap_err();
     assert!(

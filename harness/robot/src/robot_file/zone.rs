@@ -299,6 +299,7 @@ fn do_cross((a, b): ([f64; 2], [f64; 2]), (c, d): ([f64; 2], [f64; 2])) -> bool 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::table::rows;
 
     fn zone(text: &str, is_autopilot: bool) -> Result<(Zone, Option<[Place; 2]>), String> {
         let table: ZoneTable = toml::from_str(text).map_err(|error| error.to_string())?;
@@ -353,51 +354,30 @@ mod tests {
         assert_eq!(escort, [(1.0, 8.0), (1.0, -1.0)]);
     }
 
+    /// A table `[zone]`, and what is said of it. `CIRCLE` stands for a zone that is one.
+    const MISFITS: &str = r#"
+                                                 | wants one of 'pavement_m', 'polygon_m', and 'place_m'
+place_m = [1, 2]                                 | wants one of 'pavement_m'
+radius_m = 2                                     | wants one of 'pavement_m'
+pavement_m = 2\nradius_m = 2                     | wants one of 'pavement_m'
+pavement_m = 0.1                                 | pavement_m is 0.1: 0.5 to 20 m is wanted
+polygon_m = [[0, 0], [1, 1]]                     | polygon_m has 2 corners: 3 to 64 are possible
+polygon_m = [[0, 0], [1, 1], [0, 1e9]]           | polygon_m: [0, 1000000000] is no place: metres on the site
+polygon_m = [[0, 0], [2, 2], [2, 0], [0, 2]]     | polygon_m: its sides 1 and 3 cross
+road_m = [[0, 0], [2, 0], [4, 0]]                | road_m: its corners enclose nothing
+place_m = [1, 2]\nradius_m = 0                   | radius_m is 0: 0.1 to 1000 m is wanted
+CIRCLE\ndwell_s = -1                             | dwell_s is -1: 0 to 60 s is wanted
+CIRCLE\nspeed_max_mps = nan                      | speed_max_mps is NaN: 0.05 to 2 m/s
+CIRCLE\ndwel_s = 1                               | unknown field `dwel_s`
+CIRCLE\nescort_m = [[0, 0]]                      | escort_m
+"#;
+
     #[test]
     fn what_is_no_zone_is_refused_by_the_name_of_its_field() {
         let circle = "place_m = [1, -1.5]\nradius_m = 2\n";
-        for (text, cause) in [
-            ("", "wants one of 'pavement_m', 'polygon_m', and 'place_m'"),
-            ("place_m = [1, 2]", "wants one of 'pavement_m'"),
-            ("radius_m = 2", "wants one of 'pavement_m'"),
-            ("pavement_m = 2\nradius_m = 2", "wants one of 'pavement_m'"),
-            (
-                "pavement_m = 0.1",
-                "pavement_m is 0.1: 0.5 to 20 m is wanted",
-            ),
-            (
-                "polygon_m = [[0, 0], [1, 1]]",
-                "polygon_m has 2 corners: 3 to 64 are possible",
-            ),
-            (
-                "polygon_m = [[0, 0], [1, 1], [0, 1e9]]",
-                "polygon_m: [0, 1000000000] is no place: metres on the site",
-            ),
-            (
-                "polygon_m = [[0, 0], [2, 2], [2, 0], [0, 2]]",
-                "polygon_m: its sides 1 and 3 cross",
-            ),
-            (
-                "road_m = [[0, 0], [2, 0], [4, 0]]",
-                "road_m: its corners enclose nothing",
-            ),
-            (
-                "place_m = [1, 2]\nradius_m = 0",
-                "radius_m is 0: 0.1 to 1000 m is wanted",
-            ),
-            (
-                &format!("{circle}dwell_s = -1"),
-                "dwell_s is -1: 0 to 60 s is wanted",
-            ),
-            (
-                &format!("{circle}speed_max_mps = nan"),
-                "speed_max_mps is NaN: 0.05 to 2 m/s",
-            ),
-            (&format!("{circle}dwel_s = 1"), "unknown field `dwel_s`"),
-            (&format!("{circle}escort_m = [[0, 0]]"), "escort_m"),
-        ] {
-            let error = zone(text, false).unwrap_err();
-            assert!(error.contains(cause), "{text}: {error}");
+        for [text, cause] in rows(MISFITS) {
+            let error = zone(&text.replace("CIRCLE", circle), false).unwrap_err();
+            assert!(error.contains(&cause), "{text}: {error}");
         }
         assert!(zone(circle, true).unwrap_err().contains("has no 'road_m'"));
         assert!(zone(ROAD, true).unwrap_err().contains("has 'road_m' alone"));
