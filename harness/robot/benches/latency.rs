@@ -8,21 +8,18 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use crossguard_codec::{Identifiers, TaskParameters};
+use crossguard_codec::TaskParameters;
 use crossguard_endpoint::Stimulus;
 use crossguard_endpoint::cause::Cause;
-use crossguard_endpoint::ras::surroundings::Awareness;
-use crossguard_endpoint::station::Security;
-use crossguard_protocol::{Config, Event, Notice, Output, Phase, Rmcm, StationId, TaskType};
+use crossguard_protocol::{Event, Notice, Output, Phase, Rmcm, StationId, TaskType};
 use crossguard_robot::application::Application;
 use crossguard_robot::body::{Build, Simulated};
-use crossguard_robot::boot::Boot;
 use crossguard_robot::journal::{Journal, WhenFull};
 use crossguard_robot::plan::Plan;
 use crossguard_robot::runtime::{Clock, Order, Running, Setup};
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::trace::{Entry, Record};
-use crossguard_robot::transport::{Framing, Halves, Link, LinkError, Transport};
+use crossguard_robot::transport::{Framing, Halves, Link, Transport};
 
 const COMMANDS: usize = 5_000;
 
@@ -33,51 +30,32 @@ struct Pair {
     records: Receiver<Arc<Record>>,
 }
 
-/// What two robots meet over.
-struct Street {
-    leader: Halves,
-    follower: Halves,
-}
-
 /// Ports that are free now; where another process takes them in between, the benchmark fails.
-fn udp() -> Result<Street, LinkError> {
+fn udp() -> [Halves; 2] {
     let free = || UdpSocket::bind("127.0.0.1:0").and_then(|socket| socket.local_addr());
     let (first, second) = (free().expect("a port"), free().expect("a port"));
-    let link = |address, peer| Link::Peers {
-        address,
-        peers: vec![peer],
-        framing: Framing::default(),
-    };
-    Ok(Street {
-        leader: link(first, second).open()?,
-        follower: link(second, first).open()?,
+    [(first, second), (second, first)].map(|(address, peer)| {
+        let link = Link::Peers {
+            address,
+            peers: vec![peer],
+            framing: Framing::default(),
+        };
+        link.open().expect("free ports")
     })
 }
 
-fn start(leader: Halves, follower: Halves) -> Pair {
+fn start([leader, follower]: [Halves; 2]) -> Pair {
     let mut journal = Journal::new();
     let records = journal.reader(65_536, WhenFull::End, Cause::LogFull);
     let clock = Clock::start();
-    let robot = |name: &str, station, link| {
-        let body = Simulated::new(
-            Build::Quadruped,
-            Site::default(),
-            Place::new(0.0, f64::from(station)),
-            1.0,
-            1,
-        );
+    let robot = |name, station, link| {
+        let place = Place::new(0.0, f64::from(station));
+        let body = Simulated::new(Build::Quadruped, Site::default(), place, 1.0, 1);
+        let application = Application::new(Box::new(body), None);
         Setup {
-            name: name.to_owned(),
-            station: StationId(station),
-            boot: Boot::first_of_its_kind(),
-            config: Config::default(),
-            identifiers: Identifiers::default(),
-            security: Security::default(),
-            awareness: Awareness::default(),
-            application: Application::new(Box::new(body), None),
-            link,
             journal: journal.clone(),
             clock,
+            ..Setup::new(name, StationId(station), application, link)
         }
         .start()
     };
@@ -145,22 +123,17 @@ impl Pair {
 
 fn main() {
     let wanted = std::env::args().skip(1).find_map(|word| word.parse().ok());
-    println!("| over | commands | median [µs] | 99 % [µs] | 99.9 % [µs] | longest [µs] |");
-    println!("|---|--:|--:|--:|--:|--:|");
-    let street = udp().expect("free ports");
-    measure("UDP", street, wanted.unwrap_or(COMMANDS));
-}
-
-fn measure(over: &str, street: Street, commands: usize) {
-    let pair = start(street.leader, street.follower);
-    let mut taken = pair.measure(commands);
+    let pair = start(udp());
+    let mut taken = pair.measure(wanted.unwrap_or(COMMANDS));
     pair.leader.stop().expect("no panic");
     pair.follower.stop().expect("no panic");
     assert!(!taken.is_empty(), "no command was acknowledged");
     taken.sort_unstable();
     let quantile = |per_mille: usize| taken[(taken.len() - 1) * per_mille / 1_000];
+    println!("| over | commands | median [µs] | 99 % [µs] | 99.9 % [µs] | longest [µs] |");
+    println!("|---|--:|--:|--:|--:|--:|");
     println!(
-        "| {over} | {} | {} | {} | {} | {} |",
+        "| UDP | {} | {} | {} | {} | {} |",
         taken.len(),
         quantile(500),
         quantile(990),

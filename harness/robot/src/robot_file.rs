@@ -25,7 +25,7 @@ use crate::located::FileError;
 use crate::plan::Plan;
 use crate::plan_file::PlanFile;
 use crate::port::{NoAddress, PortAddress};
-use crate::runtime::{Clock, Setup};
+use crate::runtime::Setup;
 use crate::site::{CrossingReference, NoCrossing, Place, Site};
 use crate::site_file::{SiteFile, outline};
 use crate::street::{Road, Street};
@@ -396,23 +396,19 @@ impl RobotFile {
         link: Halves,
         journal: Journal,
     ) -> Setup {
-        let application = Application::new(body, self.plan());
+        let application = Application::new(body, self.plan())
+            .at(self.site)
+            .on(self.road())
+            .with_traits(self.traits)
+            .showing_by(self.shows);
         Setup {
-            name: self.name.clone(),
-            station: self.station,
             boot,
             config: self.config.clone(),
             identifiers: self.identifiers,
             security,
             awareness: self.awareness,
-            application: application
-                .at(self.site)
-                .on(self.road())
-                .with_traits(self.traits)
-                .showing_by(self.shows),
-            link,
             journal,
-            clock: Clock::start(),
+            ..Setup::new(&self.name, self.station, application, link)
         }
     }
 }

@@ -149,6 +149,25 @@ pub struct Setup {
 }
 
 impl Setup {
+    /// A robot of which nothing outlives the process and nobody reads the records, without security, with all settings by
+    /// default and on a clock that begins now.
+    #[must_use]
+    pub fn new(name: &str, station: StationId, application: Application, link: Halves) -> Self {
+        Self {
+            name: name.to_owned(),
+            station,
+            boot: Boot::first_of_its_kind(),
+            config: Config::default(),
+            identifiers: Identifiers::default(),
+            security: Security::default(),
+            awareness: Awareness::default(),
+            application,
+            link,
+            journal: Journal::new(),
+            clock: Clock::start(),
+        }
+    }
+
     /// Starts the robot in threads of its own.
     #[must_use]
     pub fn start(mut self) -> Running {

@@ -4,18 +4,15 @@
 use std::fs;
 use std::time::{Duration, Instant};
 
-use crossguard_codec::Identifiers;
 use crossguard_endpoint::Stimulus;
 use crossguard_endpoint::cause::Cause;
-use crossguard_endpoint::ras::surroundings::Awareness;
-use crossguard_endpoint::station::Security;
-use crossguard_protocol::{Config, Event, Input, StationId};
+use crossguard_protocol::{Event, Input, StationId};
 use crossguard_robot::application::Application;
 use crossguard_robot::body::{Build, Simulated};
 use crossguard_robot::boot;
 use crossguard_robot::journal::{Journal, WhenFull};
 use crossguard_robot::plan::Plan;
-use crossguard_robot::runtime::{Clock, Order, Setup};
+use crossguard_robot::runtime::{Order, Setup};
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::trace::Entry;
 use crossguard_robot::transport::{Air, Transport};
@@ -36,18 +33,12 @@ fn the_next_boot_counter_is_persisted_and_used_before_numbers_run_out() {
     let mut journal = Journal::new();
     let records = journal.reader(4_096, WhenFull::Skip, Cause::OutputFull);
     let body = Simulated::new(Build::Quadruped, Site::default(), Place::default(), 1.0, 1);
+    let application = Application::new(Box::new(body), None);
+    let link = Air::new(1).port(0).open().unwrap();
     let robot = Setup {
-        name: "R1".to_owned(),
-        station: StationId(1),
         boot,
-        config: Config::default(),
-        identifiers: Identifiers::default(),
-        security: Security::default(),
-        awareness: Awareness::default(),
-        application: Application::new(Box::new(body), None),
-        link: Air::new(1).port(0).open().unwrap(),
         journal,
-        clock: Clock::start(),
+        ..Setup::new("R1", StationId(1), application, link)
     }
     .start();
     let request = Plan::crossing(Site::default()).request();

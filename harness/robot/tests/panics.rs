@@ -4,15 +4,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use crossguard_codec::{Identifiers, RobotState};
-use crossguard_endpoint::ras::surroundings::Awareness;
-use crossguard_endpoint::station::Security;
-use crossguard_protocol::{Config, StationId};
+use crossguard_codec::RobotState;
+use crossguard_protocol::StationId;
 use crossguard_robot::application::Application;
 use crossguard_robot::body::{Body, BodyAct, Build, Fallback, NotTaken, Report, Simulated};
-use crossguard_robot::boot::Boot;
-use crossguard_robot::journal::Journal;
-use crossguard_robot::runtime::{Clock, Order, Panicked, Running, Setup};
+use crossguard_robot::runtime::{Order, Panicked, Running, Setup};
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::transport::{Air, Transport};
 
@@ -66,20 +62,9 @@ fn start(shows: &Arc<AtomicBool>, is_halted: &Arc<AtomicBool>) -> Running {
         shows: Arc::clone(shows),
         is_halted: Arc::clone(is_halted),
     };
-    Setup {
-        name: "R1".to_owned(),
-        station: StationId(1),
-        boot: Boot::first_of_its_kind(),
-        config: Config::default(),
-        identifiers: Identifiers::default(),
-        security: Security::default(),
-        awareness: Awareness::default(),
-        application: Application::new(Box::new(body), None),
-        link: Air::new(1).port(0).open().unwrap(),
-        journal: Journal::new(),
-        clock: Clock::start(),
-    }
-    .start()
+    let application = Application::new(Box::new(body), None);
+    let link = Air::new(1).port(0).open().unwrap();
+    Setup::new("R1", StationId(1), application, link).start()
 }
 
 #[test]

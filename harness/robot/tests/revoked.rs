@@ -8,15 +8,13 @@ use std::time::{Duration, Instant};
 
 use crossguard_codec::Identifiers;
 use crossguard_endpoint::cause::Cause;
-use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::{Credentials, Mode, Security};
-use crossguard_protocol::{Config, StationId};
+use crossguard_protocol::StationId;
 use crossguard_robot::application::Application;
 use crossguard_robot::body::{Build, Simulated};
-use crossguard_robot::boot::Boot;
 use crossguard_robot::journal::{Journal, WhenFull};
 use crossguard_robot::pki::{self, Pki, add_revoked};
-use crossguard_robot::runtime::{Clock, Running, Setup};
+use crossguard_robot::runtime::{Running, Setup};
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Air, Transport};
@@ -28,21 +26,14 @@ fn robot(air: &Air, port: usize, credentials: Credentials) -> (Running, Receiver
     let mut journal = Journal::new();
     let records = journal.reader(4_096, WhenFull::Skip, Cause::OutputFull);
     let body = Simulated::new(Build::Quadruped, Site::default(), Place::default(), 1.0, 1);
-    let running = Setup {
-        name: format!("R{port}"),
-        station: StationId(1),
-        boot: Boot::first_of_its_kind(),
-        config: Config::default(),
-        identifiers: Identifiers::default(),
+    let application = Application::new(Box::new(body), None);
+    let (name, link) = (format!("R{port}"), air.port(port).open().unwrap());
+    let setup = Setup {
         security: Security::new(Mode::Enforce, credentials, None, pki::now()).unwrap(),
-        awareness: Awareness::default(),
-        application: Application::new(Box::new(body), None),
-        link: air.port(port).open().unwrap(),
         journal,
-        clock: Clock::start(),
-    }
-    .start();
-    (running, records)
+        ..Setup::new(&name, StationId(1), application, link)
+    };
+    (setup.start(), records)
 }
 
 /// Waits for an entry; which entries came before it.
