@@ -10,10 +10,7 @@ use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Robot, StationId};
 
 fn moment(now_ms: u64) -> Moment {
-    Moment {
-        now_ms,
-        timestamp_its: 694_694_401_000 + now_ms,
-    }
+    Moment::after(694_694_401_000, now_ms)
 }
 
 fn endpoint(station: u32) -> Endpoint {

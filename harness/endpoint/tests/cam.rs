@@ -23,10 +23,7 @@ fn state() -> RobotState {
 }
 
 const fn moment(now_ms: u64) -> Moment {
-    Moment {
-        now_ms,
-        timestamp_its: 694_694_400_000 + now_ms,
-    }
+    Moment::after(694_694_400_000, now_ms)
 }
 
 /// What the endpoint sends within this many seconds when nothing happens.

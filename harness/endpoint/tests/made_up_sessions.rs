@@ -14,10 +14,7 @@ const LEADER: StationId = StationId(1);
 const LIAR: StationId = StationId(9);
 
 fn moment(now_ms: u64) -> Moment {
-    Moment {
-        now_ms,
-        timestamp_its: 694_694_401_000 + now_ms,
-    }
+    Moment::after(694_694_401_000, now_ms)
 }
 
 /// A packet in which the liar follows a session of the leader that never was.

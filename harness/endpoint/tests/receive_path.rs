@@ -60,10 +60,7 @@ fn endpoint(station: StationId) -> Endpoint {
 }
 
 fn moment(now_ms: u64) -> Moment {
-    Moment {
-        now_ms,
-        timestamp_its: 694_694_401_000 + now_ms,
-    }
+    Moment::after(694_694_401_000, now_ms)
 }
 
 #[test]

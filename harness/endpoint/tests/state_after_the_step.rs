@@ -11,10 +11,7 @@ use crossguard_protocol::{
 
 /// The RAM that are sent when this happens.
 fn rams(endpoint: &mut Endpoint, now_ms: u64, event: Event) -> Vec<RAM> {
-    let moment = Moment {
-        now_ms,
-        timestamp_its: 694_694_400_000 + now_ms,
-    };
+    let moment = Moment::after(694_694_400_000, now_ms);
     let state = RobotState {
         position: Position::at(48.7, 9.1),
         control_mode: ControlMode::Autonomous,

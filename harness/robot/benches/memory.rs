@@ -57,10 +57,7 @@ struct Street {
 
 impl Street {
     fn turn(&mut self, robot: usize, stimulus: Stimulus<'_>) -> Vec<Vec<u8>> {
-        let moment = Moment {
-            now_ms: self.now_ms,
-            timestamp_its: 694_694_401_000 + self.now_ms,
-        };
+        let moment = Moment::after(694_694_401_000, self.now_ms);
         #[expect(clippy::cast_precision_loss, reason = "an hour of milliseconds fits")]
         let now_s = self.now_ms as f64 / 1e3;
         self.handled += 1;

@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crossguard_crossing::{Sensors, Setup, Sighting, WaitingRules};
 use crossguard_endpoint::ras::area::Area;
-use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
+use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_protocol::Millis;
 
 use crate::site::Place;
@@ -157,13 +157,7 @@ impl Street {
             .chain(walking)
             .map(|metres| from.towards(to, metres));
         let seen = (1..).zip(at).map(|(id, at)| {
-            let vru = PerceivedVru {
-                id,
-                position_m: [at.east, at.north],
-                velocity_mps: [0.0; 2],
-                class: VruClass::Pedestrian,
-                confidence: 1.0,
-            };
+            let vru = PerceivedVru::pedestrian(id, [at.east, at.north]);
             sighting(&vru, ERROR_M)
         });
         seen.collect()

@@ -1,15 +1,13 @@
 //! A robot that leads by itself and watches a crossing zone: a person who waits is helped across without
 //! anybody's word, a call that nobody needs any more ends, and nobody is called for a passer-by.
 
-use crossguard_codec::Identifiers;
+mod support;
+
 use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
-use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{
-    Config, EndReason, Event, Input, Millis, Notice, Robot, StationId, Urgency,
-};
-use crossguard_robot::application::Application;
-use crossguard_robot::body::{Build, Simulated};
+use crossguard_endpoint::{Act, Effect};
+use crossguard_protocol::{EndReason, Event, Input, Millis, Notice, Urgency};
+use crossguard_robot::body::Build;
 use crossguard_robot::machine::{Machine, is_at_rest};
 use crossguard_robot::perception::SensorFrame;
 use crossguard_robot::plan::Plan;
@@ -17,7 +15,7 @@ use crossguard_robot::site::{Place, Site};
 use crossguard_robot::street::Road;
 use crossguard_robot::zone::Zone;
 
-const TICK_MS: u32 = 10;
+use self::support::{Street, TICK_MS};
 
 /// How many times as fast as real the bodies move.
 const SPEED: f64 = 5.0;
@@ -28,24 +26,46 @@ fn strip(south: f64, north: f64) -> Area {
 }
 
 fn machine(station: u32, build: Build, plan: Option<Plan>, road: Road) -> Machine {
-    let robot = Robot::new(StationId(station), 1);
-    let endpoint = Endpoint::new(robot, Config::default(), Identifiers::default(), 0);
     let place = Place::new(-f64::from(station), -2.0);
-    let body = Simulated::new(build, Site::default(), place, SPEED, 1);
-    Machine::new(endpoint, Application::new(Box::new(body), plan).on(road))
+    support::machine(station, (build, place, SPEED), plan, road)
 }
 
-/// A leader that watches a zone, a helper, and what became of it.
-struct Crossing {
-    leader: Machine,
-    helper: Option<Machine>,
-    now_ms: u32,
+/// What a leader that watches a zone did.
+#[derive(Default)]
+struct Done {
     calls: Vec<Urgency>,
     ends: Vec<EndReason>,
-    /// Whether the leader's sign shows go.
+    /// Whether its sign shows go.
     go: bool,
     /// Whether it ever did.
     was_go: bool,
+}
+
+impl Done {
+    fn note(&mut self, _: usize, effect: Effect) {
+        match effect {
+            Effect::Stepped {
+                input: Input::Local(Event::PedestrianDetected(request)),
+                outputs,
+                ..
+            } if outputs.ignored().is_none() => self.calls.push(request.urgency),
+            Effect::Act(Act::Notice(Notice::SessionEnded(_, why))) => self.ends.push(why),
+            Effect::Act(Act::OpenCorridor(_)) => (self.go, self.was_go) = (true, true),
+            Effect::Act(Act::CloseCorridor(_)) => self.go = false,
+            _ => {}
+        }
+    }
+}
+
+/// A leader that watches a zone, and a helper.
+struct Crossing(Street<Done>);
+
+impl std::ops::Deref for Crossing {
+    type Target = Done;
+
+    fn deref(&self) -> &Done {
+        &self.0.notes
+    }
 }
 
 impl Crossing {
@@ -55,95 +75,47 @@ impl Crossing {
             ..Zone::of_road(strip(0.0, 7.0))
         };
         let plan = Some(Plan::crossing(Site::default()));
-        let road = Road::Watched(zone);
+        let leader = machine(1, Build::Humanoid, plan, Road::Watched(zone));
         let helper = machine(2, Build::Quadruped, None, Road::Unknown);
-        Self {
-            leader: machine(1, Build::Humanoid, plan, road),
-            helper: with_helper.then_some(helper),
-            now_ms: 0,
-            calls: Vec::new(),
-            ends: Vec::new(),
-            go: false,
-            was_go: false,
-        }
-    }
-
-    fn tell(&mut self, is_leader: bool, stimulus: Stimulus<'_>) {
-        let machine = if is_leader {
-            &mut self.leader
-        } else if let Some(helper) = &mut self.helper {
-            helper
-        } else {
-            return;
-        };
-        let moment = Moment {
-            now_ms: self.now_ms.into(),
-            timestamp_its: 694_694_401_000 + u64::from(self.now_ms),
-        };
-        let effects = machine.handle(moment, f64::from(self.now_ms) / 1e3, stimulus);
-        for effect in effects {
-            match effect {
-                Effect::Transmit { packet, .. } => self.tell(
-                    !is_leader,
-                    Stimulus::Datagram {
-                        packet: &packet,
-                        arrived_ms: self.now_ms.into(),
-                    },
-                ),
-                Effect::Stepped {
-                    input: Input::Local(Event::PedestrianDetected(request)),
-                    outputs,
-                    ..
-                } if outputs.ignored().is_none() => self.calls.push(request.urgency),
-                Effect::Act(Act::Notice(Notice::SessionEnded(_, why))) => self.ends.push(why),
-                Effect::Act(Act::OpenCorridor(_)) => (self.go, self.was_go) = (true, true),
-                Effect::Act(Act::CloseCorridor(_)) => self.go = false,
-                _ => {}
-            }
-        }
+        let robots = vec![Some(leader), with_helper.then_some(helper)];
+        Self(Street::new(robots, Done::note))
     }
 
     /// Time passes, and the leader's sensors have this person, who goes on as they do.
-    fn pass(&mut self, ms: u32, vru: Option<&mut PerceivedVru>) {
-        let until_ms = self.now_ms + ms;
-        let mut vru = vru;
-        while self.now_ms < until_ms {
-            self.now_ms += TICK_MS;
-            if self.now_ms.is_multiple_of(100)
+    fn pass(&mut self, ms: u32, mut vru: Option<&mut PerceivedVru>) {
+        for _ in 0..ms / TICK_MS {
+            if (self.0.now_ms + TICK_MS).is_multiple_of(100)
                 && let Some(vru) = &mut vru
             {
                 let frame = SensorFrame::of(&[**vru]);
-                self.leader.application_mut().look(&frame, Millis(0));
+                let leader = self.0.robot(0);
+                leader.application_mut().look(&frame, Millis(0));
                 let [vx, vy] = vru.velocity_mps;
                 vru.position_m = [vru.position_m[0] + vx * 0.1, vru.position_m[1] + vy * 0.1];
             }
-            self.tell(true, Stimulus::Time);
-            self.tell(false, Stimulus::Time);
+            self.0.pass(TICK_MS);
         }
     }
 
     /// The same until something is so, for half a minute at most.
     fn pass_until(&mut self, vru: &mut PerceivedVru, is: impl Fn(&Self) -> bool) {
-        let until_ms = self.now_ms + 30_000;
+        let until_ms = self.0.now_ms + 30_000;
         while !is(self) {
-            assert!(self.now_ms < until_ms, "{:?} {:?}", self.calls, self.ends);
+            assert!(self.0.now_ms < until_ms, "{:?} {:?}", self.calls, self.ends);
             self.pass(TICK_MS, Some(vru));
         }
     }
 
     fn all_rest(&self) -> bool {
-        let rest = |machine: &Machine| is_at_rest(machine.endpoint().robot());
-        rest(&self.leader) && self.helper.as_ref().is_none_or(rest)
+        let mut robots = self.0.robots.iter().flatten();
+        robots.all(|it| is_at_rest(it.endpoint().robot()))
     }
 }
 
 fn person(east: f64, north: f64) -> PerceivedVru {
     PerceivedVru {
-        id: 7,
-        position_m: [east, north],
-        velocity_mps: [0.0; 2],
-        class: VruClass::Pedestrian,
         confidence: 0.9,
+        ..PerceivedVru::pedestrian(7, [east, north])
     }
 }
 
@@ -155,13 +127,7 @@ fn a_person_who_waits_is_helped_across_from_either_side() {
         crossing.pass_until(&mut waiting, |it| it.go);
         assert_eq!(crossing.calls, [Urgency::Medium]);
         // The helper has come to the side where the person waits.
-        let helper = crossing
-            .helper
-            .as_ref()
-            .unwrap()
-            .application()
-            .body()
-            .place();
+        let helper = crossing.0.robot(1).application().body().place();
         assert!((helper.north - kerb).abs() < 2.0, "{helper:?} for {kerb}");
         waiting.velocity_mps = [0.0, way_mps];
         crossing.pass(6_500, Some(&mut waiting));

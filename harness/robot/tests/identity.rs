@@ -177,10 +177,7 @@ impl Street {
     }
 
     fn tell(&mut self, place: usize, stimulus: Stimulus<'_>) {
-        let moment = Moment {
-            now_ms: self.now_ms,
-            timestamp_its: EPOCH_ITS + self.now_ms,
-        };
+        let moment = Moment::after(EPOCH_ITS, self.now_ms);
         let state = RobotState {
             position: Position::at(48.765_432_1, 9.123_456_7),
             ..RobotState::default()

@@ -1,115 +1,76 @@
 //! Two machines: what is ordered, shown and selected.
 
-#![allow(clippy::large_stack_arrays, reason = "a pair of machines, in a test")]
+mod support;
 
 use crossguard_codec::{
-    Identifiers, Identity, MapPlace, PublicSignal, SignalMeans, SignalsShown, TaskParameters,
+    Identity, MapPlace, PublicSignal, SignalMeans, SignalsShown, TaskParameters,
 };
-use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{Config, Event, Phase, Robot, StationId, TaskType};
-use crossguard_robot::application::Application;
-use crossguard_robot::body::{Build, Simulated};
+use crossguard_endpoint::{Act, Effect, Stimulus};
+use crossguard_protocol::{Config, Event, Phase, StationId, TaskType};
+use crossguard_robot::body::Build;
 use crossguard_robot::machine::Machine;
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::{Place, Site};
+use crossguard_robot::street::Road;
+
+use self::support::{TICK_MS, effects};
 
 const FOLLOWER: StationId = StationId(2);
-const TICK_MS: u32 = 10;
 
-fn machine(station: StationId) -> Machine {
-    let endpoint = Endpoint::new(
-        Robot::new(station, 1),
-        Config::default(),
-        Identifiers::default(),
-        0,
-    );
-    let place = Place::new(f64::from(station.0), 0.0);
-    let body = Simulated::new(Build::Quadruped, Site::default(), place, 30.0, 1);
-    Machine::new(endpoint, Application::new(Box::new(body), None))
+/// What the follower was to start, in order.
+type Started = Vec<(TaskType, TaskParameters)>;
+type Street = support::Street<Started>;
+
+fn machine(station: u32) -> Machine {
+    let place = Place::new(f64::from(station), 0.0);
+    let body = (Build::Quadruped, place, 30.0);
+    support::machine(station, body, None, Road::Unknown)
 }
 
-struct Street {
-    robots: [Machine; 2],
-    now_ms: u32,
-    /// What the follower was to start, in order.
-    started: Vec<(TaskType, TaskParameters)>,
-}
-
-impl Street {
-    /// Tells a robot something, and both what comes of it.
-    fn tell(&mut self, robot: usize, stimulus: Stimulus<'_>) {
-        let moment = Moment {
-            now_ms: self.now_ms.into(),
-            timestamp_its: 694_694_401_000 + u64::from(self.now_ms),
-        };
-        let now_s = f64::from(self.now_ms) / 1e3;
-        for effect in self.robots[robot].handle(moment, now_s, stimulus) {
-            match effect {
-                Effect::Transmit { packet, .. } => {
-                    let datagram = Stimulus::Datagram {
-                        packet: &packet,
-                        arrived_ms: self.now_ms.into(),
-                    };
-                    self.tell(1 - robot, datagram);
-                }
-                Effect::Act(Act::Start(maneuver, parameters)) => {
-                    self.started.push((maneuver.task, parameters));
-                }
-                _ => {}
-            }
+fn street() -> Street {
+    let robots = vec![Some(machine(1)), Some(machine(FOLLOWER.0))];
+    Street::new(robots, |started, _, effect| {
+        if let Effect::Act(Act::Start(maneuver, parameters)) = effect {
+            started.push((maneuver.task, parameters));
         }
-    }
-
-    fn step(&mut self) {
-        self.now_ms += TICK_MS;
-        for robot in 0..2 {
-            self.tell(robot, Stimulus::Time);
-        }
-    }
-
-    fn pass(&mut self, seconds: u32) {
-        for _ in 0..seconds * 1_000 / TICK_MS {
-            self.step();
-        }
-    }
+    })
 }
 
 #[test]
 fn the_other_robot_has_on_its_map_what_is_shown_to_people() {
-    let mut street = Street {
-        robots: [machine(StationId(1)), machine(FOLLOWER)],
-        now_ms: 0,
-        started: Vec::new(),
-    };
-    let on_the_map = |street: &Street| {
-        let map = street.robots[1].endpoint().map();
+    let mut street = street();
+    let on_the_map = |street: &mut Street| {
+        let map = street.robot(1).endpoint().map();
         map.get(Identity::Station(1)).unwrap().user.signals
     };
-    street.pass(2);
-    assert_eq!(on_the_map(&street), None);
+    street.pass(2_000);
+    assert_eq!(on_the_map(&mut street), None);
     let shown = |to_vehicles, to_pedestrians| SignalsShown {
         to_vehicles,
         to_pedestrians,
         means: SignalMeans::LIGHTS,
     };
     let (stop, caution) = (PublicSignal::Stop, PublicSignal::Caution);
-    let application = street.robots[0].application_mut();
+    let application = street.robot(0).application_mut();
     application.show(shown(stop, caution));
-    street.pass(2);
-    assert_eq!(on_the_map(&street), Some(shown(stop, caution)));
+    street.pass(2_000);
+    assert_eq!(on_the_map(&mut street), Some(shown(stop, caution)));
     // A leader has a sign, and what that shows is what its RAM say.
     let request = Plan::crossing(Site::default()).request();
     street.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
-    street.pass(2);
-    assert_eq!(on_the_map(&street), Some(shown(stop, stop)));
+    street.pass(2_000);
+    assert_eq!(on_the_map(&mut street), Some(shown(stop, stop)));
     // Without means, they are those of before.
     let quiet = SignalsShown {
         means: SignalMeans::default(),
         ..shown(PublicSignal::None, PublicSignal::None)
     };
-    street.robots[0].application_mut().show(quiet);
-    street.pass(1);
-    assert_eq!(on_the_map(&street), Some(shown(PublicSignal::None, stop)));
+    street.robot(0).application_mut().show(quiet);
+    street.pass(1_000);
+    assert_eq!(
+        on_the_map(&mut street),
+        Some(shown(PublicSignal::None, stop))
+    );
 }
 
 /// How long a robot that asks for help takes to lead, with a follower nearby, in ms.
@@ -117,11 +78,9 @@ fn selects_after(street: &mut Street) -> u32 {
     let request = Plan::crossing(Site::default()).request();
     let asked_ms = street.now_ms;
     street.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
-    while !matches!(
-        street.robots[0].endpoint().robot().phase(),
-        Phase::Leading(_)
-    ) {
-        street.step();
+    let leads = |it: &Machine| matches!(it.endpoint().robot().phase(), Phase::Leading(_));
+    while !leads(street.robot(0)) {
+        street.pass(TICK_MS);
         assert!(street.now_ms < asked_ms + 2_000, "it never leads");
     }
     street.now_ms - asked_ms
@@ -129,25 +88,15 @@ fn selects_after(street: &mut Street) -> u32 {
 
 #[test]
 fn a_request_that_all_robots_nearby_have_answered_waits_for_no_other() {
-    let pair = || Street {
-        robots: [machine(StationId(1)), machine(FOLLOWER)],
-        now_ms: 0,
-        started: Vec::new(),
-    };
     let t_select_ms = Config::default().settings().t_select.0;
-    let mut alone = pair();
-    alone.pass(2);
+    let mut alone = street();
+    alone.pass(2_000);
     assert!(selects_after(&mut alone) < t_select_ms);
     // A third robot was heard a moment ago, and may answer still.
-    let mut street = pair();
-    street.pass(2);
-    let moment = Moment {
-        now_ms: street.now_ms.into(),
-        timestamp_its: 694_694_401_000 + u64::from(street.now_ms),
-    };
-    let mut third = machine(StationId(3));
-    let effects = third.handle(moment, f64::from(street.now_ms) / 1e3, Stimulus::Time);
-    let packet = effects.into_iter().find_map(|effect| match effect {
+    let mut street = street();
+    street.pass(2_000);
+    let said = effects(&mut machine(3), street.now_ms, Stimulus::Time);
+    let packet = said.into_iter().find_map(|effect| match effect {
         Effect::Transmit { packet, .. } => Some(packet),
         _ => None,
     });
@@ -161,14 +110,10 @@ fn a_request_that_all_robots_nearby_have_answered_waits_for_no_other() {
 
 #[test]
 fn a_command_without_parameters_has_none_though_the_one_before_had() {
-    let mut street = Street {
-        robots: [machine(StationId(1)), machine(FOLLOWER)],
-        now_ms: 0,
-        started: Vec::new(),
-    };
+    let mut street = street();
     let request = Plan::crossing(Site::default()).request();
     street.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
-    street.pass(1);
+    street.pass(1_000);
     let slowly = TaskParameters {
         maximum_speed: Some(0.5),
         map_place: Some(MapPlace::RoadSegment {
@@ -185,16 +130,16 @@ fn a_command_without_parameters_has_none_though_the_one_before_had() {
             parameters: slowly,
         },
     );
-    street.pass(3);
+    street.pass(3_000);
     let again = Event::CommandManeuver {
         follower: FOLLOWER,
         task: TaskType::MOVE,
     };
     street.tell(0, Stimulus::Event(again));
-    street.pass(1);
+    street.pass(1_000);
     let expected = [
         (TaskType::INITIAL_POS, slowly),
         (TaskType::MOVE, TaskParameters::default()),
     ];
-    assert_eq!(street.started, expected);
+    assert_eq!(street.notes, expected);
 }

@@ -7,7 +7,7 @@ use crossguard_codec::geonet::{Address, BasicHeader, Headers};
 use crossguard_codec::security::{PrivateKey, SignedMessage, Time64};
 use crossguard_codec::{Identifiers, Position, RobotState, TaskParameters};
 
-use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
+use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_endpoint::station::{Mode, Secret, Security};
@@ -58,10 +58,7 @@ impl Street {
     }
 
     fn tell(&mut self, robot: usize, stimulus: Stimulus<'_>) {
-        let moment = Moment {
-            now_ms: self.now_ms,
-            timestamp_its: EPOCH_ITS + self.now_ms,
-        };
+        let moment = Moment::after(EPOCH_ITS, self.now_ms);
         let state = RobotState {
             position: Position::at(48.765_432_1, 9.123_456_7),
             ..RobotState::default()
@@ -221,10 +218,7 @@ impl Alone {
     }
 
     fn tell(&mut self, stimulus: Stimulus<'_>) {
-        let moment = Moment {
-            now_ms: self.now_ms,
-            timestamp_its: EPOCH_ITS + self.now_ms,
-        };
+        let moment = Moment::after(EPOCH_ITS, self.now_ms);
         let state = RobotState {
             position: Position::at(48.765_432_1, 9.123_456_7),
             ..RobotState::default()
@@ -306,13 +300,7 @@ fn who_needs_the_robot_breaks_its_silence() {
     let changed_ms = alone.change();
     alone.pass(200);
     assert!(!alone.has_sent_since(changed_ms));
-    let person = PerceivedVru {
-        id: 1,
-        position_m: [3.0, 0.0],
-        velocity_mps: [0.0, 0.0],
-        class: VruClass::Pedestrian,
-        confidence: 1.0,
-    };
+    let person = PerceivedVru::pedestrian(1, [3.0, 0.0]);
     alone.tell(Stimulus::Perceived(&[person]));
     alone.pass(200);
     assert!(alone.has_sent_since(alone.now_ms - 200));

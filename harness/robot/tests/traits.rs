@@ -42,10 +42,7 @@ impl Said {
         let mut stimulus = Some(stimulus);
         for _ in 0..22 {
             self.now_ms += 50;
-            let moment = Moment {
-                now_ms: self.now_ms,
-                timestamp_its: 694_694_401_000 + self.now_ms,
-            };
+            let moment = Moment::after(694_694_401_000, self.now_ms);
             #[expect(clippy::cast_precision_loss, reason = "a few seconds")]
             let now_s = self.now_ms as f64 / 1e3;
             let stimulus = stimulus.take().unwrap_or(Stimulus::Time);

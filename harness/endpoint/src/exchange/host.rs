@@ -19,6 +19,17 @@ pub struct Moment {
     pub timestamp_its: u64,
 }
 
+impl Moment {
+    /// `now_ms` after a clock began that showed `began_its` then.
+    #[must_use]
+    pub const fn after(began_its: u64, now_ms: u64) -> Self {
+        Self {
+            now_ms,
+            timestamp_its: began_its + now_ms,
+        }
+    }
+}
+
 /// Octets that came in.
 #[derive(Clone, Copy, Debug)]
 pub struct Arrived<'a> {

@@ -96,6 +96,20 @@ pub struct PerceivedVru {
     pub confidence: f64,
 }
 
+impl PerceivedVru {
+    /// A person on foot who stands there, and of whom the sensor is sure.
+    #[must_use]
+    pub const fn pedestrian(id: u32, position_m: Point) -> Self {
+        Self {
+            id,
+            position_m,
+            velocity_mps: [0.0; 2],
+            class: VruClass::Pedestrian,
+            confidence: 1.0,
+        }
+    }
+}
+
 /// How clusters are made.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]

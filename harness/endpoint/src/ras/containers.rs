@@ -189,7 +189,7 @@ mod tests {
     use crossguard_protocol::{Availability, Robot, StationId};
     use proptest::prelude::*;
 
-    use super::super::clustering::{BreakupReason, Clustering, PerceivedVru, Settings, VruClass};
+    use super::super::clustering::{BreakupReason, Clustering, PerceivedVru, Settings};
     use super::*;
 
     fn ram_with(cluster: Option<&Cluster>, plane: &Plane, robot_m: Point) -> RAM {
@@ -219,11 +219,8 @@ mod tests {
         let plane = Plane::at(49.0, 8.4);
         let mut clustering = Clustering::new(Settings::default(), 3);
         let walking = PerceivedVru {
-            id: 1,
-            position_m: [2.0, 3.0],
             velocity_mps: [0.0, 1.5],
-            class: VruClass::Pedestrian,
-            confidence: 1.0,
+            ..PerceivedVru::pedestrian(1, [2.0, 3.0])
         };
         clustering.perceive(0, [0.0, 0.0], &[walking]);
         let ram = ram_with(clustering.clusters().first(), &plane, [0.0, 0.0]);
@@ -271,12 +268,8 @@ mod tests {
         ) {
             let plane = Plane::at(49.01, 8.41);
             let robot_m = [robot.0, robot.1];
-            let perceived: Vec<PerceivedVru> = (0..).zip(&places).map(|(id, &(x, y))| PerceivedVru {
-                id,
-                position_m: [robot_m[0] + x, robot_m[1] + y],
-                velocity_mps: [0.0, 0.0],
-                class: VruClass::Pedestrian,
-                confidence: 1.0,
+            let perceived: Vec<PerceivedVru> = (0..).zip(&places).map(|(id, &(x, y))| {
+                PerceivedVru::pedestrian(id, [robot_m[0] + x, robot_m[1] + y])
             }).collect();
             let settings = Settings { margin_m: 0.1, spread_m: 100.0, ..Settings::default() };
             let mut clustering = Clustering::new(settings, 5);

@@ -253,19 +253,8 @@ pub struct Unplaced;
 
 #[cfg(test)]
 mod tests {
-    use super::super::clustering::{BreakupReason, VruClass};
-    use super::super::motion::Point;
+    use super::super::clustering::BreakupReason;
     use super::*;
-
-    fn person(id: u32, position_m: Point) -> PerceivedVru {
-        PerceivedVru {
-            id,
-            position_m,
-            velocity_mps: [0.0, 0.0],
-            class: VruClass::Pedestrian,
-            confidence: 1.0,
-        }
-    }
 
     fn at(east_m: f64) -> Position {
         Plane::at(49.0, 8.4).position([east_m, 0.0])
@@ -279,13 +268,13 @@ mod tests {
     fn people_stay_where_they_are_while_the_robot_moves() {
         let mut around = surroundings();
         around
-            .perceive(0, &at(0.0), &[person(1, [5.0, 0.0])])
+            .perceive(0, &at(0.0), &[PerceivedVru::pedestrian(1, [5.0, 0.0])])
             .unwrap();
         let there = around.next_cluster().unwrap().center;
         around.perceive(500, &at(3.0), &[]).unwrap();
         assert!(distance_m(around.next_cluster().unwrap().center, there) < 1e-9);
         around
-            .perceive(600, &at(3.0), &[person(1, [2.0, 0.0])])
+            .perceive(600, &at(3.0), &[PerceivedVru::pedestrian(1, [2.0, 0.0])])
             .unwrap();
         assert!(distance_m(around.next_cluster().unwrap().center, there) < 0.01);
     }
@@ -293,7 +282,7 @@ mod tests {
     #[test]
     fn a_robot_that_went_far_starts_a_new_plane() {
         let mut around = surroundings();
-        let near = [person(1, [5.0, 0.0])];
+        let near = [PerceivedVru::pedestrian(1, [5.0, 0.0])];
         around.perceive(0, &at(0.0), &near).unwrap();
         around.perceive(100, &at(1_500.0), &[]).unwrap();
         assert_eq!(around.next_cluster(), None);
@@ -304,7 +293,7 @@ mod tests {
     #[test]
     fn a_robot_without_a_position_announces_nobody() {
         let lost = Position::default();
-        let near = [person(1, [5.0, 0.0])];
+        let near = [PerceivedVru::pedestrian(1, [5.0, 0.0])];
         assert_eq!(surroundings().perceive(0, &lost, &near), Err(Unplaced));
     }
 
@@ -317,7 +306,7 @@ mod tests {
         let mut around = Surroundings::new(awareness, 1);
         let mut sent = Vec::new();
         for now_ms in (0..3_000).step_by(100) {
-            let near = [person(1, [5.0, 0.0])];
+            let near = [PerceivedVru::pedestrian(1, [5.0, 0.0])];
             let people: &[PerceivedVru] = if now_ms < 1_000 { &near } else { &[] };
             around.perceive(now_ms, &at(0.0), people).unwrap();
             let due = around.due_cluster_vams(now_ms);
@@ -343,8 +332,10 @@ mod tests {
     #[test]
     fn the_cluster_that_waited_the_longest_is_next_and_each_comes_in_time() {
         let mut around = surroundings();
-        let row =
-            |count: u8| (1..=count).map(|id| person(id.into(), [5.0 * f64::from(id) - 15.0, 0.0]));
+        let row = |count: u8| {
+            (1..=count)
+                .map(|id| PerceivedVru::pedestrian(id.into(), [5.0 * f64::from(id) - 15.0, 0.0]))
+        };
         let mut id_of_next = |now_ms, count| {
             around
                 .perceive(now_ms, &at(0.0), &row(count).collect::<Vec<_>>())
@@ -374,16 +365,16 @@ mod tests {
     fn a_ram_says_at_once_that_a_cluster_is_over_and_only_of_one_that_was_announced() {
         let mut around = surroundings();
         around
-            .perceive(0, &at(0.0), &[person(1, [5.0, 0.0])])
+            .perceive(0, &at(0.0), &[PerceivedVru::pedestrian(1, [5.0, 0.0])])
             .unwrap();
         let Some(Told::Cluster(cluster)) = around.next_told() else {
             panic!("nobody is announced")
         };
         around
-            .perceive(100, &at(0.0), &[person(2, [-5.0, 0.0])])
+            .perceive(100, &at(0.0), &[PerceivedVru::pedestrian(2, [-5.0, 0.0])])
             .unwrap();
         around
-            .perceive(200, &at(0.0), &[person(1, [30.0, 0.0])])
+            .perceive(200, &at(0.0), &[PerceivedVru::pedestrian(1, [30.0, 0.0])])
             .unwrap();
         assert_eq!(around.ram_interval_max_ms(), INTERVAL_MIN_MS);
         let over = Ended {
@@ -394,7 +385,7 @@ mod tests {
         assert_eq!(around.ram_interval_max_ms(), INTERVAL_MAX_MS);
         // The other person was never announced.
         around
-            .perceive(300, &at(0.0), &[person(2, [30.0, 0.0])])
+            .perceive(300, &at(0.0), &[PerceivedVru::pedestrian(2, [30.0, 0.0])])
             .unwrap();
         assert_eq!(around.next_told(), None);
     }

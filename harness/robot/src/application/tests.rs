@@ -1,7 +1,7 @@
 //! What an application does with its body and its plan.
 
 use crossguard_codec::{PublicSignal, RobotState, SignalMeans, TaskParameters};
-use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
+use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_protocol::{
     EndReason, Maneuver, ManeuverId, Notice, RequestId, SessionId, SessionNumber, StationId,
     StopReason, TaskType, UniqueNumber,
@@ -129,13 +129,7 @@ fn a_late_frame_is_no_sight_of_now() {
     let road = Street::default().zone().road.unwrap();
     let application = Application::new(Box::new(body), None);
     let mut application = application.on(Road::Watched(Zone::of_road(road)));
-    let person = SensorFrame::of(&[PerceivedVru {
-        id: 1,
-        position_m: [1.0, 3.0],
-        velocity_mps: [0.0; 2],
-        class: VruClass::Pedestrian,
-        confidence: 0.9,
-    }]);
+    let person = SensorFrame::of(&[PerceivedVru::pedestrian(1, [1.0, 3.0])]);
     let nobody = SensorFrame::default();
     application.advance(10.0);
     application.look(&person, Millis(1_500));

@@ -355,7 +355,7 @@ mod tests {
     }
 
     /// A table `[zone]`, and what is said of it. `CIRCLE` stands for a zone that is one.
-    const MISFITS: &str = r#"
+    const MISFITS: &str = r"
                                                  | wants one of 'pavement_m', 'polygon_m', and 'place_m'
 place_m = [1, 2]                                 | wants one of 'pavement_m'
 radius_m = 2                                     | wants one of 'pavement_m'
@@ -370,7 +370,7 @@ CIRCLE\ndwell_s = -1                             | dwell_s is -1: 0 to 60 s is w
 CIRCLE\nspeed_max_mps = nan                      | speed_max_mps is NaN: 0.05 to 2 m/s
 CIRCLE\ndwel_s = 1                               | unknown field `dwel_s`
 CIRCLE\nescort_m = [[0, 0]]                      | escort_m
-"#;
+";
 
     #[test]
     fn what_is_no_zone_is_refused_by_the_name_of_its_field() {

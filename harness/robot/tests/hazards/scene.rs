@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex};
 
 use crossguard_codec::{Identifiers, Identity, Kind, Position, RoadUser, RobotState};
 use crossguard_endpoint::ras::area::Area;
-use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
+use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::station::LocalDynamicMap;
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{
@@ -139,11 +139,9 @@ impl Person {
 
     pub(crate) fn seen_as(&self, id: u32) -> PerceivedVru {
         PerceivedVru {
-            id,
-            position_m: self.at,
             velocity_mps: self.way_mps,
-            class: VruClass::Pedestrian,
             confidence: 0.9,
+            ..PerceivedVru::pedestrian(id, self.at)
         }
     }
 }
@@ -325,10 +323,7 @@ impl Scene {
     }
 
     fn tell(&mut self, to: usize, stimulus: Stimulus<'_>) {
-        let moment = Moment {
-            now_ms: self.now_ms.into(),
-            timestamp_its: STARTS_ITS + u64::from(self.now_ms),
-        };
+        let moment = Moment::after(STARTS_ITS, self.now_ms.into());
         let now_s = f64::from(self.now_ms) / 1e3;
         for effect in self.robots[to].machine.handle(moment, now_s, stimulus) {
             match effect {

@@ -6,11 +6,9 @@ use super::*;
 
 fn pedestrian(id: u32, east_m: f64, north_m: f64) -> PerceivedVru {
     PerceivedVru {
-        id,
-        position_m: [east_m, north_m],
         velocity_mps: [1.0, 0.0],
-        class: VruClass::Pedestrian,
         confidence: 0.9,
+        ..PerceivedVru::pedestrian(id, [east_m, north_m])
     }
 }
 

@@ -147,16 +147,16 @@ fn each_line_is_an_order_or_is_refused_and_counted() {
     }
     for (nth, [line, why]) in (first_refused..).zip(rows(REFUSED)) {
         say(&mut counter, 0, &line);
-        let counted = told.take();
-        let is_counted = matches!(counted[..], [Order::Count(Cause::OperatorGarbled, _)]);
-        assert!(is_counted, "{line}: {counted:?}");
+        let orders = told.take();
+        let is_counted = matches!(orders[..], [Order::Count(Cause::OperatorGarbled, _)]);
+        assert!(is_counted, "{line}: {orders:?}");
         let refused = heard(&mut lines);
         assert_eq!(
             (&refused["type"], &refused["line"]),
             (&"refused".into(), &nth.into())
         );
-        let said = refused["why"].as_str().unwrap();
-        assert!(said.starts_with(&why), "{line}: {said}");
+        let answer = refused["why"].as_str().unwrap();
+        assert!(answer.starts_with(&why), "{line}: {answer}");
     }
 }
 
