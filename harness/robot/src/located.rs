@@ -1,7 +1,7 @@
 //! Files of sites and plans: how they are read, and what is wrong with one, by its line.
 
 use std::fmt;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use std::path::Path;
 
 use serde::Deserialize;
@@ -46,6 +46,14 @@ impl Misfit {
         }
     }
 
+    /// The same at what may be left out: without it, the whole file is meant.
+    pub(crate) fn at_any<T>(spanned: Option<&toml::Spanned<T>>, what: impl Into<String>) -> Self {
+        Self {
+            span: spanned.map(toml::Spanned::span),
+            what: what.into(),
+        }
+    }
+
     pub(crate) fn whole(what: impl Into<String>) -> Self {
         Self {
             span: None,
@@ -86,24 +94,32 @@ fn line_of(text: &str, offset: usize) -> usize {
 
 /// A place on the site.
 pub(crate) fn place(at: &toml::Spanned<[f64; 2]>) -> Result<Place, Misfit> {
-    let [east, north] = *at.get_ref();
-    if [east, north]
-        .iter()
-        .all(|metres| metres.abs() <= METRES_MAX)
-    {
-        Ok(Place::new(east, north))
-    } else {
-        let what = format!(
-            "[{east}, {north}] is no place: metres east and north, at most {METRES_MAX}, are wanted"
-        );
-        Err(Misfit::at(at, what))
+    place_at(at, *at.get_ref())
+}
+
+/// A place on the site, which stands there.
+pub(crate) fn place_at<T>(
+    there: &toml::Spanned<T>,
+    [east, north]: [f64; 2],
+) -> Result<Place, Misfit> {
+    if is_on_site([east, north]) {
+        return Ok(Place::new(east, north));
     }
+    let what = format!(
+        "[{east}, {north}] is no place: metres east and north, at most {METRES_MAX}, are wanted"
+    );
+    Err(Misfit::at(there, what))
+}
+
+/// Whether a place is near enough to the origin of its site.
+pub(crate) fn is_on_site(place: [f64; 2]) -> bool {
+    place.iter().all(|metres| metres.abs() <= METRES_MAX)
 }
 
 /// A number within a range.
 pub(crate) fn within(
     value: &toml::Spanned<f64>,
-    possible: std::ops::RangeInclusive<f64>,
+    possible: RangeInclusive<f64>,
     unit: &str,
 ) -> Result<f64, Misfit> {
     let number = *value.get_ref();
@@ -114,4 +130,42 @@ pub(crate) fn within(
         let what = format!("{number} is not possible: {least} to {most} {unit} is wanted");
         Err(Misfit::at(value, what))
     }
+}
+
+/// A number within a range, if it is there.
+pub(crate) fn within_if_any(
+    value: Option<&toml::Spanned<f64>>,
+    possible: RangeInclusive<f64>,
+    unit: &str,
+) -> Result<Option<f64>, Misfit> {
+    value.map(|value| within(value, possible, unit)).transpose()
+}
+
+/// A number that is not possible, in a file or in a line.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+#[error("{name} is {value}: {wanted} is wanted")]
+pub struct Impossible {
+    /// What it is called there.
+    pub name: &'static str,
+    /// The number.
+    pub value: f64,
+    /// What would be possible.
+    pub wanted: &'static str,
+}
+
+/// A number of this name within a range.
+pub(crate) fn possible(
+    name: &'static str,
+    value: f64,
+    possible: RangeInclusive<f64>,
+    wanted: &'static str,
+) -> Result<f64, Impossible> {
+    if possible.contains(&value) {
+        return Ok(value);
+    }
+    Err(Impossible {
+        name,
+        value,
+        wanted,
+    })
 }

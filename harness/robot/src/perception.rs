@@ -31,6 +31,7 @@ use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use serde::Deserialize;
 
 use crate::lines::lines;
+use crate::located::{Impossible, possible};
 use crate::runtime::Order;
 use crate::site::Place;
 use crate::zone::sighting;
@@ -200,15 +201,8 @@ pub enum PerceptionError {
         most: usize,
     },
     /// A number is not possible.
-    #[error("{name} is {value}: {wanted} is wanted")]
-    Impossible {
-        /// Of what.
-        name: &'static str,
-        /// The number.
-        value: f64,
-        /// What would be.
-        wanted: &'static str,
-    },
+    #[error(transparent)]
+    Impossible(#[from] Impossible),
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] std::io::Error),
@@ -224,7 +218,7 @@ pub fn parse(line: &str) -> Result<Observation, PerceptionError> {
         return frame(serde_json::from_value(value)?);
     }
     let text: PersonLine = serde_json::from_value(value)?;
-    within("at_s", text.at_s.unwrap_or(0.0), 0.0, 1e6, "seconds")?;
+    possible("at_s", text.at_s.unwrap_or(0.0), 0.0..=1e6, "seconds")?;
     let vru = PerceivedVru {
         id: text.id,
         position_m: text.position_m,
@@ -238,21 +232,20 @@ pub fn parse(line: &str) -> Result<Observation, PerceptionError> {
 
 fn frame(line: FrameLine) -> Result<Observation, PerceptionError> {
     let taken = match (line.at_s, line.unix_s) {
-        (Some(at_s), None) => {
-            within("at_s", at_s, 0.0, 1e6, "seconds")?;
-            Taken::At(at_s)
-        }
-        (None, Some(unix_s)) => {
-            within("unix_s", unix_s, 0.0, 1e11, "seconds since 1970")?;
-            Taken::Unix(unix_s)
-        }
+        (Some(at_s), None) => Taken::At(possible("at_s", at_s, 0.0..=1e6, "seconds")?),
+        (None, Some(unix_s)) => Taken::Unix(possible(
+            "unix_s",
+            unix_s,
+            0.0..=1e11,
+            "seconds since 1970",
+        )?),
         _ => return Err(PerceptionError::Undated),
     };
     at_most("people", line.people.len(), PEOPLE_MAX)?;
     let covers = line.covers_m.map(|corners| {
         at_most("corners of covers_m", corners.len(), CORNERS_MAX)?;
         for metres in corners.iter().flatten() {
-            within("covers_m", *metres, -1e5, 1e5, "metres on the site")?;
+            possible("covers_m", *metres, -1e5..=1e5, "metres on the site")?;
         }
         Ok::<_, PerceptionError>(Area::Polygon(corners))
     });
@@ -265,12 +258,11 @@ fn frame(line: FrameLine) -> Result<Observation, PerceptionError> {
             confidence: it.confidence,
         };
         check(&vru)?;
-        within("error_m", it.error_m, 0.0, 100.0, "0 to 100 m")?;
         Ok::<_, PerceptionError>(Perceived {
             vru,
             has_id: it.id.is_some(),
             has_velocity: it.velocity_mps.is_some(),
-            error_m: it.error_m,
+            error_m: possible("error_m", it.error_m, 0.0..=100.0, "0 to 100 m")?,
         })
     });
     let frame = SensorFrame {
@@ -295,35 +287,13 @@ fn at_most(what: &'static str, count: usize, most: usize) -> Result<(), Percepti
 /// What is impossible.
 pub fn check(vru: &PerceivedVru) -> Result<(), PerceptionError> {
     for metres in vru.position_m {
-        within("position_m", metres, -1e5, 1e5, "metres on the site")?;
+        possible("position_m", metres, -1e5..=1e5, "metres on the site")?;
     }
     let [across, along] = vru.velocity_mps;
-    within(
-        "velocity_mps",
-        across.hypot(along),
-        0.0,
-        163.8,
-        "at most 163.8 m/s",
-    )?;
-    within("confidence", vru.confidence, 0.0, 1.0, "0 to 1")
-}
-
-fn within(
-    name: &'static str,
-    value: f64,
-    least: f64,
-    most: f64,
-    wanted: &'static str,
-) -> Result<(), PerceptionError> {
-    if (least..=most).contains(&value) {
-        Ok(())
-    } else {
-        Err(PerceptionError::Impossible {
-            name,
-            value,
-            wanted,
-        })
-    }
+    let speed_mps = across.hypot(along);
+    possible("velocity_mps", speed_mps, 0.0..=163.8, "at most 163.8 m/s")?;
+    possible("confidence", vru.confidence, 0.0..=1.0, "0 to 1")?;
+    Ok(())
 }
 
 /// Somebody on the site, as a robot that is at `place` sees it.

@@ -21,7 +21,7 @@ use crate::attachment::Sends;
 use crate::body::{Body, BodyPort, Build, Ported, Simulated};
 use crate::boot::Boot;
 use crate::journal::Journal;
-use crate::located::FileError;
+use crate::located::{FileError, Impossible, possible};
 use crate::plan::Plan;
 use crate::plan_file::PlanFile;
 use crate::port::{NoAddress, PortAddress};
@@ -35,7 +35,7 @@ use crate::zone::Zone;
 use self::body::BodyTable;
 pub use self::body::NoBody;
 use self::traits::{BatteryTable, JobName};
-pub use self::traits::{NoTraits, job_named, job_names};
+pub use self::traits::{NoTraits, job_named};
 pub use self::zone::NoZone;
 use self::zone::ZoneTable;
 
@@ -201,31 +201,12 @@ pub struct Besides<'a> {
 
 /// Why a robot cannot be configured.
 #[derive(Debug, thiserror::Error)]
-pub enum RobotFileError {
-    /// The file cannot be read.
-    #[error("{}: {cause}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        cause: std::io::Error,
-    },
-    /// The text is no configuration.
-    #[error("{}: {cause}", path.display())]
-    Syntax {
-        /// The file.
-        path: PathBuf,
-        /// What and where.
-        cause: Box<toml::de::Error>,
-    },
-    /// The text is a configuration that makes no sense.
-    #[error("{}: {cause}", path.display())]
-    Impossible {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        cause: Impossibility,
-    },
+#[error("{}: {cause}", path.display())]
+pub struct RobotFileError {
+    /// The file.
+    pub path: PathBuf,
+    /// What is wrong.
+    pub cause: Impossibility,
 }
 
 /// How far from the origin of its site a robot may be, in metres: farther off, its coordinates on the plane are
@@ -235,6 +216,12 @@ const PLACE_MAX_M: f64 = 10_000.0;
 /// What is wrong with a configuration.
 #[derive(Debug, thiserror::Error)]
 pub enum Impossibility {
+    /// The file cannot be read.
+    #[error(transparent)]
+    Unreadable(#[from] std::io::Error),
+    /// The text is no configuration.
+    #[error(transparent)]
+    Syntax(#[from] Box<toml::de::Error>),
     /// Timers contradict each other.
     #[error("[protocol] {0}")]
     Settings(#[from] BrokenInequality),
@@ -263,8 +250,8 @@ pub enum Impossibility {
     )]
     Peer(SocketAddr),
     /// The body's time does not pass, or goes back.
-    #[error("speed is {0}: a number from 1 to 100 is wanted")]
-    Speed(f64),
+    #[error(transparent)]
+    Speed(#[from] Impossible),
     /// Nobody could tell it from others.
     #[error("name: a name with at least one character other than white space is wanted")]
     Name,
@@ -320,23 +307,18 @@ impl RobotFile {
     /// # Errors
     /// The first thing that is wrong.
     pub fn read_with(path: &Path, besides: Besides<'_>) -> Result<Self, RobotFileError> {
-        let owned = || path.to_owned();
-        let text = std::fs::read_to_string(path).map_err(|cause| RobotFileError::Unreadable {
-            path: owned(),
+        Self::checked(path, besides).map_err(|cause| RobotFileError {
+            path: path.to_owned(),
             cause,
-        })?;
-        let mut file: RobotTable =
-            toml::from_str(&text).map_err(|cause| RobotFileError::Syntax {
-                path: owned(),
-                cause: Box::new(cause),
-            })?;
+        })
+    }
+
+    fn checked(path: &Path, besides: Besides<'_>) -> Result<Self, Impossibility> {
+        let text = std::fs::read_to_string(path)?;
+        let mut file: RobotTable = toml::from_str(&text).map_err(Box::new)?;
         let folder = path.parent().unwrap_or(Path::new("."));
         file.name_files(folder, besides);
         file.check(folder)
-            .map_err(|cause| RobotFileError::Impossible {
-                path: owned(),
-                cause,
-            })
     }
 
     /// A simulated body at its place; `seed` is that of its gait.
@@ -446,9 +428,8 @@ impl RobotTable {
     }
 
     fn check(self, folder: &Path) -> Result<RobotFile, Impossibility> {
-        if !(1.0..=100.0).contains(&self.speed) {
-            return Err(Impossibility::Speed(self.speed));
-        }
+        let from_1_to_100 = "a number from 1 to 100";
+        let speed = possible("speed", self.speed, 1.0..=100.0, from_1_to_100)?;
         if self.name.trim().is_empty() {
             return Err(Impossibility::Name);
         }
@@ -504,7 +485,7 @@ impl RobotTable {
             boot_file: folder.join(self.boot_file),
             place: Place::new(self.place[0], self.place[1]),
             site,
-            speed: self.speed,
+            speed,
             autopilot,
             shows: shows.into_iter().reduce(SignalMeans::union),
             zone,

@@ -215,13 +215,13 @@ impl SiteTables {
     fn check(self, name: &str) -> Result<SiteFile, Misfit> {
         let site = self.site()?;
         let along_m = self.crossing.along_m.as_ref();
-        let along_m = along_m.map(|metres| located::within(metres, 0.0..=100.0, "m"));
+        let along_m = located::within_if_any(along_m, 0.0..=100.0, "m")?;
         let lanes = self.lanes.iter().map(LaneTable::check);
         let mut checked = SiteFile {
             name: self.name.unwrap_or_else(|| name.to_owned()),
             site,
             kerbs: self.crossing.kerbs()?,
-            along_m: along_m.transpose()?.unwrap_or(ALONG_M),
+            along_m: along_m.unwrap_or(ALONG_M),
             lanes: lanes.collect::<Result<_, _>>()?,
             places: BTreeMap::new(),
         };

@@ -22,6 +22,7 @@ use crossguard_protocol::{FallbackPolicy, Maneuver, TaskSet};
 pub use self::lines::VERSION;
 use self::lines::{At, FromBody, Start, ToBody, policy};
 use super::{Body, BodyAct, Build, Fallback, NotTaken, Pose, Report, state_of};
+use crate::located::is_on_site;
 use crate::port::{Heard, Listening, PortAddress, Stream, listen};
 use crate::site::{Place, Site};
 
@@ -33,9 +34,6 @@ const BEAT_S: f64 = 0.1;
 
 /// How many lines are taken in at a time.
 const LINES_AT_A_TIME: usize = 64;
-
-/// Farthest pose on a site, in metres.
-const METRES_MAX: f64 = 1e5;
 
 /// How a body is reached.
 #[derive(Clone, PartialEq, Debug)]
@@ -213,7 +211,7 @@ impl Ported {
                 heading_deg,
                 speed_mps,
             } => {
-                let is_on_site = east_m.abs() <= METRES_MAX && north_m.abs() <= METRES_MAX;
+                let is_on_site = is_on_site([east_m, north_m]);
                 if !is_on_site || !heading_deg.is_finite() || !speed_mps.is_finite() {
                     return self.misunderstand("a pose that cannot be");
                 }

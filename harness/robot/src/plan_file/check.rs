@@ -9,11 +9,9 @@ use crossguard_protocol::{
 };
 use toml::Spanned;
 
-use super::tables::{
-    DemoTable, EndName, PartTable, PlanTables, RoleTable, SignalName, SpotName, UrgencyName,
-};
+use super::tables::{DemoTable, EndName, PartTable, PlanTables, RoleTable, SignalName, SpotName};
 use super::{APART_M, Ending, PlanFile, Role, safety};
-use crate::located::{self, METRES_MAX, Misfit};
+use crate::located::{self, Misfit};
 use crate::plan::{Leg, Stage, Who};
 use crate::site::Place;
 use crate::site_file::{Purpose, SiteFile};
@@ -48,30 +46,22 @@ impl PlanTables {
         apart(&self, &roles, &stages)?;
         safety::guards_first(&self, &followers, &stages, settings)?;
         safety::ways_in_time(&self, &followers, &stages, settings)?;
-        let number =
-            |value: &Option<Spanned<f64>>, default, range: std::ops::RangeInclusive<f64>| {
-                let number = value.as_ref();
-                number.map_or(Ok(default), |number| located::within(number, range, "s"))
-            };
         let either_way = self.either_way.as_ref().map(|[from, to]| {
             let crossing = Some((Purpose::Cross, "an escort"));
             Ok([place(&site, from, crossing)?, place(&site, to, crossing)?])
         });
-        let crossing_s = number(&self.crossing_s, CROSSING_S, 1.0..=600.0)?;
+        let crossing_s = located::within_if_any(self.crossing_s.as_ref(), 1.0..=600.0, "s")?;
+        let crossing_s = crossing_s.unwrap_or(CROSSING_S);
+        let patience_s = located::within_if_any(self.patience_s.as_ref(), 1.0..=3_600.0, "s")?;
         safety::crossing_in_time(&site, self.crossing_s.as_ref(), crossing_s, settings)?;
         let (loses_power, ends) = demo(self.demo.as_ref(), &roles)?;
         Ok(PlanFile {
             name: name.to_owned(),
             summary: self.summary.unwrap_or_else(|| format!("Plan {name}.")),
             followers: u8::try_from(wanted).unwrap_or(u8::MAX),
-            urgency: match self.urgency {
-                UrgencyName::Low => Urgency::Low,
-                UrgencyName::Medium => Urgency::Medium,
-                UrgencyName::High => Urgency::High,
-                UrgencyName::Emergency => Urgency::Emergency,
-            },
+            urgency: self.urgency.unwrap_or(Urgency::Medium),
             crossing_s,
-            patience_s: number(&self.patience_s, PATIENCE_S, 1.0..=3_600.0)?,
+            patience_s: patience_s.unwrap_or(PATIENCE_S),
             either_way: either_way.transpose()?,
             site,
             roles,
@@ -182,8 +172,7 @@ fn leg(part: &PartTable, site: &SiteFile) -> Result<Leg, Misfit> {
         leg.speed_mps = located::within(speed, 0.05..=5.0, "m/s")?;
     }
     let heading = part.heading_deg.as_ref();
-    let heading = heading.map(|heading| located::within(heading, 0.0..=360.0, "degrees"));
-    leg.heading_deg = heading.transpose()?;
+    leg.heading_deg = located::within_if_any(heading, 0.0..=360.0, "degrees")?;
     Ok(leg)
 }
 
@@ -194,15 +183,7 @@ fn place(
     wanted: Option<(Purpose, &str)>,
 ) -> Result<Place, Misfit> {
     let text = match name.get_ref() {
-        SpotName::At([east, north]) if east.abs() <= METRES_MAX && north.abs() <= METRES_MAX => {
-            return Ok(Place::new(*east, *north));
-        }
-        SpotName::At([east, north]) => {
-            let what = format!(
-                "[{east}, {north}] is no place: metres east and north, at most {METRES_MAX}, are wanted"
-            );
-            return Err(Misfit::at(name, what));
-        }
+        SpotName::At(place) => return located::place_at(name, *place),
         SpotName::Named(text) => text,
     };
     let Some(spot) = site.places.get(text) else {
@@ -251,9 +232,7 @@ fn apart(tables: &PlanTables, roles: &[Role], stages: &[Stage]) -> Result<(), Mi
                          at least {APART_M} m is wanted"
                     );
                     let part = table.get_ref().get(name);
-                    return Err(part.map_or(Misfit::whole(what.clone()), |part| {
-                        Misfit::at(&part.get_ref().to, what)
-                    }));
+                    return Err(Misfit::at_any(part.map(|it| &it.get_ref().to), what));
                 }
             }
         }

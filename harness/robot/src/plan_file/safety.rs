@@ -20,11 +20,7 @@ fn seconds(time: Millis) -> f64 {
 
 /// What is wrong with the part of a role in the stage with this number, at its line.
 fn at(tables: &PlanTables, stage: usize, role: &str, what: String) -> Misfit {
-    let part = tables.stages[stage].get_ref().get(role);
-    match part {
-        Some(part) => Misfit::at(part, what),
-        None => Misfit::whole(what),
-    }
+    Misfit::at_any(tables.stages[stage].get_ref().get(role), what)
 }
 
 /// The legs of followers that have roles, in order: the number of the stage, that of the follower, and its leg.
@@ -122,10 +118,7 @@ pub(super) fn crossing_in_time(
     let t_cross_s = seconds(settings.t_cross);
     if crossing_s > t_cross_s {
         let what = format!("a pedestrian crosses in {crossing_s} s: t_cross is {t_cross_s} s");
-        return Err(match said {
-            Some(said) => Misfit::at(said, what),
-            None => Misfit::whole(what),
-        });
+        return Err(Misfit::at_any(said, what));
     }
     match site.walk_s() {
         Some(walk_s) if walk_s > t_cross_s => Err(Misfit::whole(format!(

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crossguard_protocol::Urgency;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -12,24 +13,13 @@ use crate::body::Build;
 pub(super) struct PlanTables {
     pub(super) summary: Option<String>,
     pub(super) followers: Option<Spanned<u8>>,
-    #[serde(default)]
-    pub(super) urgency: UrgencyName,
+    pub(super) urgency: Option<Urgency>,
     pub(super) crossing_s: Option<Spanned<f64>>,
     pub(super) patience_s: Option<Spanned<f64>>,
     pub(super) either_way: Option<[Spanned<SpotName>; 2]>,
     pub(super) roles: Vec<Spanned<RoleTable>>,
     pub(super) stages: Vec<Spanned<BTreeMap<String, Spanned<PartTable>>>>,
     pub(super) demo: Option<Spanned<DemoTable>>,
-}
-
-#[derive(Clone, Copy, Default, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum UrgencyName {
-    Low,
-    #[default]
-    Medium,
-    High,
-    Emergency,
 }
 
 #[derive(Deserialize)]

@@ -13,6 +13,7 @@ use std::time::Duration;
 use serde::Deserialize;
 
 use crate::body::BodyPort;
+use crate::located::{Impossible, possible};
 use crate::port::{NoAddress, PortAddress};
 
 #[derive(Deserialize)]
@@ -20,12 +21,12 @@ use crate::port::{NoAddress, PortAddress};
 pub(super) struct BodyTable {
     listen: String,
     #[serde(default = "silence_ms")]
-    silence_ms: u64,
+    silence_ms: u32,
     #[serde(default = "stands_m")]
     stands_m: f64,
 }
 
-const fn silence_ms() -> u64 {
+const fn silence_ms() -> u32 {
     500
 }
 
@@ -39,26 +40,19 @@ pub enum NoBody {
     /// It is no address of this machine.
     #[error(transparent)]
     Address(#[from] NoAddress),
-    /// Nobody is silent so fast, or so slowly.
-    #[error("silence_ms is {0}: 200 to 5000 is wanted")]
-    Silence(u64),
-    /// No body stands like that.
-    #[error("stands_m is {0}: 0.01 to 2 is wanted")]
-    Stands(f64),
+    /// Nobody is silent so fast, or so slowly, and no body stands like that.
+    #[error(transparent)]
+    Number(#[from] Impossible),
 }
 
 impl BodyTable {
     pub(super) fn check(self, folder: &Path) -> Result<BodyPort, NoBody> {
-        if !(200..=5_000).contains(&self.silence_ms) {
-            return Err(NoBody::Silence(self.silence_ms));
-        }
-        if !(0.01..=2.0).contains(&self.stands_m) {
-            return Err(NoBody::Stands(self.stands_m));
-        }
+        let silence_ms = f64::from(self.silence_ms);
+        possible("silence_ms", silence_ms, 200.0..=5_000.0, "200 to 5000")?;
         Ok(BodyPort {
             address: PortAddress::parse(&self.listen, folder)?,
-            silence: Duration::from_millis(self.silence_ms),
-            stands_m: self.stands_m,
+            silence: Duration::from_millis(self.silence_ms.into()),
+            stands_m: possible("stands_m", self.stands_m, 0.01..=2.0, "0.01 to 2")?,
         })
     }
 }

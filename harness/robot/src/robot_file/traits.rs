@@ -12,17 +12,18 @@
 //! ```
 
 use crossguard_codec::{Battery, Dimensions, JobRole};
+use serde::Deserialize;
 use serde::de::IntoDeserializer;
 use serde::de::value::{Error as Unknown, StrDeserializer};
-use serde::{Deserialize, Serialize};
 
 use crate::application::Traits;
+use crate::located::{Impossible, possible};
 
 /// Largest dimension of a robot in a RAM, in metres.
 const METRES_MAX: f64 = 102.2;
 
 /// A job as files name it.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum JobName {
     None,
@@ -55,23 +56,6 @@ pub fn job_named(name: &str) -> Option<JobRole> {
     JobName::deserialize(name).ok().map(JobRole::from)
 }
 
-/// What files and operators call the jobs.
-#[must_use]
-pub fn job_names() -> Vec<String> {
-    use JobName::{Delivery, Escort, Maintenance, None, Other, Patrol, TrafficGuard};
-    let all = [
-        None,
-        TrafficGuard,
-        Escort,
-        Patrol,
-        Delivery,
-        Maintenance,
-        Other,
-    ];
-    let name = |job| serde_json::to_value(job).ok()?.as_str().map(str::to_owned);
-    all.into_iter().filter_map(name).collect()
-}
-
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct BatteryTable {
@@ -84,13 +68,8 @@ pub(super) struct BatteryTable {
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum NoTraits {
     /// A number of percent is not possible.
-    #[error("[battery] {field} is {value}: 0 to 100 is wanted")]
-    Percent {
-        /// The field.
-        field: &'static str,
-        /// The number.
-        value: f64,
-    },
+    #[error("[battery] {0}")]
+    Percent(#[from] Impossible),
     /// It charges, and nobody says how full it is.
     #[error("[battery] 'charging' wants 'charge_percent', too")]
     Charge,
@@ -107,12 +86,7 @@ pub(super) fn check(
     dimensions_m: Option<[f64; 3]>,
     battery: &BatteryTable,
 ) -> Result<Traits, NoTraits> {
-    let percent = |field, value: f64| {
-        let possible = (0.0..=100.0).contains(&value);
-        possible
-            .then_some(value)
-            .ok_or(NoTraits::Percent { field, value })
-    };
+    let percent = |field, value| possible(field, value, 0.0..=100.0, "0 to 100");
     let charge = battery
         .charge_percent
         .map(|value| percent("charge_percent", value));

@@ -19,6 +19,7 @@ use crossguard_endpoint::ras::area::Area;
 use crossguard_protocol::Millis;
 use serde::Deserialize;
 
+use crate::located::{Impossible, METRES_MAX, is_on_site, possible};
 use crate::plan::millis;
 use crate::site::Place;
 use crate::site_file::{Purpose, SiteFile, Spot, between, outline};
@@ -26,9 +27,6 @@ use crate::zone::Zone;
 
 /// Most corners of a polygon.
 const CORNERS_MAX: usize = 64;
-
-/// Farthest place on a site, in metres.
-const METRES_MAX: f64 = 1e5;
 
 /// Smallest area of a polygon, in square metres.
 const AREA_MIN_M2: f64 = 0.01;
@@ -92,15 +90,8 @@ pub enum NoZone {
     #[error("{0}: its corners enclose nothing")]
     Flat(&'static str),
     /// A number is not possible.
-    #[error("{field} is {value}: {wanted} is wanted")]
-    Number {
-        /// The field.
-        field: &'static str,
-        /// The number.
-        value: f64,
-        /// What would be possible.
-        wanted: &'static str,
-    },
+    #[error(transparent)]
+    Number(#[from] Impossible),
     /// The site does not say between which kerbs people cross.
     #[error(
         "pavement_m wants a site with two kerbs, and site '{site}' has {count}; say 'polygon_m' and 'road_m' instead"
@@ -128,7 +119,7 @@ impl ZoneTable {
         if self.polygon_m.is_some() || self.place_m.is_some() || self.radius_m.is_some() {
             return Err(NoZone::Shape);
         }
-        let pavement_m = within("pavement_m", pavement_m, 0.5..=20.0, "0.5 to 20 m")?;
+        let pavement_m = possible("pavement_m", pavement_m, 0.5..=20.0, "0.5 to 20 m")?;
         let [near, far] = layout.kerbs[..] else {
             return Err(NoZone::Kerbs {
                 site: layout.name.clone(),
@@ -163,7 +154,7 @@ impl ZoneTable {
             (Some(corners), None, None) => Some(polygon("polygon_m", corners)?),
             (None, Some(place), Some(radius_m)) => Some(Area::Circle {
                 center: on_site("place_m", place)?,
-                radius_m: within("radius_m", radius_m, 0.1..=1e3, "0.1 to 1000 m")?,
+                radius_m: possible("radius_m", radius_m, 0.1..=1e3, "0.1 to 1000 m")?,
             }),
             (None, None, None) if self.road_m.is_some() => None,
             _ => return Err(NoZone::Shape),
@@ -177,18 +168,24 @@ impl ZoneTable {
         }
         let kerbs = self.escort_m.map(|[from, to]| {
             let place = |at| on_site("escort_m", at).map(|[east, north]| Place::new(east, north));
-            Ok([place(from)?, place(to)?])
+            Ok::<_, NoZone>([place(from)?, place(to)?])
         });
         let default = WaitingRules::default();
         let minute = "0 to 60 s";
-        let time = |field, value: Option<f64>, default: Millis, most: f64, wanted| match value {
-            Some(seconds) => within(field, seconds, 0.0..=most, wanted).map(millis),
-            None => Ok(default),
+        let time = |field, value: Option<f64>, default: Millis, most: f64, wanted| {
+            value.map_or(Ok(default), |seconds| {
+                possible(field, seconds, 0.0..=most, wanted).map(millis)
+            })
         };
         let rules = WaitingRules {
             dwell: time("dwell_s", self.dwell_s, default.dwell, 60.0, minute)?,
             speed_max_cmps: match self.speed_max_mps {
-                Some(speed) => centi(within("speed_max_mps", speed, 0.05..=2.0, "0.05 to 2 m/s")?),
+                Some(speed) => centi(possible(
+                    "speed_max_mps",
+                    speed,
+                    0.05..=2.0,
+                    "0.05 to 2 m/s",
+                )?),
                 None => default.speed_max_cmps,
             },
             approach: time(
@@ -234,25 +231,8 @@ fn percent(share: f64) -> u8 {
     (share * 100.0).round() as u8
 }
 
-fn within(
-    field: &'static str,
-    value: f64,
-    possible: std::ops::RangeInclusive<f64>,
-    wanted: &'static str,
-) -> Result<f64, NoZone> {
-    if possible.contains(&value) {
-        Ok(value)
-    } else {
-        Err(NoZone::Number {
-            field,
-            value,
-            wanted,
-        })
-    }
-}
-
 fn on_site(field: &'static str, place: [f64; 2]) -> Result<[f64; 2], NoZone> {
-    if place.iter().all(|metres| metres.abs() <= METRES_MAX) {
+    if is_on_site(place) {
         Ok(place)
     } else {
         Err(NoZone::Place { field, place })
