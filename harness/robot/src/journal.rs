@@ -149,20 +149,7 @@ impl Queue {
 
 #[cfg(test)]
 mod tests {
-    use crossguard_endpoint::counters::Counts;
-
     use super::*;
-    use crate::trace::Entry;
-
-    fn record(at_us: u64) -> Record {
-        Record {
-            at_us,
-            robot: "R1".to_owned(),
-            entry: Entry::Stopped {
-                counters: Counts::default(),
-            },
-        }
-    }
 
     fn times(reader: &Receiver<Arc<Record>>) -> Vec<u64> {
         reader.try_iter().map(|record| record.at_us).collect()
@@ -173,7 +160,11 @@ mod tests {
         let mut journal = Journal::new();
         let log = journal.reader(2, WhenFull::End, Cause::LogFull);
         let other = journal.reader(2, WhenFull::Skip, Cause::OutputFull);
-        let put = |at_us| journal.put(record(at_us)).collect::<Vec<_>>();
+        let put = |at_us| {
+            journal
+                .put(Record::stopped("R1", at_us))
+                .collect::<Vec<_>>()
+        };
         assert_eq!([put(1), put(2)].concat(), []);
         assert_eq!(put(3), [Cause::LogFull, Cause::OutputFull]);
         assert_eq!((times(&log), times(&other)), (vec![1, 2], vec![1, 2]));
@@ -185,17 +176,19 @@ mod tests {
     fn who_does_not_read_any_more_misses_nothing() {
         let mut journal = Journal::new();
         drop(journal.reader(1, WhenFull::End, Cause::LogFull));
-        assert_eq!(journal.put(record(1)).count(), 0);
+        assert_eq!(journal.put(Record::stopped("R1", 1)).count(), 0);
     }
 
     #[test]
     fn the_last_record_waits_for_room_but_not_for_ever() {
         let mut journal = Journal::new();
         let reader = journal.reader(1, WhenFull::Skip, Cause::OutputFull);
-        assert_eq!(journal.put(record(1)).count(), 0);
-        journal.put_last(record(2), Duration::from_millis(20));
+        assert_eq!(journal.put(Record::stopped("R1", 1)).count(), 0);
+        journal.put_last(Record::stopped("R1", 2), Duration::from_millis(20));
         assert_eq!(times(&reader), [1]);
-        let waits = std::thread::spawn(move || journal.put_last(record(3), Duration::from_mins(1)));
+        let waits = std::thread::spawn(move || {
+            journal.put_last(Record::stopped("R1", 3), Duration::from_mins(1));
+        });
         assert_eq!(reader.recv().unwrap().at_us, 3);
         waits.join().unwrap();
     }

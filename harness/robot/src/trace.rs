@@ -37,6 +37,19 @@ pub struct Record {
     pub entry: Entry,
 }
 
+#[cfg(test)]
+impl Record {
+    /// The last record of a robot that dropped nothing.
+    pub(crate) fn stopped(robot: &str, at_us: u64) -> Self {
+        let counters = Counts::default();
+        Self {
+            at_us,
+            robot: robot.to_owned(),
+            entry: Entry::Stopped { counters },
+        }
+    }
+}
+
 /// What a robot did.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(

@@ -84,6 +84,30 @@ pub struct NotSent {
 }
 
 impl NotSent {
+    /// It did not go out to the only receiver.
+    pub(crate) const fn to_one(cause: std::io::Error) -> Self {
+        Self {
+            failed: 1,
+            receivers: 1,
+            cause,
+        }
+    }
+
+    /// Whether it went out to all of so many receivers, after these failures.
+    pub(crate) fn check(
+        receivers: usize,
+        failures: impl Iterator<Item = std::io::Error>,
+    ) -> Result<(), Self> {
+        let (failed, cause) = failures.fold((0, None), |(failed, _), it| (failed + 1, Some(it)));
+        cause.map_or(Ok(()), |cause| {
+            Err(Self {
+                failed,
+                receivers,
+                cause,
+            })
+        })
+    }
+
     /// Whether it passes without the transport being opened again: there is no room now, or the transport
     /// is looking for the other end by itself.
     #[must_use]
@@ -115,6 +139,16 @@ pub enum Source {
     Port(usize),
     /// Nobody that the transport could name.
     Unknown,
+}
+
+impl Arrival {
+    fn misframed(cause: &'static str, detail: &impl ToString, octets: &[u8]) -> Self {
+        Self::Misframed {
+            cause,
+            detail: detail.to_string(),
+            octets: octets.to_vec(),
+        }
+    }
 }
 
 /// What came in.

@@ -123,24 +123,13 @@ pub fn open(path: &Path) -> io::Result<Log<'static>> {
 mod tests {
     use std::fs;
 
-    use crossguard_endpoint::counters::Counts;
-
     use super::*;
-    use crate::trace::{Entry, Records, Unreadable};
-
-    fn record(at_us: u64) -> Record {
-        let counters = Counts::default();
-        Record {
-            at_us,
-            robot: "R1".to_owned(),
-            entry: Entry::Stopped { counters },
-        }
-    }
+    use crate::trace::{Records, Unreadable};
 
     fn write(path: &Path, limits: LogLimits, times: std::ops::Range<u64>) {
         let mut log = LogFile::create(path, limits).unwrap();
         for at_us in times {
-            log.write(&record(at_us)).unwrap();
+            log.write(&Record::stopped("R1", at_us)).unwrap();
         }
         log.flush().unwrap();
     }
@@ -180,10 +169,13 @@ mod tests {
             older: 3,
         };
         let mut log = LogFile::create(&path, limits).unwrap();
-        let written = (0..1_000).take_while(|at_us| log.write(&record(*at_us)).is_ok());
+        let written =
+            (0..1_000).take_while(|at_us| log.write(&Record::stopped("R1", *at_us)).is_ok());
         let written = written.count() as u64;
         assert_eq!(
-            log.write(&record(written)).unwrap_err().kind(),
+            log.write(&Record::stopped("R1", written))
+                .unwrap_err()
+                .kind(),
             ErrorKind::FileTooLarge
         );
         drop(log);

@@ -260,15 +260,6 @@ mod tests {
         }
     }
 
-    fn stopped(robot: &str, at_us: u64) -> Record {
-        let counters = crossguard_endpoint::counters::Counts::default();
-        Record {
-            at_us,
-            robot: robot.to_owned(),
-            entry: Entry::Stopped { counters },
-        }
-    }
-
     fn log(records: &[Record]) -> Log<'static> {
         let mut text = Vec::new();
         for record in records {
@@ -289,8 +280,11 @@ mod tests {
 
     #[test]
     fn logs_of_different_clocks_are_merged_by_the_time_of_day() {
-        let ari = log(&[started("ARI", 5_000, 1_000), stopped("ARI", 25_000)]);
-        let go2 = log(&[started("Go2", 70_000, 1_010), stopped("Go2", 71_000)]);
+        let ari = log(&[started("ARI", 5_000, 1_000), Record::stopped("ARI", 25_000)]);
+        let go2 = log(&[
+            started("Go2", 70_000, 1_010),
+            Record::stopped("Go2", 71_000),
+        ]);
         let (a, g) = ("ARI".to_owned(), "Go2".to_owned());
         let expected = vec![
             (1_000_000, a.clone()),
@@ -306,7 +300,7 @@ mod tests {
         let log = log(&[
             started("ARI", 10, 1_000),
             started("Go2", 400, 1_001),
-            stopped("ARI", 500),
+            Record::stopped("ARI", 500),
             started("ARI", 0, 9_000),
         ]);
         let times: Vec<_> = times(vec![log])
@@ -321,8 +315,8 @@ mod tests {
         let log = log(&[
             started("ARI", 0, 1_000),
             started("Go2", 30, 1_000),
-            stopped("ARI", 20),
-            stopped("Go2", 3_000_000),
+            Record::stopped("ARI", 20),
+            Record::stopped("Go2", 3_000_000),
         ]);
         let names: Vec<_> = times(vec![log]).into_iter().map(|(_, name)| name).collect();
         assert_eq!(names, ["ARI", "ARI", "Go2", "Go2"]);

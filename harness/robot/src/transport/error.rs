@@ -48,6 +48,16 @@ pub enum LinkError {
     PortInUse(usize),
 }
 
+impl LinkError {
+    /// There is no interface of this name, but there are these.
+    pub(super) fn no_interface<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Self {
+        Self::NoInterface {
+            name: name.to_owned(),
+            known: known.collect::<Vec<_>>().join(", "),
+        }
+    }
+}
+
 /// Whether this is the name of a loopback interface.
 pub(super) fn is_loopback(name: &str) -> bool {
     let interfaces = if_addrs::get_if_addrs().unwrap_or_default();
@@ -68,16 +78,8 @@ pub(super) fn interface_of(name: &str) -> Result<(u32, Ipv4Addr), LinkError> {
             IpAddr::V6(_) => None,
         });
     let found = ipv4.clone().find(|(interface, _)| interface.name == name);
-    let known = || {
-        ipv4.map(|(interface, _)| interface.name.clone())
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
-    match found.and_then(|(interface, address)| Some((interface.index?, address))) {
-        Some(found) => Ok(found),
-        None => Err(LinkError::NoInterface {
-            name: name.to_owned(),
-            known: known(),
-        }),
-    }
+    let known = ipv4.map(|(interface, _)| &*interface.name);
+    found
+        .and_then(|(interface, address)| Some((interface.index?, address)))
+        .ok_or_else(|| LinkError::no_interface(name, known))
 }

@@ -56,16 +56,10 @@ fn link_address(name: &str) -> Result<LinkAddr, LinkError> {
         })
         .collect();
     let found = links.iter().find(|(interface, _)| interface == name);
+    let known = links.iter().map(|(name, _)| &**name);
     found
         .map(|(_, address)| *address)
-        .ok_or_else(|| LinkError::NoInterface {
-            name: name.to_owned(),
-            known: links
-                .iter()
-                .map(|(name, _)| name.as_str())
-                .collect::<Vec<_>>()
-                .join(", "),
-        })
+        .ok_or_else(|| LinkError::no_interface(name, known))
 }
 
 struct EthernetSender {
@@ -75,14 +69,9 @@ struct EthernetSender {
 impl Sender for EthernetSender {
     fn send(&mut self, octets: &[u8]) -> Result<(), NotSent> {
         let frame = [&ethernet::header(link_layer_of(octets))[..], octets].concat();
-        match send(self.socket.as_raw_fd(), &frame, MsgFlags::MSG_DONTWAIT) {
-            Ok(_) => Ok(()),
-            Err(errno) => Err(NotSent {
-                failed: 1,
-                receivers: 1,
-                cause: errno.into(),
-            }),
-        }
+        let sent = send(self.socket.as_raw_fd(), &frame, MsgFlags::MSG_DONTWAIT);
+        sent.map(drop)
+            .map_err(|errno| NotSent::to_one(errno.into()))
     }
 }
 

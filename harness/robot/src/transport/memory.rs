@@ -81,19 +81,15 @@ impl Sender for Port {
         let failures = others.filter_map(|(_, seat)| {
             let datagram = (self.number, octets.to_vec(), Instant::now());
             match seat.queue.try_send(datagram) {
-                Err(TrySendError::Full(_)) => Some(ErrorKind::WouldBlock),
+                Err(TrySendError::Full(_)) => {
+                    let full = "the receiver's queue is full";
+                    Some(Error::new(ErrorKind::WouldBlock, full))
+                }
                 // A closed queue is like the air over a robot that is switched off.
                 Ok(()) | Err(TrySendError::Disconnected(_)) => None,
             }
         });
-        let (failed, kind) = failures.fold((0, None), |(failed, _), kind| (failed + 1, Some(kind)));
-        kind.map_or(Ok(()), |kind| {
-            Err(NotSent {
-                failed,
-                receivers: self.air.0.len() - 1,
-                cause: Error::new(kind, "the receiver's queue is full"),
-            })
-        })
+        NotSent::check(self.air.0.len() - 1, failures)
     }
 }
 

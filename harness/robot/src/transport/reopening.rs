@@ -103,11 +103,7 @@ mod tests {
 
     impl Sender for Failing {
         fn send(&mut self, _: &[u8]) -> Result<(), NotSent> {
-            Err(NotSent {
-                failed: 1,
-                receivers: 1,
-                cause: Error::from(self.0),
-            })
+            Err(NotSent::to_one(Error::from(self.0)))
         }
     }
 

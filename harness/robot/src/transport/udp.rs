@@ -103,16 +103,7 @@ impl Sender for UdpSender {
         let datagram = self.framing.wrap(octets);
         let send = |to: &SocketAddr| socket.send_to_with_flags(&datagram, &(*to).into(), now);
         let failures = self.to.iter().filter_map(|to| send(to).err());
-        let (failed, cause) =
-            failures.fold((0, None), |(failed, _), cause| (failed + 1, Some(cause)));
-        match cause {
-            None => Ok(()),
-            Some(cause) => Err(NotSent {
-                failed,
-                receivers: self.to.len(),
-                cause,
-            }),
-        }
+        NotSent::check(self.to.len(), failures)
     }
 }
 
@@ -127,11 +118,7 @@ impl Receiver for UdpReceiver {
                 octets: packet.to_vec(),
                 at,
             },
-            Err(error) => Arrival::Misframed {
-                cause: error.cause(),
-                detail: error.to_string(),
-                octets: datagram.to_vec(),
-            },
+            Err(error) => Arrival::misframed(error.cause(), &error, datagram),
         }))
     }
 }

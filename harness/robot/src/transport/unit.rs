@@ -103,11 +103,7 @@ impl Sender for UnitSender {
                 }
             })
         });
-        sent.map(|_| ()).map_err(|cause| NotSent {
-            failed: 1,
-            receivers: 1,
-            cause,
-        })
+        sent.map(drop).map_err(NotSent::to_one)
     }
 }
 
@@ -158,13 +154,7 @@ fn packet_in(frame: &Frame<'_>, unit: SocketAddr, at: Instant) -> Option<Arrival
     };
     let octets = match octets {
         Ok(octets) => octets,
-        Err(error) => {
-            return Some(Arrival::Misframed {
-                cause: "frame body",
-                detail: error.to_string(),
-                octets: frame.body.to_vec(),
-            });
-        }
+        Err(error) => return Some(Arrival::misframed("frame body", &error, frame.body)),
     };
     let waited = frame.unix_us.map(|us| waited(us, SystemTime::now()));
     // By the unit it was there earlier than by the socket.
@@ -201,11 +191,7 @@ impl Receiver for UnitReceiver {
                 self.next = packet;
                 Ok(Some(channel))
             }
-            Err(error) => Ok(Some(Arrival::Misframed {
-                cause: error.cause(),
-                detail: error.to_string(),
-                octets: octets.to_vec(),
-            })),
+            Err(error) => Ok(Some(Arrival::misframed(error.cause(), &error, octets))),
         }
     }
 }
