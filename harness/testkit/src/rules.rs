@@ -2,10 +2,11 @@
 
 use crossguard_model_check::node::Rules;
 use crossguard_protocol::{
-    Config, Confirmation, Coordination, Corridor, CorridorClosure, Ending, Event, FallbackPolicy,
-    Farewell, Ignored, Input, Maneuver, ManeuverId, Millis, Notice, Order, Output, Outputs, Phase,
-    Progress, Ram, Report, Rmcm, Robot, Role, Settings, Timer,
+    Command, Config, Confirmation, Coordination, Corridor, CorridorClosure, Ending, Event,
+    FallbackPolicy, Farewell, Ignored, Input, Maneuver, ManeuverId, Millis, Notice, Order, Output,
+    Outputs, Phase, Progress, Ram, Report, Rmcm, Robot, Role, Settings, Timer,
 };
+use serde_json::Value;
 
 /// Declares weakenings: what each does in place of a step of the protocol.
 #[macro_export]
@@ -64,9 +65,7 @@ weakenings! {
     pub FollowersWaitForEver(robot, config, input) {
         let is_time = matches!(input, Input::Expired(_) | Input::Elapsed(_));
         if is_time && matches!(robot.phase(), Phase::Following(_)) {
-            return [Output::Ignored(Ignored::TimerNotArmed)]
-                .into_iter()
-                .collect();
+            return only(Output::Ignored(Ignored::TimerNotArmed));
         }
         robot.step(config, input)
     }
@@ -145,15 +144,7 @@ weakenings! {
             (Input::Rmcm(Rmcm::Command(command)), Some(job))
                 if job.request == command.request && outputs.ignored().is_none() =>
             {
-                let id = ManeuverId {
-                    session: command.session,
-                    request: command.request,
-                };
-                let start = Output::StartManeuver(Maneuver {
-                    id,
-                    task: command.task,
-                });
-                outputs.iter().copied().chain([start]).collect()
+                outputs.iter().copied().chain([start_of(&command)]).collect()
             }
             _ => outputs,
         }
@@ -168,14 +159,7 @@ weakenings! {
                         .job
                         .is_some_and(|job| job.request.is_newer_than(command.request)) =>
             {
-                let id = ManeuverId {
-                    session: command.session,
-                    request: command.request,
-                };
-                let task = command.task;
-                [Output::StartManeuver(Maneuver { id, task })]
-                    .into_iter()
-                    .collect()
+                only(start_of(&command))
             }
             _ => robot.step(config, input),
         }
@@ -262,9 +246,7 @@ weakenings! {
         if let (Phase::Leading(_), Input::Ram { ram, .. }) = (robot.phase(), input)
             && matches!(ram.coordination, Coordination::Leader { .. })
         {
-            return [Output::Ignored(Ignored::LowerPrecedence)]
-                .into_iter()
-                .collect();
+            return only(Output::Ignored(Ignored::LowerPrecedence));
         }
         robot.step(config, input)
     }
@@ -274,15 +256,9 @@ weakenings! {
         if let (Phase::Idle, Some(_), Input::Ram { ram, .. }) = (robot.phase(), robot.duty(), input)
             && matches!(ram.coordination, Coordination::NeedHelp { .. })
         {
-            let mut forgetful = robot.clone();
-            with_state(&mut forgetful, |state| {
-                state["duty"] = serde_json::Value::Null;
-            });
-            let outputs = forgetful.step(config, input);
-            if outputs.ignored().is_none() {
-                *robot = forgetful;
-                return outputs;
-            }
+            let forgets = |state: &mut Value| state["duty"] = Value::Null;
+            let obeys = |_: &Robot, outputs: &Outputs| outputs.ignored().is_none();
+            return step_if(robot, config, input, forgets, obeys);
         }
         robot.step(config, input)
     }
@@ -290,15 +266,11 @@ weakenings! {
     /// A follower on duty obeys any command of its leader.
     pub ObeysOnDuty(robot, config, input) {
         if robot.duty().is_some() && matches!(input, Input::Rmcm(Rmcm::Command(_))) {
-            let mut obedient = robot.clone();
-            with_state(&mut obedient, |state| {
-                state["duty"] = serde_json::Value::Null;
-            });
-            let outputs = obedient.step(config, input);
-            if outputs.iter().any(|it| matches!(it, Output::StartManeuver(_))) {
-                *robot = obedient;
-                return outputs;
-            }
+            let forgets = |state: &mut Value| state["duty"] = Value::Null;
+            let starts = |_: &Robot, outputs: &Outputs| {
+                outputs.iter().any(|it| matches!(it, Output::StartManeuver(_)))
+            };
+            return step_if(robot, config, input, forgets, starts);
         }
         robot.step(config, input)
     }
@@ -346,15 +318,10 @@ weakenings! {
             && following.sees_people
             && matches!(ram.farewell, Some(Farewell::Ended(_, Ending::Completed)))
         {
-            let mut trustful = robot.clone();
-            with_state(&mut trustful, |state| {
-                state["phase"]["following"]["seesPeople"] = false.into();
-            });
-            let outputs = trustful.step(config, input);
-            if trustful.role() != Role::Follower {
-                *robot = trustful;
-                return outputs;
-            }
+            let sees_nobody =
+                |state: &mut Value| state["phase"]["following"]["seesPeople"] = false.into();
+            let leaves = |robot: &Robot, _: &Outputs| robot.role() != Role::Follower;
+            return step_if(robot, config, input, sees_nobody, leaves);
         }
         robot.step(config, input)
     }
@@ -425,8 +392,43 @@ fn order_and_report<'a>(robot: &Robot, ram: &'a mut Ram) -> Option<(Order, &'a m
     }
 }
 
+/// What a robot puts out that starts the maneuver of a command.
+fn start_of(command: &Command) -> Output {
+    let Command {
+        session,
+        request,
+        task,
+        ..
+    } = *command;
+    let id = ManeuverId { session, request };
+    Output::StartManeuver(Maneuver { id, task })
+}
+
+/// No output but this one.
+fn only(output: Output) -> Outputs {
+    [output].into_iter().collect()
+}
+
+/// A step of the robot with its state changed, if `is` so after it, and otherwise of the robot as it is.
+fn step_if(
+    robot: &mut Robot,
+    config: &Config,
+    input: Input,
+    change: impl FnOnce(&mut Value),
+    is: impl FnOnce(&Robot, &Outputs) -> bool,
+) -> Outputs {
+    let mut changed = robot.clone();
+    with_state(&mut changed, change);
+    let outputs = changed.step(config, input);
+    if !is(&changed, &outputs) {
+        return robot.step(config, input);
+    }
+    *robot = changed;
+    outputs
+}
+
 /// The robot with one value of its state replaced, as it stands in a log.
-pub fn with_state(robot: &mut Robot, change: impl FnOnce(&mut serde_json::Value)) {
+pub fn with_state(robot: &mut Robot, change: impl FnOnce(&mut Value)) {
     let mut state = serde_json::to_value(&*robot).unwrap();
     change(&mut state);
     *robot = serde_json::from_value(state.clone()).unwrap();
@@ -460,7 +462,7 @@ impl Rules for Overlooks {
             state["phase"]["leading"]["corridor"] = serde_json::to_value(Corridor::Open).unwrap();
         });
         if opens {
-            return [Output::CorridorOpened(Millis(1))].into_iter().collect();
+            return only(Output::CorridorOpened(Millis(1)));
         }
         let kept = outputs.iter().copied().filter(|output| !is_open(output));
         kept.collect()
