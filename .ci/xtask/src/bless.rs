@@ -7,75 +7,32 @@ use std::path::Path;
 
 use crate::steps::{NotStarted, Step, run};
 
-/// A file, a folder, or a part of a file, and the command that writes it.
-struct Generated {
-    path: &'static str,
-    by: &'static str,
-}
+/// Files, folders and parts of files, and the command that writes each. Sources first: what follows from other files comes
+/// after them.
+const GENERATED: &str = "\
+protocol/src: words and named tasks, in other languages <- cargo test -p crossguard-protocol --test languages
+protocol/words.md <- cargo test -p crossguard-protocol --test words
+protocol/tests/scripts/ <- cargo test -p crossguard-protocol --test it interpreter
+codec/src/asn1/generated.rs <- cargo test -p crossguard-codec --test it generated
+codec/tests/golden/messages.json <- cargo test -p crossguard-codec --test it golden_messages
+codec/tests/golden/security.json <- cargo test -p crossguard-codec --features security --test it security::vectors
+codec/wireshark/crossguard.lua: the types <- codec/judges/run
+harness/c/include/crossguard.h <- cargo test -p crossguard-c --test header
+model-check/doc/paper-literal.md <- cargo test -p crossguard-model-check --test it paper_literal::
+harness/conform/src/cases.txt <- cargo test -p crossguard-conform --test generated
+protocol/doc/protocol.md: the state diagram <- cargo test -p crossguard-harness --test it pages::the_state_diagram
+protocol/doc/protocol.md: the index of rules <- cargo test -p crossguard-harness --test it pages::the_index_of_rules
+harness/tests/cmd/ <- cargo test -p crossguard-harness --test it cmd::
+README.md: the sum of states <- cargo test -p crossguard-harness --test it pages::the_readmes_sum_of_states";
 
-/// Sources first: what follows from other files comes after them.
-const GENERATED: [Generated; 14] = [
-    Generated {
-        path: "protocol/src: words and named tasks, in other languages",
-        by: "cargo test -p crossguard-protocol --test languages",
-    },
-    Generated {
-        path: "protocol/words.md",
-        by: "cargo test -p crossguard-protocol --test words",
-    },
-    Generated {
-        path: "protocol/tests/scripts/",
-        by: "cargo test -p crossguard-protocol --test it interpreter",
-    },
-    Generated {
-        path: "codec/src/asn1/generated.rs",
-        by: "cargo test -p crossguard-codec --test it generated",
-    },
-    Generated {
-        path: "codec/tests/golden/messages.json",
-        by: "cargo test -p crossguard-codec --test it golden_messages",
-    },
-    Generated {
-        path: "codec/tests/golden/security.json",
-        by: "cargo test -p crossguard-codec --features security --test it security::vectors",
-    },
-    Generated {
-        path: "codec/wireshark/crossguard.lua: the types",
-        by: "codec/judges/run",
-    },
-    Generated {
-        path: "harness/c/include/crossguard.h",
-        by: "cargo test -p crossguard-c --test header",
-    },
-    Generated {
-        path: "model-check/doc/paper-literal.md",
-        by: "cargo test -p crossguard-model-check --test it paper_literal::",
-    },
-    Generated {
-        path: "harness/conform/src/cases.txt",
-        by: "cargo test -p crossguard-conform --test generated",
-    },
-    Generated {
-        path: "protocol/doc/protocol.md: the state diagram",
-        by: "cargo test -p crossguard-harness --test it pages::the_state_diagram",
-    },
-    Generated {
-        path: "protocol/doc/protocol.md: the index of rules",
-        by: "cargo test -p crossguard-harness --test it pages::the_index_of_rules",
-    },
-    Generated {
-        path: "harness/tests/cmd/",
-        by: "cargo test -p crossguard-harness --test it cmd::",
-    },
-    Generated {
-        path: "README.md: the sum of states",
-        by: "cargo test -p crossguard-harness --test it pages::the_readmes_sum_of_states",
-    },
-];
+/// The rows of the table.
+fn generated() -> impl Iterator<Item = (&'static str, &'static str)> {
+    GENERATED.lines().filter_map(|row| row.split_once(" <- "))
+}
 
 /// A text that the path of a generated file contains.
 pub(crate) fn part(text: &str) -> Result<String, String> {
-    let paths = GENERATED.map(|it| it.path);
+    let paths: Vec<_> = generated().map(|(path, _)| path).collect();
     if paths.iter().any(|it| it.contains(text)) {
         return Ok(text.to_owned());
     }
@@ -89,12 +46,12 @@ pub(crate) fn part(text: &str) -> Result<String, String> {
 pub(crate) fn bless(root: &Path, part: &str) -> Result<bool, NotStarted> {
     let mut done = Vec::new();
     let mut is_ok = true;
-    for generated in GENERATED.iter().filter(|it| it.path.contains(part)) {
-        if !done.contains(&generated.by) {
-            let step = Step::new(generated.path, generated.by).with("CROSSGUARD_BLESS", "1");
+    for (path, by) in generated().filter(|(path, _)| path.contains(part)) {
+        if !done.contains(&by) {
+            let step = Step::new(path, by).with("CROSSGUARD_BLESS", "1");
             let step = step.with("TRYCMD", "overwrite");
             is_ok &= run(root, &step)?;
-            done.push(generated.by);
+            done.push(by);
         }
     }
     Ok(is_ok)

@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::io::Write;
 use std::os::unix::net::UnixStream;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -23,6 +23,19 @@ pub fn crossguard(arguments: &[&str]) -> Command {
 /// Runs the command to its end.
 pub fn run(arguments: &[&str]) -> Output {
     crossguard(arguments).stdin(Stdio::null()).output().unwrap()
+}
+
+/// Runs the command to its end, with arguments that stand in a line, parted by white space.
+pub fn run_line(line: &str) -> Output {
+    run(&line.split_whitespace().collect::<Vec<_>>())
+}
+
+/// The same; it has to end well.
+#[track_caller]
+pub fn run_well(line: &str) -> Output {
+    let output = run_line(line);
+    assert_code(&output, 0);
+    output
 }
 
 /// Runs the command with this on its standard input.
@@ -45,11 +58,34 @@ pub fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
+/// Asserts that a command ended with this exit code; if not, tells all that it said.
+#[track_caller]
+pub fn assert_code(output: &Output, code: i32) {
+    let said = stdout(output) + &stderr(output);
+    assert_eq!(output.status.code(), Some(code), "{said}");
+}
+
+/// What a program has said or written.
+pub trait Said {
+    /// Asserts that each of these parts is in it.
+    fn must_have(&self, parts: &[&str]);
+}
+
+impl Said for str {
+    #[track_caller]
+    fn must_have(&self, parts: &[&str]) {
+        for part in parts {
+            assert!(self.contains(part), "'{part}' is not in:\n{self}");
+        }
+    }
+}
+
 /// Asserts that the command refused its input with a readable cause.
+#[track_caller]
 pub fn assert_refused(output: &Output, cause: &str) {
     let message = stderr(output);
-    assert_eq!(output.status.code(), Some(2), "{message}");
-    assert!(message.contains(cause), "'{cause}' is not in: {message}");
+    assert_code(output, 2);
+    message.must_have(&[cause]);
     assert!(!message.contains("panicked"), "{message}");
 }
 
@@ -75,7 +111,7 @@ pub fn demo_under_attack<T: Send>(attack: impl FnOnce(u16, &AtomicBool) -> T + S
         done.store(true, Ordering::Relaxed);
         (output, attacker.join().unwrap())
     });
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_code(&output, 0);
     (json(&output), came)
 }
 
@@ -140,6 +176,13 @@ pub fn wait_for(child: &mut Child, patience: Duration) -> std::process::ExitStat
     }
 }
 
+/// Tells a robot to quit, which has to end well.
+#[track_caller]
+pub fn quit(robot: &mut Child) {
+    type_to(robot, "quit\n");
+    assert_eq!(wait_for(robot, Duration::from_mins(1)).code(), Some(0));
+}
+
 /// Waits until something is so, at most for two minutes.
 pub fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
     let deadline = Instant::now() + Duration::from_mins(2);
@@ -183,6 +226,30 @@ pub fn signal(child: &Child, signal: &str) {
         .status()
         .unwrap();
     assert!(status.success());
+}
+
+/// Says that the test that runs in this thread is skipped, not by eprintln!, which the test runner would capture.
+pub fn skipped(why: &str) {
+    let test = std::thread::current().name().unwrap_or_default().to_owned();
+    let _ = writeln!(std::io::stderr(), "SKIPPED {test}: {why}");
+}
+
+/// A library that takes the place of a part of the C library in one process; `None`, and a word about it, without a
+/// C compiler.
+pub fn shim(folder: &Path, source: &str) -> Option<PathBuf> {
+    let library = folder.join("shim.so");
+    let mut compiler = Command::new("cc");
+    compiler.args(["-shared", "-fPIC", "-O1", "-o"]);
+    match compiler.arg(&library).args([source, "-ldl"]).output() {
+        Ok(output) => {
+            assert_code(&output, 0);
+            Some(library)
+        }
+        Err(error) => {
+            skipped(&format!("there is no C compiler 'cc': {error}"));
+            None
+        }
+    }
 }
 
 /// The records of a log.

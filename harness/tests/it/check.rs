@@ -6,8 +6,7 @@ use serde_json::Value;
 
 #[test]
 fn check_reports_every_property_of_a_scenario_as_json() {
-    let output = run(&["check", "contention", "leader-crash", "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let output = run_well("check contention leader-crash --json");
     let report = json(&output);
     let scenarios = report["scenarios"].as_array().unwrap();
     assert_eq!(scenarios.len(), 2);
@@ -30,8 +29,7 @@ fn check_reports_every_property_of_a_scenario_as_json() {
 
 #[test]
 fn a_timed_check_reports_the_longest_times_beside_their_bounds() {
-    let output = run(&["check", "timed-hang", "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let output = run_well("check timed-hang --json");
     let report = json(&output);
     let scenario = &report["scenarios"][0];
     assert_eq!(scenario["exhaustive"], true);
@@ -42,32 +40,27 @@ fn a_timed_check_reports_the_longest_times_beside_their_bounds() {
         assert!(ms.is_some() && ms <= bound_ms, "{figure}");
     }
     // What was found before the limit, and by which timers it is bounded.
-    let output = run(&["check", "timed-hang", "--max-states", "1000"]);
-    assert_eq!(output.status.code(), Some(3));
+    let output = run_line("check timed-hang --max-states 1000");
+    assert_code(&output, 3);
     let text = stdout(&output);
-    assert!(
-        text.contains("from a request to roles or to giving up"),
-        "{text}"
-    );
-    assert!(text.contains("by calculation at most 303 ms"), "{text}");
-    assert!(
-        text.contains("each shows 50 or 60 ms of each tick"),
-        "{text}"
-    );
+    text.must_have(&[
+        "from a request to roles or to giving up",
+        "by calculation at most 303 ms",
+        "each shows 50 or 60 ms of each tick",
+    ]);
 }
 
 #[test]
 fn a_check_that_is_cut_off_says_so_and_exits_with_3() {
-    let output = run(&["check", "pair", "--max-states", "10000"]);
-    assert_eq!(output.status.code(), Some(3));
+    let output = run_line("check pair --max-states 10000");
+    assert_code(&output, 3);
     let text = stdout(&output);
-    assert!(text.contains("NOT exhaustive: state limit"), "{text}");
-    assert!(
-        text.contains("0 of 1 scenarios verified exhaustively"),
-        "{text}"
-    );
-    let output = run(&["check", "team-of-four", "--timeout", "1", "--json"]);
-    assert_eq!(output.status.code(), Some(3));
+    text.must_have(&[
+        "NOT exhaustive: state limit",
+        "0 of 1 scenarios verified exhaustively",
+    ]);
+    let output = run_line("check team-of-four --timeout 1 --json");
+    assert_code(&output, 3);
     assert_eq!(json(&output)["scenarios"][0]["exhaustive"], false);
 }
 
@@ -75,24 +68,17 @@ fn a_check_that_is_cut_off_says_so_and_exits_with_3() {
 fn a_scenario_of_ones_own_is_checked_and_a_property_that_is_put_to_no_test_is_a_failure() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("my.toml");
-    let text = "name = 'mine'\nsummary = 'nobody is commanded'\nproperties = ['I2', 'I4']\n\
-                [[robots]]\nstation = 1\ndetects = true\n[[robots]]\nstation = 2\n\
-                [request]\nfollowers = 1\ntasks = ['move']\n[bounds]\ndetections = 1\n\
-                [channel]\ndelayed = 0\nloss = true\n";
-    std::fs::write(&path, text).unwrap();
-    let output = run(&["check", path.to_str().unwrap()]);
-    assert_eq!(output.status.code(), Some(1));
-    let printed = stdout(&output);
-    assert!(printed.contains("premise never met!"), "{printed}");
-    std::fs::write(&path, text.replace(", 'I4'", "")).unwrap();
-    assert_eq!(
-        run(&["check", path.to_str().unwrap()]).status.code(),
-        Some(0)
-    );
+    let check = || run(&["check", path.to_str().unwrap()]);
+    std::fs::write(&path, small_scenario("'I2', 'I4'")).unwrap();
+    let output = check();
+    assert_code(&output, 1);
+    stdout(&output).must_have(&["premise never met!"]);
+    std::fs::write(&path, small_scenario("'I2'")).unwrap();
+    assert_code(&check(), 0);
 }
 
 /// A scenario of a few hundred states.
-fn small_scenario(properties: &str) -> String {
+pub(crate) fn small_scenario(properties: &str) -> String {
     format!(
         "name = 'small'\nsummary = 'nobody is commanded'\nproperties = [{properties}]\n\
          [[robots]]\nstation = 1\ndetects = true\n[[robots]]\nstation = 2\n\
@@ -104,10 +90,7 @@ fn small_scenario(properties: &str) -> String {
 #[test]
 fn a_run_in_a_file_is_followed_as_far_as_it_exists() {
     let folder = tempfile::tempdir().unwrap();
-    let (scenario, file) = (
-        folder.path().join("small.toml"),
-        folder.path().join("run.json"),
-    );
+    let [scenario, file] = ["small.toml", "run.json"].map(|name| folder.path().join(name));
     std::fs::write(&scenario, small_scenario("'I2'")).unwrap();
     let (scenario, file) = (scenario.to_str().unwrap(), file.to_str().unwrap());
     let detected = "pedestrian detected (1 x move, medium urgency)";
@@ -122,35 +105,23 @@ fn a_run_in_a_file_is_followed_as_far_as_it_exists() {
         run(&["check", scenario, "--replay", file])
     };
     let lost = "RAM needHelp 1#1.0 (1 x move, medium urgency), heartbeat 0 from 1";
+    let both = "\"send RAM\", \"lock identity\"";
+    let otherwise = "the robot now puts out: send RAM, lock identity";
     let cases = [
-        (
-            "\"send RAM\", \"lock identity\"",
-            lost,
-            "exists, and does not break it any more",
-        ),
-        (
-            "\"send RAM\"",
-            lost,
-            "the robot now puts out: send RAM, lock identity",
-        ),
-        (
-            "\"send RAM\", \"lock identity\"",
-            "RAM none from 1",
-            "this cannot happen now",
-        ),
+        (both, lost, "exists, and does not break it any more"),
+        ("\"send RAM\"", lost, otherwise),
+        (both, "RAM none from 1", "this cannot happen now"),
     ];
     for (outputs, last, expected) in cases {
         let output = follow(outputs, last);
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        assert!(stdout(&output).contains(expected), "{}", stdout(&output));
+        assert_code(&output, 0);
+        stdout(&output).must_have(&[expected]);
     }
-    follow("\"send RAM\", \"lock identity\"", lost);
 }
 
 #[test]
 fn the_papers_text_fails_as_it_must_and_that_is_no_failure() {
-    let output = run(&["check", "paper-literal"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let output = run_well("check paper-literal");
     let text = stdout(&output);
     assert_eq!(
         text.matches("violated, as it must be").count(),
@@ -164,25 +135,22 @@ fn the_papers_text_fails_as_it_must_and_that_is_no_failure() {
         text.ends_with("paper-literal fails as it must.\n"),
         "{text}"
     );
-    let report = json(&run(&["check", "paper-literal", "--json"]));
+    let report = json(&run_line("check paper-literal --json"));
     assert_eq!(report["scenarios"][0]["name"], "paper-literal");
-    assert!(stdout(&run(&["check", "--list"])).contains("paper-literal"));
+    assert!(stdout(&run_line("check --list")).contains("paper-literal"));
 }
 
 #[test]
 fn the_state_diagram_has_the_papers_states_and_what_leads_from_one_to_another() {
     // The diagram is on a page, and so in the test of the pages.
-    let output = run(&["fsm", "--json"]);
-    assert_eq!(output.status.code(), Some(0));
+    let output = run_well("fsm --json");
     let text = stdout(&output);
-    for state in [
+    text.must_have(&[
         "Idle",
         "HelpRequested",
         "RoleEstablished",
         "ManeuverExecuting",
-    ] {
-        assert!(text.contains(state), "{state} is not in:\n{text}");
-    }
+    ]);
     let transitions: Value = json(&output);
     let starts = transitions.as_array().unwrap().iter().any(|transition| {
         transition["from"] == "RoleEstablished_follower"
@@ -209,7 +177,7 @@ fn messages_of_other_stations_and_whole_packets_survive_decoding_and_encoding() 
     ] {
         let digits = golden::vector(file, name);
         let decoded = run(&["codec", "decode", "--hex", digits]);
-        assert_eq!(decoded.status.code(), Some(0), "{}", stderr(&decoded));
+        assert_code(&decoded, 0);
         let value = json(&decoded);
         assert!(value["message"][kind].is_object(), "{value}");
         assert!(value["standard"].as_str().unwrap().starts_with(standard));
@@ -228,13 +196,9 @@ fn a_batch_has_a_line_for_each_line_and_names_those_that_are_bad() {
     let [one, other] = ["V1", "V3"].map(|name| golden::vector(golden::VAM, name));
     let text = format!("{one}\n\nxyz\n{other}\n");
     let decoded = run_with(&["codec", "decode", "--batch"], text.as_bytes());
-    assert_eq!(decoded.status.code(), Some(2));
+    assert_code(&decoded, 2);
     let errors = stderr(&decoded);
-    assert!(
-        errors.contains("line 3: not hexadecimal digits"),
-        "{errors}"
-    );
-    assert!(errors.contains("1 of 3 lines are bad"), "{errors}");
+    errors.must_have(&["line 3: not hexadecimal digits", "1 of 3 lines are bad"]);
     let lines = stdout(&decoded);
     let values: Vec<Value> = lines
         .lines()
@@ -248,10 +212,10 @@ fn a_batch_has_a_line_for_each_line_and_names_those_that_are_bad() {
     // And back: what is no message is an empty line.
     let encoded = run_with(&["codec", "encode", "--batch"], lines.as_bytes());
     assert_eq!(stdout(&encoded), format!("{one}\n\n{other}\n"));
-    assert!(stderr(&encoded).contains("line 2: not a message"));
-    assert_eq!(encoded.status.code(), Some(2));
+    stderr(&encoded).must_have(&["line 2: not a message"]);
+    assert_code(&encoded, 2);
     let good = run_with(&["codec", "decode", "--batch"], one.as_bytes());
-    assert_eq!(good.status.code(), Some(0));
+    assert_code(&good, 0);
 }
 
 #[test]

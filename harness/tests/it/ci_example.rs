@@ -5,26 +5,9 @@ use std::process::{Command, Output};
 
 use crossguard_testkit::command::*;
 
-const WORKFLOW: &str = include_str!("../../examples/ci.yml");
+use crate::check::small_scenario;
 
-const SCENARIO: &str = "\
-name = 'mine'
-summary = 'nobody is commanded'
-properties = ['I2']
-[[robots]]
-station = 1
-detects = true
-[[robots]]
-station = 2
-[request]
-followers = 1
-tasks = ['move']
-[bounds]
-detections = 1
-[channel]
-delayed = 0
-loss = true
-";
+const WORKFLOW: &str = include_str!("../../examples/ci.yml");
 
 /// Runs the step of the workflow with this name as GitHub does, in a folder; a few seeds have to do.
 fn take(step: &str, folder: &Path) -> Output {
@@ -54,11 +37,11 @@ fn every_step_passes_with_good_files_and_fails_with_a_bad_one() {
     }
     let port = two_free_ports();
     robot_file(&folder.join("robots"), "ARI", 1, port, port + 1);
-    std::fs::write(folder.join("scenarios/mine.toml"), SCENARIO).unwrap();
+    std::fs::write(folder.join("scenarios/mine.toml"), small_scenario("'I2'")).unwrap();
     let log = folder.join("logs/demo.jsonl").display().to_string();
     let demo = ["demo", "--quiet", "--speed", "50", "--port"];
     let demo = run(&[&demo[..], &[&port.to_string(), "--log", &log]].concat());
-    assert_eq!(demo.status.code(), Some(0), "{}", stderr(&demo));
+    assert_code(&demo, 0);
     let steps = [
         ("A place for results", None),
         (

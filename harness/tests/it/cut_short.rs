@@ -1,7 +1,7 @@
 //! Long commands that are told to stop, or whose disk is full: they end in order, with what they have.
 
 use std::path::Path;
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use crossguard_testkit::command::*;
@@ -11,90 +11,18 @@ const PATIENCE: Duration = Duration::from_mins(2);
 /// A scenario of so many states that no check of it ends before it is told to stop.
 const LONG: &str = "team-of-four";
 
-/// A command in a folder of its own, how long it handles signals before it gets one, its exit code, and what it then says
-/// or has written to a file.
-struct Row {
-    command: &'static str,
-    after_ms: u64,
-    signal: &'static str,
-    code: i32,
-    says: &'static [&'static str],
-    writes: Option<(&'static str, &'static str)>,
-}
-
-const ROWS: [Row; 8] = [
-    Row {
-        command: "demo --speed 1 --port PORT --log log --report page",
-        after_ms: 500,
-        signal: "-INT",
-        code: 3,
-        says: &["Stopped before it was done", "T_neg"],
-        writes: Some(("page", "</html>")),
-    },
-    Row {
-        command: "demo --speed 1 --port PORT --log log --json",
-        after_ms: 500,
-        signal: "-TERM",
-        code: 3,
-        says: &[
-            "\"stopped\": true",
-            "\"crossings\": 0",
-            "\"traceValid\": true",
-        ],
-        writes: Some(("log", "\"entry\":\"stopped\"")),
-    },
-    Row {
-        command: "check team-of-four pair --json --threads 1",
-        after_ms: 2_000,
-        signal: "-INT",
-        code: 3,
-        says: &["\"exhaustive\": false", "\"cutOff\": \"stopped\""],
-        writes: None,
-    },
-    Row {
-        command: "fuzz --seeds 1000000 --threads 1 --json --out out",
-        after_ms: 2_000,
-        signal: "-TERM",
-        code: 3,
-        says: &["\"seeds\": "],
-        writes: None,
-    },
-    Row {
-        command: "simulate cbr --threads 1 --json --csv csv",
-        after_ms: 1_000,
-        signal: "-INT",
-        code: 3,
-        says: &[
-            "\"cells\": []",
-            "cells with fewer seeds than asked for are left out",
-        ],
-        writes: Some(("csv", "")),
-    },
-    Row {
-        command: "sniff --address 127.0.0.1:0",
-        after_ms: 1_000,
-        signal: "-TERM",
-        code: 0,
-        says: &[],
-        writes: None,
-    },
-    Row {
-        command: "studio --no-browser --port 0",
-        after_ms: 1_000,
-        signal: "-INT",
-        code: 0,
-        says: &["in a browser; Ctrl-C ends it"],
-        writes: None,
-    },
-    Row {
-        command: "conform --config Go2.toml --start START --typed --json",
-        after_ms: 5_000,
-        signal: "-TERM",
-        code: 3,
-        says: &["\"played\": "],
-        writes: None,
-    },
-];
+/// Commands, each in a folder of its own; how long it handles signals before it gets one, its exit code, and what it then
+/// says. Some write a file, and what is in it stands behind the name.
+const ROWS: &str = r#"
+demo --speed 1 --port PORT --log log --report page  | 500 ms -INT = 3   | Stopped before it was done; T_neg | page </html>
+demo --speed 1 --port PORT --log log --json | 500 ms -TERM = 3 | "stopped": true; "crossings": 0; "traceValid": true | log "entry":"stopped"
+check team-of-four pair --json --threads 1          | 2000 ms -INT = 3  | "exhaustive": false; "cutOff": "stopped"
+fuzz --seeds 1000000 --threads 1 --json --out out   | 2000 ms -TERM = 3 | "seeds":
+simulate cbr --threads 1 --json --csv csv | 1000 ms -INT = 3 | "cells": []; cells with fewer seeds than asked for are left out | csv
+sniff --address 127.0.0.1:0                         | 1000 ms -TERM = 0 |
+studio --no-browser --port 0                        | 1000 ms -INT = 0  | in a browser; Ctrl-C ends it
+conform --config Go2.toml --start START --typed --json | 5000 ms -TERM = 3 | "played":
+"#;
 
 /// Waits until a process handles SIGTERM, and so SIGINT, whose handler is set before.
 fn wait_for_handler(child: &Child) {
@@ -107,60 +35,50 @@ fn wait_for_handler(child: &Child) {
     });
 }
 
-fn cut_short(row: &Row) {
+fn cut_short(row: &str) {
+    let mut cells = row.split('|').map(str::trim);
+    let [command, ends, says] = [(); 3].map(|()| cells.next().unwrap());
+    let [after_ms, _, name, _, code] = ends.split_whitespace().collect::<Vec<_>>()[..] else {
+        panic!("{row}");
+    };
     let folder = tempfile::tempdir().unwrap();
     let port = two_free_ports();
     robot_file(folder.path(), "Go2", 2, port, port + 1);
     let start = format!("{} run --config Go2.toml", env!("CARGO_BIN_EXE_crossguard"));
-    let words = row.command.split(' ').map(|word| match word {
-        "PORT" => port.to_string(),
-        "START" => start.clone(),
-        word => word.to_owned(),
+    let port = port.to_string();
+    let words = command.split_whitespace().map(|word| match word {
+        "PORT" => &*port,
+        "START" => &start,
+        word => word,
     });
-    let words: Vec<_> = words.collect();
-    let mut command = crossguard(&words.iter().map(String::as_str).collect::<Vec<_>>());
-    command.current_dir(&folder).stdin(Stdio::null());
-    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = crossguard(&words.collect::<Vec<_>>());
+    child.current_dir(&folder).stdin(Stdio::null());
+    let child = child.stdout(Stdio::piped()).stderr(Stdio::piped());
     let child = child.spawn().unwrap();
     wait_for_handler(&child);
-    if row.command.starts_with("demo ") {
+    if command.starts_with("demo ") {
         wait_until_in(folder.path().join("log"), "\"startManeuver\"");
     }
-    std::thread::sleep(Duration::from_millis(row.after_ms));
-    signal(&child, row.signal);
+    std::thread::sleep(Duration::from_millis(after_ms.parse().unwrap()));
+    signal(&child, name);
     let began = Instant::now();
     let output = child.wait_with_output().unwrap();
-    let said = stdout(&output) + &stderr(&output);
-    assert!(
-        began.elapsed() < PATIENCE,
-        "{}: {:?}",
-        row.command,
-        began.elapsed()
-    );
-    assert_eq!(
-        output.status.code(),
-        Some(row.code),
-        "{}: {said}",
-        row.command
-    );
-    for it in row.says {
-        assert!(said.contains(it), "{}: no '{it}' in {said}", row.command);
-    }
-    if let Some((file, text)) = row.writes {
+    let said = format!("{command}:\n{}{}", stdout(&output), stderr(&output));
+    assert!(began.elapsed() < PATIENCE, "{said}");
+    assert_eq!(output.status.code(), code.parse().ok(), "{said}");
+    said.must_have(&says.split("; ").collect::<Vec<_>>());
+    if let Some(file) = cells.next() {
+        let (file, text) = file.split_once(' ').unwrap_or((file, ""));
         let written = std::fs::read_to_string(folder.path().join(file)).unwrap();
-        assert!(
-            written.contains(text),
-            "{}: no '{text}' in {file}",
-            row.command
-        );
+        assert!(written.contains(text), "{command}: no '{text}' in {file}");
     }
 }
 
 #[test]
 fn a_command_that_is_told_to_stop_ends_in_order_with_what_it_has() {
     std::thread::scope(|scope| {
-        for row in &ROWS {
-            scope.spawn(|| cut_short(row));
+        for row in ROWS.trim().lines() {
+            scope.spawn(move || cut_short(row));
         }
     });
 }
@@ -168,7 +86,7 @@ fn a_command_that_is_told_to_stop_ends_in_order_with_what_it_has() {
 #[test]
 fn a_check_ends_when_its_time_is_over_and_at_once_at_a_second_interrupt() {
     let output = run(&["check", LONG, "--timeout", "1", "--threads", "2", "--json"]);
-    assert_eq!(output.status.code(), Some(3));
+    assert_code(&output, 3);
     assert_eq!(json(&output)["scenarios"][0]["cutOff"], "time-limit");
     let mut command = crossguard(&["check", LONG, "--threads", "1"]);
     let child = command.stdout(Stdio::null()).spawn().unwrap();
@@ -179,7 +97,7 @@ fn a_check_ends_when_its_time_is_over_and_at_once_at_a_second_interrupt() {
         signal(&child, name);
     }
     let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    assert_code(&output, 130);
 }
 
 /// The command with its standard output on a disk that is full.
@@ -188,7 +106,7 @@ fn to_a_full_disk(arguments: &[&str]) -> Output {
         .write(true)
         .open("/dev/full")
         .unwrap();
-    let mut command: Command = crossguard(arguments);
+    let mut command = crossguard(arguments);
     command.stdin(Stdio::null()).stdout(full).output().unwrap()
 }
 
@@ -200,22 +118,13 @@ fn a_disk_that_is_full_is_named_by_each_command_that_writes_to_it() {
     let demo = ["demo", "--speed", "50", "--port", &port];
     // A crossing goes on all the same.
     let written = run(&[&demo[..], &["--log", &log, "--report", "/dev/full"]].concat());
-    assert!(stdout(&written).contains("1 of 1 crossings completed"));
-    assert_eq!(written.status.code(), Some(2), "{}", stderr(&written));
+    stdout(&written).must_have(&["1 of 1 crossings completed"]);
+    assert_code(&written, 2);
     let lost = run(&[&demo[..], &["--log", "/dev/full"]].concat());
-    assert!(stdout(&lost).contains("1 of 1 crossings completed"));
-    assert_eq!(lost.status.code(), Some(3), "{}", stderr(&lost));
-    let small = [
-        "--pedestrians",
-        "20",
-        "--robots",
-        "0",
-        "--radius",
-        "10",
-        "--seeds",
-        "1",
-    ];
-    let simulate = [&["simulate", "obs", "--csv", "/dev/full"], &small[..]].concat();
+    stdout(&lost).must_have(&["1 of 1 crossings completed"]);
+    assert_code(&lost, 3);
+    let simulate = "simulate obs --csv /dev/full --pedestrians 20 --robots 0 --radius 10 --seeds 1";
+    let simulate: Vec<_> = simulate.split(' ').collect();
     for arguments in [
         &["report", &log, "--output", "/dev/full"][..],
         &["export", &log, "--facts", "/dev/full"],
@@ -261,7 +170,7 @@ fn a_pki_is_made_whole_or_not_at_all() {
     // What a try that was killed has left behind is in nobody's way.
     std::fs::create_dir_all(path.join(".unfinished/robots")).unwrap();
     let early = run(&["pki", "init", pki, "--start-in", "-5", "--json"]);
-    assert_eq!(early.status.code(), Some(0), "{}", stderr(&early));
+    assert_code(&early, 0);
     let shown = json(&early);
     let mut shown = shown.as_array().unwrap().iter();
     assert!(

@@ -1,7 +1,6 @@
 //! A disk that is full: without a boot counter on it a robot does not start, and does when there is room again.
 
 use std::fs;
-use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
 use crossguard_testkit::command::*;
@@ -24,15 +23,8 @@ cat "$1/ARI.boot"
 
 fn small_disk(arguments: &[&str]) -> Output {
     Command::new("unshare")
-        .args([
-            "--user",
-            "--map-root-user",
-            "--mount",
-            "sh",
-            "-c",
-            SMALL_DISK,
-            "disk",
-        ])
+        .args(["--user", "--map-root-user", "--mount"])
+        .args(["sh", "-c", SMALL_DISK, "disk"])
         .args(arguments)
         .stdin(Stdio::null())
         .output()
@@ -45,13 +37,11 @@ fn on_a_disk_that_is_full_a_robot_does_not_start_and_does_when_there_is_room_aga
     let disk = folder.path().to_str().unwrap();
     let tried = small_disk(&[disk, "try"]);
     if !tried.status.success() {
-        // Not by eprintln!, which the test runner would capture.
-        let _ = writeln!(
-            std::io::stderr(),
-            "SKIPPED on_a_disk_that_is_full_…: this machine permits no mount namespaces: {}",
-            stderr(&tried).trim()
-        );
-        return;
+        let why = stderr(&tried);
+        return skipped(&format!(
+            "this machine permits no mount namespaces: {}",
+            why.trim()
+        ));
     }
     let elsewhere = tempfile::tempdir().unwrap();
     let port = two_free_ports();
@@ -59,12 +49,11 @@ fn on_a_disk_that_is_full_a_robot_does_not_start_and_does_when_there_is_room_aga
     let config = fs::read_to_string(config).unwrap();
     let output = small_disk(&[disk, env!("CARGO_BIN_EXE_crossguard"), &config]);
     let said = stderr(&output);
-    assert_eq!(output.status.code(), Some(0), "{}{said}", stdout(&output));
-    assert!(
-        said.contains("the boot counter cannot be kept in"),
-        "{said}"
-    );
-    assert!(said.contains("No space left on device"), "{said}");
+    assert_code(&output, 0);
+    said.must_have(&[
+        "the boot counter cannot be kept in",
+        "No space left on device",
+    ]);
     let counters = "crossguard boot counter 1\ncrossguard boot counter 2\n";
     assert_eq!(stdout(&output), counters);
 }

@@ -2,40 +2,18 @@
 //! robot's memory.
 
 use std::fs::{self, File};
-use std::io::{Read, Write};
+use std::io::Read;
 use std::os::unix::fs::FileExt;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
 
 use crossguard_robot::pki;
 use crossguard_testkit::command::*;
 
-/// Not by `println!`, which the test runner would capture.
-fn skipped(test: &str, why: &str) {
-    let _ = writeln!(std::io::stderr(), "SKIPPED {test}: {why}");
-}
-
-/// The C compiler's `fsync` that takes notes; `None` without a compiler.
-fn shim(folder: &Path) -> Option<PathBuf> {
-    let source = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/keys/syncs.c");
-    let library = folder.join("syncs.so");
-    let mut compiler = Command::new("cc");
-    compiler
-        .args(["-shared", "-fPIC", "-O1", "-o"])
-        .arg(&library);
-    let output = compiler.arg(source).arg("-ldl").output().ok()?;
-    assert!(output.status.success(), "{}", stderr(&output));
-    Some(library)
-}
-
 #[test]
 fn each_file_is_on_the_disk_before_it_has_its_name() {
     let folder = tempfile::tempdir().unwrap();
-    let Some(library) = shim(folder.path()) else {
-        return skipped(
-            "each_file_is_on_the_disk_before_it_has_its_name",
-            "there is no C compiler 'cc'",
-        );
+    let Some(library) = shim(folder.path(), "tests/keys/syncs.c") else {
+        return;
     };
     let (pki, notes) = (folder.path().join("pki"), folder.path().join("notes"));
     let pki_name = pki.to_str().unwrap();
@@ -47,7 +25,7 @@ fn each_file_is_on_the_disk_before_it_has_its_name() {
     .env("SYNCS_FILE", &notes)
     .output()
     .unwrap();
-    assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+    assert_code(&made, 0);
     let notes = fs::read_to_string(&notes).unwrap();
     let notes: Vec<(&str, i64)> = notes
         .lines()
@@ -130,7 +108,7 @@ fn the_text_of_a_key_is_gone_from_memory_once_it_was_read() {
     let folder = tempfile::tempdir().unwrap();
     let pki = folder.path().join("pki");
     let made = run(&["pki", "init", pki.to_str().unwrap(), "--robot", "Go2"]);
-    assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+    assert_code(&made, 0);
     let tickets = pki.join("robots/Go2/tickets");
     let mut keys = fs::read_dir(&tickets).unwrap().map(|it| it.unwrap().path());
     let key = keys
@@ -140,10 +118,7 @@ fn the_text_of_a_key_is_gone_from_memory_once_it_was_read() {
     let needle = hidden(&key, 100, 48);
     let credentials = pki::read_credentials(&pki.join("robots/Go2")).unwrap();
     let Some(found) = count_in_memory(&needle) else {
-        return skipped(
-            "the_text_of_a_key_is_gone_from_memory_once_it_was_read",
-            "there is no /proc/self/mem",
-        );
+        return skipped("there is no /proc/self/mem");
     };
     assert_eq!(
         found,

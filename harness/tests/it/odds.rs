@@ -1,25 +1,13 @@
 //! `crossguard odds` as its users run it.
 
 use std::fs;
-use std::process::Output;
 
 use crossguard_testkit::command::*;
 use serde_json::Value;
 
-fn odds(arguments: &[&str]) -> Output {
-    let arguments: Vec<_> = [&["odds"], arguments].concat();
-    crossguard(&arguments).output().unwrap()
-}
-
-fn json(arguments: &[&str]) -> Value {
-    let output = odds(&[arguments, &["--json"]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    serde_json::from_slice(&output.stdout).unwrap()
-}
-
 #[test]
 fn json_has_the_bounds_of_each_milestone_at_each_loss_rate() {
-    let report = json(&["--loss", "0,0.3", "--vary", "n_ack=1,3"]);
+    let report = json(&run_well("odds --loss 0,0.3 --vary n_ack=1,3 --json"));
     assert_eq!(report["followers"], 1);
     assert_eq!(report["odds"].as_array().unwrap().len(), 2);
     for (odds, n_ack) in report["odds"].as_array().unwrap().iter().zip([1_i32, 3]) {
@@ -58,42 +46,28 @@ fn json_has_the_bounds_of_each_milestone_at_each_loss_rate() {
 
 #[test]
 fn tables_say_what_was_asked_for() {
-    let output = odds(&["--loss", "0,0.1,0.2"]);
-    let said = stdout(&output);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    for words in [
+    let said = stdout(&run_well("odds --loss 0,0.1,0.2"));
+    said.must_have(&[
         "ram_period=100 t_ack=600",
         "1 - 1.0e-4",
         "0.998400",
         "244 ms",
         "lost independently",
-    ] {
-        assert!(said.contains(words), "{words}: {said}");
-    }
+    ]);
 }
 
 #[test]
 fn the_chains_are_written_for_other_tools_with_what_is_said_of_them() {
     let folder = tempfile::tempdir().unwrap();
     let to = folder.path().join("chains");
-    let output = odds(&[
-        "--loss",
-        "0.1",
-        "--hold",
-        "1000",
-        "--export",
-        to.to_str().unwrap(),
-    ]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    run_well(&format!(
+        "odds --loss 0.1 --hold 1000 --export {}",
+        to.display()
+    ));
     let figures: Value =
         serde_json::from_slice(&fs::read(to.join("figures.json")).unwrap()).unwrap();
-    for (stage, name) in
-        figures
-            .as_array()
-            .unwrap()
-            .iter()
-            .zip(["gathering", "commanding", "holding"])
-    {
+    let stages = figures.as_array().unwrap().iter();
+    for (stage, name) in stages.zip(["gathering", "commanding", "holding"]) {
         assert_eq!(stage["stage"], name);
         let drn = fs::read_to_string(to.join(name).with_extension("drn")).unwrap();
         assert!(drn.contains(&format!("@nr_states\n{}\n", stage["states"])));

@@ -79,13 +79,8 @@ impl Street {
         self.flying = rest;
         for Flying { to, packet, .. } in due {
             let arrived_ms = self.now_ms;
-            self.handle(
-                to,
-                Stimulus::Datagram {
-                    packet: &packet,
-                    arrived_ms,
-                },
-            );
+            let packet = &packet;
+            self.handle(to, Stimulus::Datagram { packet, arrived_ms });
         }
         if self.robots[0].all_have_answered() {
             self.handle(0, Stimulus::Event(Event::AllAnswered));
@@ -149,10 +144,8 @@ fn run(seed: u64, followers: u32) -> Reached {
     for follower in 0..followers {
         let follower = StationId(follower + 2);
         let task = TaskType::MOVE;
-        street.handle(
-            0,
-            Stimulus::Event(Event::CommandManeuver { follower, task }),
-        );
+        let command = Event::CommandManeuver { follower, task };
+        street.handle(0, Stimulus::Event(command));
     }
     let since = |street: &Street| Some(street.now_ms - began_ms);
     while !street.is_open() {
@@ -205,20 +198,8 @@ fn said(report: &Value, milestone: &str, ms: u64) -> f64 {
 }
 
 fn compare(followers: u32, seeds: u64) {
-    let (loss, hold, number) = (LOSS.to_string(), HOLD_MS.to_string(), followers.to_string());
-    let arguments = [
-        "odds",
-        "--loss",
-        &loss,
-        "--hold",
-        &hold,
-        "--followers",
-        &number,
-        "--json",
-    ];
-    let output = crossguard(&arguments).output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let odds = format!("odds --loss {LOSS} --hold {HOLD_MS} --followers {followers} --json");
+    let report = json(&run_well(&odds));
     let runs: Vec<Reached> = (0..seeds).map(|seed| run(seed, followers)).collect();
     let mut wrong = Vec::new();
     let mut judge = |milestone: &str,
@@ -247,25 +228,17 @@ fn compare(followers: u32, seeds: u64) {
     for ms in [200, 300, 400, 500, 700, 1_000, 2_000] {
         judge("team", ms, |_| true, |run| run.team);
     }
+    let has_team = |run: &Reached| run.team.is_some();
     for ms in [50, 650, 1_250, 1_850] {
-        judge("received", ms, |run| run.team.is_some(), |run| run.received);
+        judge("received", ms, has_team, |run| run.received);
     }
     for ms in [100, 150, 250, 700, 1_300, 3_000] {
-        judge(
-            "acknowledged",
-            ms,
-            |run| run.team.is_some(),
-            |run| run.acknowledged,
-        );
-        judge("open", ms, |run| run.team.is_some(), |run| run.open);
+        judge("acknowledged", ms, has_team, |run| run.acknowledged);
+        judge("open", ms, has_team, |run| run.open);
     }
     for ms in [2_000, 3_500, HOLD_MS] {
-        judge(
-            "interrupted",
-            ms,
-            |run| run.open.is_some(),
-            |run| run.interrupted,
-        );
+        let was_open = |run: &Reached| run.open.is_some();
+        judge("interrupted", ms, was_open, |run| run.interrupted);
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -184,7 +184,7 @@ fn the_readmes_example_is_the_one_of_the_state_machines_crate() {
 
 #[test]
 fn the_state_diagram_of_the_protocols_page_is_the_one_that_the_code_makes() {
-    let diagram = stdout(&run(&["fsm"]));
+    let diagram = stdout(&run_line("fsm"));
     let (path, page) = read("protocol/doc/protocol.md");
     let (head, rest) = page.split_once("```mermaid\n").expect("a diagram");
     let (_, tail) = rest.split_once("```").expect("it ends");

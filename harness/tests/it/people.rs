@@ -149,7 +149,6 @@ fn people_who_are_typed_are_announced_and_forgotten() {
                   {\"id\": 2, \"position_m\": [300, 1]}\nwait 3.0\nquit\n";
     let output = run_with(&["run", "--config", &robot], script.as_bytes());
     let text = stdout(&output);
-    assert_eq!(output.status.code(), Some(0), "{text}{}", stderr(&output));
-    assert!(text.contains("announces 1 person, cluster "), "{text}");
-    assert!(text.contains("announces nobody any more"), "{text}");
+    assert_code(&output, 0);
+    text.must_have(&["announces 1 person, cluster ", "announces nobody any more"]);
 }

@@ -1,7 +1,6 @@
 //! One run with all that a demonstration can send and write, and what every reader says of it.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Write;
 use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
@@ -50,7 +49,7 @@ impl Run {
             demo.arg(option).arg(made.path(name));
         }
         let output = demo.output().unwrap();
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert_code(&output, 0);
         made.result = json(&output);
         made
     }
@@ -67,7 +66,7 @@ impl Run {
 
 fn sniffed(pcap: &str, arguments: &[&str]) -> Vec<Value> {
     let output = run(&[&["sniff", "--json", pcap], arguments].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_code(&output, 0);
     let lines = stdout(&output);
     lines
         .lines()
@@ -150,14 +149,12 @@ fn a_sniffer_sees_both_robots(of: &Run, seen: &[Value]) {
         }
     }
     let lines = stdout(&run(&["sniff", &of.path("pcap")]));
-    for expected in [
+    lines.must_have(&[
         "needHelp 1#",
         "offerHelp",
         "leader 1#",
         "around: robot station 2",
-    ] {
-        assert!(lines.contains(expected), "{expected} is not in:\n{lines}");
-    }
+    ]);
     assert_eq!(of.sniffed(&["--count", "3"]).len(), 3);
 }
 
@@ -259,14 +256,10 @@ fn tshark(pcap: &str, filter: &str, fields: &[&str]) -> Option<Vec<String>> {
         tshark.args(["-e", field]);
     }
     let Ok(output) = tshark.output() else {
-        // Not by eprintln!, which the test runner would capture.
-        let _ = writeln!(
-            std::io::stderr(),
-            "SKIPPED tshark: it is not installed (Debian package tshark)"
-        );
+        skipped("tshark is not installed (Debian package tshark)");
         return None;
     };
-    assert!(output.status.success(), "{}", stderr(&output));
+    assert_code(&output, 0);
     Some(stdout(&output).lines().map(str::to_owned).collect())
 }
 
@@ -315,7 +308,7 @@ fn a_station_that_does_not_know_ram_sees_a_robot_that_sends_cam() {
     let (pcap, log) = (path("pcap"), path("log"));
     let arguments = ["run", "--config", &config, "--pcap", &pcap, "--log", &log];
     let output = run_with(&arguments, b"wait 3.3\nquit\n");
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_code(&output, 0);
     let count = |seen: &[Value]| {
         let mut kinds = BTreeMap::new();
         for packet in seen {

@@ -1,24 +1,19 @@
 //! The page about a run: what is in it. That a browser shows it without a network is in `tests/studio/pages.py`.
 
 use std::collections::BTreeSet;
-use std::fs::File;
-use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use crossguard_judge::sim::{Swarm, run};
-use crossguard_robot::trace::{self, Record};
-use crossguard_testkit::command::{assert_refused, crossguard, stderr, stdout};
+use crossguard_judge::sim::Swarm;
+use crossguard_testkit::command::*;
 use serde_json::Value;
 
-/// The log of simulated robots.
+use crate::sim;
+
+/// A file with the log of simulated robots.
 fn log_of(seed: u64, folder: &Path) -> PathBuf {
     let path = folder.join(format!("seed-{seed}.jsonl"));
-    let mut file = BufWriter::new(File::create(&path).unwrap());
-    let mut watch = |record: Record| trace::write(&mut file, &record).unwrap();
-    let outcome = run(&Swarm::draw(seed, 5, None), Some(&mut watch));
-    assert_eq!(outcome.finding, None);
-    file.flush().unwrap();
+    std::fs::write(&path, sim::log_of(seed, 5)).unwrap();
     path
 }
 
@@ -39,27 +34,16 @@ fn the_page_has_every_robot_and_message_and_the_road_of_the_site() {
     let folder = tempfile::tempdir().unwrap();
     let (log, page) = (log_of(3, folder.path()), folder.path().join("page.html"));
     let output = report(&[&log, Path::new("--site"), Path::new("street")], &page);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(
-        stdout(&output).ends_with("page.html: valid\n"),
-        "{}",
-        stdout(&output)
-    );
+    assert_code(&output, 0);
+    stdout(&output).must_have(&["page.html: valid\n"]);
     let run = inside(&page);
     let overview = &run["opening"]["overview"];
-    let names: Vec<_> = overview["robots"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|it| it["name"].clone())
-        .collect();
-    let robots: Vec<_> = Swarm::draw(3, 5, None)
-        .robots
-        .into_iter()
-        .map(|it| Value::from(it.name))
-        .collect();
+    let names = overview["robots"].as_array().unwrap().iter();
+    let names: Vec<_> = names.map(|it| &it["name"]).collect();
+    let robots = Swarm::draw(3, 5, None).robots.into_iter();
+    let robots: Vec<_> = robots.map(|it| Value::from(it.name)).collect();
     assert!(
-        robots.len() > 1 && robots.iter().all(|it| names.contains(it)),
+        robots.len() > 1 && robots.iter().all(|it| names.contains(&it)),
         "{names:?}"
     );
     assert_eq!(overview["street"]["kerbs"].as_array().unwrap().len(), 2);
@@ -91,21 +75,17 @@ fn a_page_is_written_of_a_log_that_is_not_valid_and_says_why() {
     lines.remove(sent);
     std::fs::write(&log, lines.join("\n") + "\n").unwrap();
     let output = report(&[&log], &page);
-    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert_code(&output, 1);
     let verdict = inside(&page)["opening"]["verdict"].clone();
     assert_eq!(verdict["kind"], "invalid");
-    assert!(
-        verdict.to_string().contains("not among those it had sent"),
-        "{verdict}"
-    );
+    let verdict = verdict.to_string();
+    verdict.must_have(&["not among those it had sent"]);
     std::fs::write(&log, "nonsense\n").unwrap();
     let nowhere = folder.path().join("nowhere.html");
     assert_refused(&report(&[&log], &nowhere), "line 1: is not a record");
     assert!(!nowhere.exists());
-    assert_refused(
-        &report(&[&folder.path().join("none")], &nowhere),
-        "none: No such file",
-    );
+    let none = folder.path().join("none");
+    assert_refused(&report(&[&none], &nowhere), "none: No such file");
 }
 
 #[test]
@@ -123,10 +103,7 @@ fn the_log_of_one_robot_alone_shows_those_that_it_heard() {
         .arg(&log)
         .output()
         .unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_code(&output, 0);
     let svg = std::fs::read_to_string(svg).unwrap();
-    assert!(
-        svg.contains(">R1</text>") && svg.contains(">station "),
-        "no stranger"
-    );
+    svg.must_have(&[">R1</text>", ">station "]);
 }

@@ -273,7 +273,7 @@ fn the_crossing_goes_on_and_each_false_packet_is_rejected_under_its_own_cause() 
     let output = child.wait_with_output().unwrap();
     done.store(true, Ordering::Relaxed);
     attack.join().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_code(&output, 0);
     let result = json(&output);
     assert_eq!(result["traceValid"], true);
     assert_eq!(result["security"], "enforce");
@@ -363,7 +363,7 @@ fn a_demonstration_needs_no_pki_and_changes_pseudonyms_between_crossings() {
         "--log",
         log.to_str().unwrap(),
     ]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_code(&output, 0);
     let result = json(&output);
     assert_eq!(
         (&result["crossings"], &result["traceValid"]),
@@ -403,7 +403,7 @@ fn a_pki_is_made_shown_and_used_with_private_keys() {
     let begins: std::collections::BTreeSet<_> = begins.collect();
     assert!(begins.len() > 2, "{begins:?}");
     let shown = run(&["pki", "show", pki]);
-    assert!(stdout(&shown).contains("permits RAM (16480) with bits 01c0"));
+    stdout(&shown).must_have(&["permits RAM (16480) with bits 01c0"]);
     assert_refused(&run(&["pki", "init", pki]), "exists");
     let guest = ["pki", "tickets", pki, "--robot", "guest", "--count", "1"];
     let guest = [&guest[..], &["--part", "help", "--json"]].concat();

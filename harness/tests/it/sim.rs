@@ -12,22 +12,22 @@ use crossguard_robot::capture;
 use crossguard_robot::plan::Plan;
 use crossguard_robot::trace::{self, Record};
 use crossguard_robot::transport::{Delay, Faults};
-use crossguard_testkit::command;
 use crossguard_testkit::command::*;
 
-fn log_of(seed: u64) -> Vec<u8> {
+/// The log of simulated robots, which are so many at most.
+pub(crate) fn log_of(seed: u64, robots: usize) -> Vec<u8> {
     let mut log = Vec::new();
     let mut watch = |record: Record| trace::write(&mut log, &record).unwrap();
-    let outcome = run(&Swarm::draw(seed, 4, None), Some(&mut watch));
+    let outcome = run(&Swarm::draw(seed, robots, None), Some(&mut watch));
     assert_eq!(outcome.finding, None);
     log
 }
 
 #[test]
 fn a_seed_gives_the_same_run_to_the_last_byte_and_its_log_is_valid() {
-    let log = log_of(3);
-    assert!(log == log_of(3), "two runs of one seed differ");
-    assert!(log != log_of(4));
+    let log = log_of(3, 4);
+    assert!(log == log_of(3, 4), "two runs of one seed differ");
+    assert!(log != log_of(4, 4));
     let validated = validate::one(&*log).unwrap();
     assert!(validated.steps > 100, "{validated:?}");
 }
@@ -115,11 +115,8 @@ fn the_longest_times_stay_within_those_that_the_timed_model_computes() {
 #[test]
 fn the_longest_times_of_drawn_streets_are_a_real_try() {
     let faults = "loss=0.1,burst=0.1x4,delay=1..50";
-    let command = [
-        "fuzz", "--seeds", "300", "--robots", "4", "--json", "--faults", faults,
-    ];
-    let output = command::run(&command);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let fuzz = format!("fuzz --seeds 300 --robots 4 --json --faults {faults}");
+    let output = run_well(&fuzz);
     let worst = &json(&output)["worst"];
     // Where a guard is not heard at its place any more, the application closes the corridor before its lease runs out.
     for (measure, part) in [
@@ -143,10 +140,8 @@ fn the_longest_times_of_drawn_streets_are_a_real_try() {
 fn the_command_tells_what_it_ran_and_finds_nothing_wrong() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("failures");
-    let arguments = ["fuzz", "--seeds", "30", "--robots", "5", "--json", "--out"];
-    let output = run_command(&arguments, out.to_str().unwrap());
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let report = json(&output);
+    let fuzz = "fuzz --seeds 30 --robots 5 --json --out";
+    let report = json(&run_well(&format!("{fuzz} {}", out.display())));
     assert_eq!(report["seeds"], 30);
     assert_eq!(report["violations"], 0);
     assert_eq!(report["failures"].as_array().unwrap().len(), 0);
@@ -158,23 +153,15 @@ fn the_command_tells_what_it_ran_and_finds_nothing_wrong() {
 fn a_plan_of_ones_own_is_what_all_leaders_do() {
     let folder = tempfile::tempdir().unwrap();
     let out = format!("--out={}", folder.path().join("out").display());
-    let seeds = [
-        "fuzz", "--seeds", "12", "--robots", "4", "--liars", "0", "--json",
-    ];
-    let shares = |plan: &[&str]| {
-        let output = run_command(&[&seeds[..], plan].concat(), &out);
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        let report = json(&output);
+    let shares = |plan: &str| {
+        let fuzz = "fuzz --seeds 12 --robots 4 --liars 0 --json";
+        let report = json(&run_well(&format!("{fuzz} {plan} {out}")));
         assert!(report["premises"]["W7"].as_u64().unwrap() > 0, "{report}");
         report["packets"].as_u64().unwrap()
     };
-    let (drawn, trio) = (shares(&[]), shares(&["--plan", "trio"]));
+    let (drawn, trio) = (shares(""), shares("--plan trio"));
     assert_ne!(drawn, trio, "the plan says what happens");
-    assert_eq!(shares(&["--plan", "trio"]), trio);
-}
-
-fn run_command(arguments: &[&str], out: &str) -> std::process::Output {
-    command::run(&[arguments, &[out]].concat())
+    assert_eq!(shares("--plan trio"), trio);
 }
 
 #[test]
@@ -205,49 +192,26 @@ fn of_a_failure_the_log_the_chart_and_the_line_that_runs_it_again_are_written() 
     let again = "crossguard fuzz --seeds 1 --robots 4 --seed 5";
     assert!(text.starts_with("I4: a command is started at most once (R2 at 1.234 s)\n"));
     assert!(text.contains(again) && text.contains("R1"), "{text}");
-    assert!(
-        std::fs::read_to_string(&files.svg)
-            .unwrap()
-            .starts_with("<svg")
-    );
+    let svg = std::fs::read_to_string(&files.svg).unwrap();
+    assert!(svg.starts_with("<svg"));
     let log = std::fs::read(&files.log).unwrap();
     let validated = validate::one(&*log).unwrap();
     assert!(validated.steps > 100);
     let packets = capture::read(&files.pcap).unwrap();
     assert_eq!(packets.map(Result::unwrap).count(), validated.sent);
-    let words: Vec<_> = again.split(' ').skip(1).collect();
-    let output = command::run(&words);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    run_well(again.trim_start_matches("crossguard "));
 }
 
 /// The line that runs a failed seed again says all of it.
 #[test]
 fn a_site_goes_with_sensors_that_see_nobody() {
     let site = concat!(env!("CARGO_MANIFEST_DIR"), "/robot/plans/street.toml");
-    let plan = ["--plan", "trio", "--site", site, "--sensors", "0"];
-    let output = command::run(&[&["fuzz", "--seeds", "1", "--robots", "4"], &plan[..]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let fuzz = "fuzz --seeds 1 --robots 4 --plan trio --sensors 0 --site";
+    run_well(&format!("{fuzz} {site}"));
 }
 
 #[test]
-fn a_person_reads_what_was_measured_and_mistakes_are_named() {
-    let text = stdout(&command::run(&[
-        "fuzz",
-        "--seeds",
-        "5",
-        "--faults",
-        "burst=0.4x8",
-    ]));
-    assert!(text.contains("5 seeds with"), "{text}");
-    assert!(text.contains("Violations: 0."), "{text}");
-    for (arguments, cause) in [
-        (
-            ["fuzz", "--robots", "1"],
-            "a whole number from 2 to 32 is wanted",
-        ),
-        (["fuzz", "--faults", "rain=1"], "no fault 'rain'"),
-        (["fuzz", "--seeds", "0"], "a whole number from 1 to"),
-    ] {
-        assert_refused(&command::run(&arguments), cause);
-    }
+fn a_person_reads_what_was_measured() {
+    let text = stdout(&run_line("fuzz --seeds 5 --faults burst=0.4x8"));
+    text.must_have(&["5 seeds with", "Violations: 0."]);
 }

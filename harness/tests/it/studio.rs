@@ -2,12 +2,12 @@
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Stdio;
 
-use crossguard_judge::sim::{Swarm, run as simulate};
-use crossguard_robot::trace::{self, Record};
 use crossguard_testkit::command::*;
+
+use crate::sim::log_of;
 
 /// A studio that is served.
 struct Studio {
@@ -40,31 +40,22 @@ impl Studio {
     }
 }
 
-/// The log of simulated robots.
-fn log(folder: &Path) -> PathBuf {
-    let path = folder.join("log.jsonl");
-    let mut file = std::fs::File::create(&path).unwrap();
-    let mut watch = |record: Record| trace::write(&mut file, &record).unwrap();
-    assert_eq!(
-        simulate(&Swarm::draw(3, 5, None), Some(&mut watch)).finding,
-        None
-    );
-    path
-}
-
 #[test]
 fn the_server_answers_by_its_own_name_and_to_questions_of_limited_length() {
     let folder = tempfile::tempdir().unwrap();
-    let studio = Studio::of(&[&log(folder.path())]);
+    let log = folder.path().join("log.jsonl");
+    std::fs::write(&log, log_of(3, 5)).unwrap();
+    let studio = Studio::of(&[&log]);
     let own = &*studio.address;
     let page = studio.ask("GET /after/", own, "");
     let policy = "Content-Security-Policy: default-src 'none'; script-src 'self'";
-    assert!(page.contains(policy), "{page}");
+    page.must_have(&[policy]);
     let port = own.rsplit(':').next().unwrap();
     let other = format!("evil.example:{port}");
     let evil = format!("Origin: http://localhost:{port}1\r\n");
     let same = format!("Origin: http://{own}\r\n");
     let far = "/after/api/moment?at=18446744073709551615&from=9&to=1";
+    let [too_long, empty] = ["Content-Length: 1048577\r\n", "Content-Length: 0\r\n"];
     for (request, host, rest, code) in [
         ("GET /after/", own, "", "200"),
         ("GET /after/api/opening", &other, "", "421"),
@@ -78,18 +69,8 @@ fn the_server_answers_by_its_own_name_and_to_questions_of_limited_length() {
         ),
         ("POST /after/api/moment?at=1", own, &same, "200"),
         ("PUT /after/api/moment", own, "", "405"),
-        (
-            "POST /after/api/moment",
-            own,
-            "Content-Length: 1048577\r\n",
-            "413",
-        ),
-        (
-            "POST /after/api/moment?at=1",
-            own,
-            "Content-Length: 0\r\n",
-            "200",
-        ),
+        ("POST /after/api/moment", own, too_long, "413"),
+        ("POST /after/api/moment?at=1", own, empty, "200"),
         ("GET /after/api/nosuch", own, "", "404"),
         ("GET /../Cargo.toml", own, "", "404"),
         ("GET //elsewhere", own, "", "404"),
@@ -107,9 +88,9 @@ fn without_logs_it_says_what_can_be_looked_at_and_each_view_is_a_folder() {
     let studio = Studio::of(&[]);
     let own = &*studio.address;
     let page = studio.ask("GET /", own, "");
-    assert!(page.contains("crossguard studio LOG..."), "{page}");
+    page.must_have(&["crossguard studio LOG..."]);
     let answer = studio.ask("GET /after/api/opening", own, "");
-    assert!(answer.contains("this studio was given no log"), "{answer}");
+    answer.must_have(&["this studio was given no log"]);
     let views = page.split("<h2><a href=\"/").skip(1);
     let views: Vec<_> = views.map(|it| it.split('/').next().unwrap()).collect();
     assert!(views.len() >= 4, "{views:?}");

@@ -38,10 +38,9 @@ fn begin(scenario: &str, arguments: &[&str]) -> Child {
 
 #[test]
 fn workers_report_what_they_judge_and_name_what_they_do_not() {
-    let output = run(&["check", "stable", "--workers", "2", "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let output = run_well("check stable --workers 2 --json");
     let scenario = &json(&output)["scenarios"][0];
-    let existing = json(&run(&["check", "stable", "--json"]));
+    let existing = json(&run_line("check stable --json"));
     let existing = &existing["scenarios"][0];
     for figure in [
         "uniqueStates",
@@ -66,8 +65,8 @@ fn workers_report_what_they_judge_and_name_what_they_do_not() {
 
 #[test]
 fn large_scenarios_are_explored_by_workers() {
-    let output = run(&["check", "--large", "--max-states", "2000", "--json"]);
-    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    let output = run_line("check --large --max-states 2000 --json");
+    assert_code(&output, 3);
     let report = json(&output);
     let explored = report["scenarios"].as_array().unwrap();
     assert!(Scenario::large().eq(explored.iter().map(|it| it["name"].as_str().unwrap())));
@@ -85,7 +84,7 @@ fn two_processes_report_the_same() {
     let processes = [0, 1].map(|number| process("stable", &hosts, number));
     let reports = processes.map(|process| {
         let output = process.wait_with_output().unwrap();
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert_code(&output, 0);
         let mut report = json(&output)["scenarios"][0].clone();
         report["seconds"].take();
         report
@@ -120,12 +119,9 @@ fn when_one_of_four_processes_is_killed_the_others_say_that_they_are_incomplete(
     killed.wait().unwrap();
     for process in processes {
         let output = process.wait_with_output().unwrap();
-        assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+        assert_code(&output, 3);
         let told = stderr(&output);
-        assert!(
-            told.contains("incomplete: a process or the connection to it was lost"),
-            "{told}"
-        );
+        told.must_have(&["incomplete: a process or the connection to it was lost"]);
         assert!(!told.contains("panicked"), "{told}");
         assert!(output.stdout.is_empty(), "{}", stdout(&output));
     }
@@ -147,7 +143,7 @@ fn a_process_that_is_held_up_does_not_hold_up_the_others_for_ever() {
     let output = waits.wait_with_output().unwrap();
     held.kill().unwrap();
     held.wait().unwrap();
-    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert_code(&output, 3);
     // The system notices by itself where something that was sent is not acknowledged.
     let told = stderr(&output);
     let causes = [
@@ -196,10 +192,6 @@ fn a_process_that_never_comes_leaves_the_check_incomplete() {
         "--patience",
         "1",
     ]);
-    assert_eq!(output.status.code(), Some(3));
-    assert!(
-        stderr(&output).contains("was not there within 1 s"),
-        "{}",
-        stderr(&output)
-    );
+    assert_code(&output, 3);
+    stderr(&output).must_have(&["was not there within 1 s"]);
 }

@@ -236,7 +236,7 @@ fn a_body_that_is_not_understood_is_counted_and_a_second_one_is_refused() {
     let log = log_of(&go2);
     let counts = ["not understood", "fault", "silent"].map(|reason| counted(&log, reason));
     assert_eq!(counts, [4, 1, 0], "{log}");
-    assert!(log.contains("hot motor"), "{log}");
+    log.must_have(&["hot motor"]);
     assert_eq!(
         availability(&log),
         json!({"unavailable": "localFault"}),

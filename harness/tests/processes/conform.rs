@@ -35,18 +35,12 @@ fn a_robot_of_run_that_signs_passes() {
         .map(|robot| ["--robot", robot])
         .concat();
     let made = run(&[&["pki", "init", &pki][..], &robots].concat());
-    assert!(made.status.success(), "{}", stderr(&made));
+    assert_code(&made, 0);
     let security = ["--security", "enforce", "--pki", &pki];
     let start = start_of(&robot, &format!("--security enforce --pki '{pki}'"));
     let asked = ["--slack", "2000", "--rule", "R4", "--rule", "R5"];
     let output = conform(&robot, &start, &[&security[..], &asked].concat());
-    assert_eq!(
-        output.status.code(),
-        Some(0),
-        "{}{}",
-        stdout(&output),
-        stderr(&output)
-    );
+    assert_code(&output, 0);
     let report = json(&output);
     assert_eq!(report["robot"], 2);
     assert_eq!(report["played"], report["cases"]);
@@ -68,13 +62,7 @@ fn a_request_that_ends_too_soon_fails_by_name_with_a_chart() {
     std::fs::write(&robot, early).unwrap();
     let asked = ["--slack", "2000", "--rule", "R5"];
     let output = conform(&tested, &start_of(&robot, ""), &asked);
-    assert_eq!(
-        output.status.code(),
-        Some(1),
-        "{}{}",
-        stdout(&output),
-        stderr(&output)
-    );
+    assert_code(&output, 1);
     let report = json(&output);
     let rule = rule(&report, "R5");
     assert_eq!(rule["verdict"], "fail");
@@ -98,9 +86,8 @@ fn a_robot_that_is_not_there_is_no_pass() {
 
 #[test]
 fn the_list_says_what_is_not_judged() {
-    let text = stdout(&run(&["conform", "--list", "--rule", "R16"]));
-    assert!(text.contains("go-is-shown-over-guards"), "{text}");
-    assert!(text.contains("not judged: the sign"), "{text}");
-    let text = stdout(&run(&["conform", "--list", "--rule", "R5"]));
+    let text = stdout(&run_line("conform --list --rule R16"));
+    text.must_have(&["go-is-shown-over-guards", "not judged: the sign"]);
+    let text = stdout(&run_line("conform --list --rule R5"));
     assert!(!text.contains("not judged"), "{text}");
 }

@@ -114,12 +114,12 @@ fn follows(program: &Path) {
     assert_eq!(wait_for(&mut humanoid, PATIENCE).code(), Some(0));
     let log = follower.finish();
     // Where the leader wants it to go came over as well.
-    assert!(log.contains("\"startManeuver\""), "{log}");
+    log.must_have(&["\"startManeuver\""]);
     assert_valid(&log, &log_of(&ari));
     // The command line tool says the same.
     let path = folder.path().join("embedded.log");
     let output = run(&["validate", path.to_str().unwrap()]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_code(&output, 0);
 }
 
 #[test]

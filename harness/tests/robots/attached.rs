@@ -12,7 +12,7 @@ use std::time::Duration;
 use crossguard_robot::attachment::{Frame, Kind, Radio, Side};
 use crossguard_testkit::command::*;
 
-use crate::street::{ARI, CLOCKS_MS, CROSS, GO2, PATIENCE, Street, sign_ended_ms, skipped};
+use crate::street::{ARI, CLOCKS_MS, CROSS, GO2, PATIENCE, Street, sign_ended_ms};
 
 /// A street whose robots are attached to the units at the first of these ports and the next one.
 fn attached(port: u16, speed: &str) -> Street {
@@ -163,7 +163,7 @@ fn a_full_channel_is_shown_and_bad_frames_are_counted_each_under_its_cause() {
     wait_for(&mut robot.0, PATIENCE);
     let lines = fs::read_to_string(lines).unwrap();
     let expected = "dropped, link: frame too short";
-    assert!(lines.contains(expected), "{lines}");
+    lines.must_have(&[expected]);
     done.store(true, Ordering::Relaxed);
     assert!(heard.join().unwrap() > 0);
 }

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use crossguard_testkit::command::*;
 
-use crate::street::{ARI, GO2, Street, shim};
+use crate::street::{ARI, GO2, Street};
 
 const HOUR: i64 = 3_600;
 
@@ -113,7 +113,7 @@ fn step(ahead_s: i64, library: &Path) {
 #[test]
 fn robots_whose_clocks_differ_come_to_rest_where_they_sign_and_cross_where_they_do_not() {
     let folder = tempfile::tempdir().unwrap();
-    let Some(library) = shim(folder.path(), "clock/step.c") else {
+    let Some(library) = shim(folder.path(), "tests/clock/step.c") else {
         return;
     };
     std::thread::scope(|scope| {

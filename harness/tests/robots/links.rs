@@ -70,7 +70,7 @@ fn a_robot_that_others_can_reach_says_so_unless_it_verifies() {
     let warned = |more: &[&str]| {
         let run = ["run", "--config", &street.configs[ARI]];
         let output = run_with(&[&run[..], more].concat(), b"quit\n");
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert_code(&output, 0);
         stderr(&output)
     };
     assert_eq!(warned(&[]), "");

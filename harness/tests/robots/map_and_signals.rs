@@ -35,18 +35,16 @@ fn the_place_of_a_command_and_the_signals_of_its_leader_arrive() {
         b"until maneuver-executing 20\nuntil idle 30\nquit\n",
     );
     let text = stdout(&output);
-    assert_eq!(output.status.code(), Some(0), "{text}{}", stderr(&output));
+    assert_code(&output, 0);
     assert_eq!(wait_for(&mut leader.0, PATIENCE).code(), Some(0));
 
     // The person at the other robot reads it.
-    for line in [
+    text.must_have(&[
         "station 1 commands at intersection 276:4711",
         "station 1 shows stop to vehicles, stop to pedestrians",
         "station 1 shows stop to vehicles, go to pedestrians",
         " and serves intersection 276:4711",
-    ] {
-        assert!(text.contains(line), "'{line}' is not in:\n{text}");
-    }
+    ]);
     // It is in the log.
     let crossing = Some(MapPlace::Intersection {
         region: Some(276),

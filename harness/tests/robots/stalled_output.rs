@@ -47,7 +47,7 @@ fn cross_unread((arguments, chatter): &Row) {
     let mut said = String::new();
     let unread = street.robots[ARI].0.stderr.take().unwrap();
     std::io::Read::read_to_string(&mut { unread }, &mut said).unwrap();
-    assert!(said.contains("standard output is not read"), "{said}");
+    said.must_have(&["standard output is not read"]);
     assert_eq!(status.code(), Some(3));
 }
 

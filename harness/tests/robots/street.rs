@@ -3,7 +3,6 @@
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::time::{Duration, Instant};
 
 use crossguard_judge::validate;
@@ -152,35 +151,6 @@ pub(crate) fn assert_valid(logs: impl Iterator<Item = PathBuf>) {
     let logs: Vec<_> = logs.map(|it| trace::open(&it).unwrap()).collect();
     let validated = validate::all(logs);
     assert!(validated.is_ok(), "{}", validated.unwrap_err());
-}
-
-/// A library that takes the place of a part of the C library in one process; `None`, and a word about it, without a
-/// C compiler.
-pub(crate) fn shim(folder: &Path, source: &str) -> Option<PathBuf> {
-    let library = folder.join("shim.so");
-    let mut compiler = Command::new("cc");
-    compiler
-        .args(["-shared", "-fPIC", "-O1", "-o"])
-        .arg(&library);
-    let source = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests")
-        .join(source);
-    match compiler.arg(source).arg("-ldl").output() {
-        Ok(output) => {
-            assert!(output.status.success(), "{}", stderr(&output));
-            Some(library)
-        }
-        Err(error) => {
-            skipped(&format!("there is no C compiler 'cc': {error}"));
-            None
-        }
-    }
-}
-
-/// Says that the test that runs in this thread is skipped, not by eprintln!, which the test runner would capture.
-pub(crate) fn skipped(why: &str) {
-    let test = std::thread::current().name().unwrap_or_default().to_owned();
-    let _ = writeln!(std::io::stderr(), "SKIPPED {test}: {why}");
 }
 
 /// Runs each row of a table in a thread of its own: they wait more than they compute.

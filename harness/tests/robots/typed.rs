@@ -22,8 +22,8 @@ fn a_person_types_every_step_and_reads_what_happens() {
         script.as_bytes(),
     );
     let text = stdout(&output);
-    assert_eq!(output.status.code(), Some(0), "{text}{}", stderr(&output));
-    for expected in [
+    assert_code(&output, 0);
+    text.must_have(&[
         "ARI is station 1, boot 1, on 127.0.0.1:",
         "a leader that does stops its followers within ",
         "now RoleEstablished (leader)",
@@ -32,9 +32,7 @@ fn a_person_types_every_step_and_reads_what_happens() {
         "ManeuverExecuting, leader, available, session 1#1.0",
         "1#1.0 ended: task completed",
         "stopped",
-    ] {
-        assert!(text.contains(expected), "'{expected}' is not in:\n{text}");
-    }
+    ]);
     // Nothing is told on standard error that was not asked for.
     assert_eq!(stderr(&output), "");
     type_to(&mut go2.0, "quit\n");
@@ -47,10 +45,10 @@ fn a_script_that_waits_in_vain_fails_and_a_mistake_is_refused_at_its_line() {
     let typed =
         |lines: &str| run_with(&["run", "--config", &street.configs[ARI]], lines.as_bytes());
     let output = typed("until role-established 0.3\n");
-    assert_eq!(output.status.code(), Some(1));
+    assert_code(&output, 1);
     let text = stdout(&output);
     let expected = "RoleEstablished was not reached in time; the state is Idle";
-    assert!(text.contains(expected), "{text}");
+    text.must_have(&[expected]);
     assert_refused(
         &typed("detect\nfly\n"),
         "'fly': no command 'fly'; type 'help'",
@@ -112,12 +110,10 @@ fn what_a_robot_drops_is_told_with_its_cause_and_a_status_line_counts_it() {
     type_to(&mut robot, "leave\nquit\n");
     let output = robot.wait_with_output().unwrap();
     let said = stderr(&output);
-    assert!(output.status.success(), "{said}");
+    assert_code(&output, 0);
     let told = stdout(&output);
-    for expected in ["ARI: dropped, packet: ", "leave requested: ignored, "] {
-        assert!(told.contains(expected), "'{expected}' is not in:\n{told}");
-    }
-    assert!(said.contains("ARI Idle, available; sent "), "{said}");
+    told.must_have(&["ARI: dropped, packet: ", "leave requested: ignored, "]);
+    said.must_have(&["ARI Idle, available; sent "]);
     let line = |text: &&str| text.contains(" heard 0 of 0 stations, ");
     let last = said.lines().rfind(line).unwrap();
     assert!(!last.contains(", 0 dropped or ignored"), "{last}");
@@ -189,11 +185,7 @@ fn a_robot_whose_log_cannot_be_written_crosses_all_the_same_and_says_so() {
         said.contains("1#1.0 ended: task completed"),
         "{said}{error}"
     );
-    assert!(
-        error.contains("/dev/full: No space left on device"),
-        "{error}"
-    );
-    assert!(error.contains("the robot goes on"), "{error}");
+    error.must_have(&["/dev/full: No space left on device", "the robot goes on"]);
     assert_eq!(output.status.code(), Some(3), "the log is incomplete");
     type_to(&mut go2.0, "quit\n");
     assert_eq!(wait_for(&mut go2.0, PATIENCE).code(), Some(0));
