@@ -37,8 +37,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use crossguard_protocol::Config;
 use crossguard_robot::capture::Capture;
 use crossguard_robot::perception::Feed;
+use crossguard_robot::robot_file::RobotFile;
 use crossguard_robot::trace::Log;
 use printable::{Printable, printable_json};
 
@@ -116,6 +118,11 @@ impl Failure {
     fn input(error: impl std::fmt::Display) -> Self {
         Self::Input(error.to_string())
     }
+
+    /// What is wrong with this file or folder.
+    fn at<E: std::fmt::Display>(path: &Path) -> impl Fn(E) -> Self {
+        move |error| Self::Input(format!("{}: {error}", path.display()))
+    }
 }
 
 impl From<std::io::Error> for Failure {
@@ -189,18 +196,16 @@ fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
 
 /// Opens logs.
 fn open_logs(paths: &[PathBuf]) -> Result<Vec<Log<'static>>, Failure> {
-    let open = |path: &PathBuf| {
-        let opened = crossguard_robot::trace::open(path);
-        opened.map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
-    };
+    let open = |path: &PathBuf| crossguard_robot::trace::open(path).map_err(Failure::at(path));
     paths.iter().map(open).collect()
 }
 
-/// Creates a file for packets.
-fn create_capture(path: &Path) -> Result<Capture, Failure> {
+/// Creates a file for packets, if there is to be one.
+fn create_capture(path: Option<&Path>) -> Result<Option<Capture>, Failure> {
+    let Some(path) = path else { return Ok(None) };
     destinations::file(path)?;
-    Capture::create(path)
-        .map_err(|error| Failure::Input(format!("{}: {}", path.display(), cause(&error))))
+    let created = Capture::create(path).map_err(|error| cause(&error));
+    created.map(Some).map_err(Failure::at(path))
 }
 
 /// What the operating system says, where an error has that as its source, and does not say it itself.
@@ -217,6 +222,13 @@ fn finish_capture(capture: Option<Capture>) -> Result<(), Failure> {
         ))),
         _ => Ok(()),
     }
+}
+
+/// The protocol's configuration in a robot's file; the default one without a file.
+fn config_or_default(file: Option<&Path>) -> Result<Config, Failure> {
+    let file = file.map(RobotFile::read).transpose();
+    let file = file.map_err(Failure::input)?;
+    Ok(file.map(|file| file.config).unwrap_or_default())
 }
 
 /// Opens a file of people that sensors report.

@@ -53,18 +53,17 @@ pub fn serve(address: SocketAddr, tally: Shared) -> std::io::Result<SocketAddr> 
 /// A tally in the exposition format.
 #[must_use]
 pub fn text(tally: &Tally) -> String {
-    let mut page = Page::default();
-    let robot = ("robot", tally.robot.as_str());
+    let mut page = Page {
+        robot: &tally.robot,
+        text: String::new(),
+    };
     if let Some(state) = &tally.state {
-        let boot = tally.boot.unwrap_or(state.boot());
-        let (station, boot) = (state.station().to_string(), boot.to_string());
-        page.family("crossguard_robot_info", "gauge", "Who the robot is.");
-        page.value(&[robot, ("station", &station), ("boot", &boot)], 1);
-        page.family(
-            "crossguard_state",
-            "gauge",
-            "1 for the state of the paper's model that it is in.",
-        );
+        let boot = tally.boot.unwrap_or(state.boot()).to_string();
+        let labels = [("station", &*state.station().to_string()), ("boot", &boot)];
+        let mut info = page.gauge("robot_info", "Who the robot is.");
+        info.value(&labels, 1);
+        let help = "1 for the state of the paper's model that it is in.";
+        let mut states = page.gauge("state", help);
         for it in [
             State::Idle,
             State::HelpRequested,
@@ -72,9 +71,9 @@ pub fn text(tally: &Tally) -> String {
             State::ManeuverExecuting,
         ] {
             let is_it = u64::from(state.state() == it);
-            page.value(&[robot, ("state", &format!("{it:?}"))], is_it);
+            states.value(&[("state", &format!("{it:?}"))], is_it);
         }
-        page.family("crossguard_role", "gauge", "1 for the role that it has.");
+        let mut roles = page.gauge("role", "1 for the role that it has.");
         for it in [
             Role::None,
             Role::Requester,
@@ -82,167 +81,135 @@ pub fn text(tally: &Tally) -> String {
             Role::Leader,
             Role::Follower,
         ] {
-            page.value(
-                &[robot, ("role", &it.to_string())],
-                u64::from(state.role() == it),
-            );
+            let is_it = u64::from(state.role() == it);
+            roles.value(&[("role", &it.to_string())], is_it);
         }
     }
-    page.family(
-        "crossguard_followers",
-        "gauge",
-        "How many followers it leads.",
-    );
-    page.value(&[robot], tally.followers() as u64);
-    page.family(
-        "crossguard_corridor_open",
-        "gauge",
-        "Whether the pedestrian may cross.",
-    );
-    page.value(&[robot], u64::from(tally.corridor_open()));
-    page.family(
-        "crossguard_on_duty",
-        "gauge",
-        "Whether it has a duty on the road that waits for the road to be clear.",
-    );
-    page.value(&[robot], u64::from(tally.is_on_duty()));
+    let help = "How many followers it leads.";
+    page.gauge("followers", help).value(&[], tally.followers());
+    let is_open = u64::from(tally.corridor_open());
+    let help = "Whether the pedestrian may cross.";
+    page.gauge("corridor_open", help).value(&[], is_open);
+    let is_on_duty = u64::from(tally.is_on_duty());
+    let help = "Whether it has a duty on the road that waits for the road to be clear.";
+    page.gauge("on_duty", help).value(&[], is_on_duty);
     if let Some(clock) = tally.clock {
-        page.family(
-            "crossguard_time_trusted",
-            "gauge",
-            "Whether it trusts its clock; if not, it accepts nothing that is signed.",
-        );
-        page.value(&[robot], u64::from(clock.is_trusted()));
+        let help = "Whether it trusts its clock; if not, it accepts nothing that is signed.";
+        let is_trusted = u64::from(clock.is_trusted());
+        page.gauge("time_trusted", help).value(&[], is_trusted);
     }
     if let Some(channel) = tally.channel {
-        page.channel(robot, channel);
+        of_channel(&mut page, channel);
     }
-    equipment(&mut page, robot, tally);
-    page.family(
-        "crossguard_steps_total",
-        "counter",
-        "Steps of the transition function.",
-    );
-    page.value(&[robot], tally.steps);
-    page.family(
-        "crossguard_messages_total",
-        "counter",
-        "Messages sent, and heard and understood.",
-    );
+    if !tally.link.is_empty() {
+        let help = "Where its link is, and whether packets are signed and verified.";
+        let labels = [("link", &*tally.link), ("security", tally.security)];
+        page.gauge("link_info", help).value(&labels, 1);
+    }
+    let help = "Steps of the transition function.";
+    page.counter("steps_total", help).value(&[], tally.steps);
+    let help = "Messages sent, and heard and understood.";
+    let mut messages = page.counter("messages_total", help);
     for ((way, kind), count) in &tally.messages {
-        page.value(
-            &[robot, ("direction", way.name()), ("message", kind.name())],
+        messages.value(
+            &[("direction", way.name()), ("message", kind.name())],
             *count,
         );
     }
-    around(&mut page, robot, tally);
-    page.family(
-        "crossguard_without_effect_total",
-        "counter",
-        "Messages that were dropped and inputs that were ignored, by layer and cause.",
-    );
+    around(&mut page, tally);
+    let help = "Messages that were dropped and inputs that were ignored, by layer and cause.";
+    let mut causes = page.counter("without_effect_total", help);
     for (CauseName { layer, reason }, count) in tally.causes.iter() {
-        let labels = [robot, ("layer", layer.name()), ("cause", &reason)];
-        page.value(&labels, count);
+        causes.value(&[("layer", layer.name()), ("cause", &reason)], count);
     }
     page.text
 }
 
-/// The link and the security.
-fn equipment(page: &mut Page, robot: (&str, &str), tally: &Tally) {
-    if !tally.link.is_empty() {
-        page.family(
-            "crossguard_link_info",
-            "gauge",
-            "Where its link is, and whether packets are signed and verified.",
-        );
-        let labels = [robot, ("link", &tally.link), ("security", tally.security)];
-        page.value(&labels, 1);
-    }
-}
-
 /// Who was heard, and who is on the map.
-fn around(page: &mut Page, robot: (&str, &str), tally: &Tally) {
-    page.family(
-        "crossguard_stations_heard",
-        "gauge",
-        "How many stations were heard since it booted.",
-    );
-    page.value(&[robot], tally.heard_us.len());
-    page.family(
-        "crossguard_around",
-        "gauge",
-        "How many road users are on its map, by kind.",
-    );
+fn around(page: &mut Page, tally: &Tally) {
+    let help = "How many stations were heard since it booted.";
+    let mut heard = page.gauge("stations_heard", help);
+    heard.value(&[], tally.heard_us.len());
+    let mut counts = page.gauge("around", "How many road users are on its map, by kind.");
     for kind in Kind::ALL {
         let count = tally.around.of_kind(kind).map_or(0, |it| it.count);
-        page.value(&[robot, ("kind", kind.name())], count);
+        counts.value(&[("kind", kind.name())], count);
     }
-    page.family(
-        "crossguard_around_nearest_metres",
-        "gauge",
-        "How far away the nearest on its map is, by kind, where that is known.",
-    );
+    let help = "How far away the nearest on its map is, by kind, where that is known.";
+    let mut nearest = page.gauge("around_nearest_metres", help);
     for it in &tally.around.kinds {
-        if let Some(nearest) = it.nearest {
-            page.value(&[robot, ("kind", it.kind.name())], nearest.distance_m);
+        if let Some(found) = it.nearest {
+            nearest.value(&[("kind", it.kind.name())], found.distance_m);
         }
     }
-    page.family(
-        "crossguard_around_oldest_seconds",
-        "gauge",
-        "For how long the one that was told of longest ago has not been told of again, by kind.",
-    );
+    let help =
+        "For how long the one that was told of longest ago has not been told of again, by kind.";
+    let mut oldest = page.gauge("around_oldest_seconds", help);
     for it in &tally.around.kinds {
         let age = Duration::from_millis(it.oldest_ms).as_secs_f64();
-        page.value(&[robot, ("kind", it.kind.name())], age);
+        oldest.value(&[("kind", it.kind.name())], age);
     }
 }
 
-#[derive(Default)]
-struct Page {
+fn of_channel(page: &mut Page, channel: ChannelState) {
+    if let Some(ratio) = channel.busy_ratio {
+        let help = "Channel busy ratio, from 0 to 1, as the link's unit measures it.";
+        page.gauge("channel_busy_ratio", help).value(&[], ratio);
+    }
+    if let Some(power) = channel.power_dbm {
+        let help = "Power of the last reception whose power is known.";
+        page.gauge("reception_power_dbm", help).value(&[], power);
+    }
+    let help = "How far apart RAM outside of sessions, and CAM, are to be (TS 102 687, reactive).";
+    #[expect(clippy::cast_precision_loss, reason = "at most a second")]
+    let interval_s = channel.interval_ms as f64 / 1e3;
+    let mut interval = page.gauge("congestion_interval_seconds", help);
+    interval.value(&[], interval_s);
+}
+
+/// The metrics of one robot.
+struct Page<'a> {
+    robot: &'a str,
     text: String,
-    name: &'static str,
 }
 
-impl Page {
-    fn family(&mut self, name: &'static str, kind: &str, help: &str) {
-        self.name = name;
-        let _ = writeln!(self.text, "# HELP {name} {help}\n# TYPE {name} {kind}");
+/// Values under one name.
+struct Family<'a> {
+    name: &'static str,
+    robot: &'a str,
+    text: &'a mut String,
+}
+
+impl Page<'_> {
+    fn gauge(&mut self, name: &'static str, help: &str) -> Family<'_> {
+        self.family(name, "gauge", help)
     }
 
-    fn channel(&mut self, robot: (&str, &str), channel: ChannelState) {
-        if let Some(ratio) = channel.busy_ratio {
-            self.family(
-                "crossguard_channel_busy_ratio",
-                "gauge",
-                "Channel busy ratio, from 0 to 1, as the link's unit measures it.",
-            );
-            self.value(&[robot], ratio);
-        }
-        if let Some(power) = channel.power_dbm {
-            self.family(
-                "crossguard_reception_power_dbm",
-                "gauge",
-                "Power of the last reception whose power is known.",
-            );
-            self.value(&[robot], power);
-        }
-        self.family(
-            "crossguard_congestion_interval_seconds",
-            "gauge",
-            "How far apart RAM outside of sessions, and CAM, are to be (TS 102 687, reactive).",
+    fn counter(&mut self, name: &'static str, help: &str) -> Family<'_> {
+        self.family(name, "counter", help)
+    }
+
+    /// Begins a family of metrics, whose full name is `crossguard_NAME`.
+    fn family(&mut self, name: &'static str, kind: &str, help: &str) -> Family<'_> {
+        let (robot, text) = (self.robot, &mut self.text);
+        let _ = writeln!(
+            text,
+            "# HELP crossguard_{name} {help}\n# TYPE crossguard_{name} {kind}"
         );
-        #[expect(clippy::cast_precision_loss, reason = "at most a second")]
-        self.value(&[robot], channel.interval_ms as f64 / 1e3);
+        Family { name, robot, text }
     }
+}
 
+impl Family<'_> {
+    /// A value, with labels besides that of the robot.
     fn value(&mut self, labels: &[(&str, &str)], value: impl Display) {
-        let labels = labels
-            .iter()
-            .map(|(name, value)| format!("{name}=\"{}\"", escaped(value)));
+        let labels = [("robot", self.robot)]
+            .into_iter()
+            .chain(labels.iter().copied());
+        let labels = labels.map(|(name, value)| format!("{name}=\"{}\"", escaped(value)));
         let labels = labels.collect::<Vec<_>>().join(",");
-        let _ = writeln!(self.text, "{}{{{labels}}} {value}", self.name);
+        let name = self.name;
+        let _ = writeln!(self.text, "crossguard_{name}{{{labels}}} {value}");
     }
 }
 

@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use crossguard_model_check::timed::{Bound, USUAL_DELAY, bounds};
-use crossguard_protocol::{Config, Millis};
-use crossguard_robot::robot_file::RobotFile;
+use crossguard_protocol::Millis;
 use serde::Serialize;
 
 use super::ranges::whole;
@@ -40,10 +39,7 @@ struct Report {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let config = match &arguments.config {
-        Some(path) => RobotFile::read(path).map_err(Failure::input)?.config,
-        None => Config::default(),
-    };
+    let config = super::config_or_default(arguments.config.as_deref())?;
     let bounds = bounds(&config, Millis(arguments.delay));
     if arguments.json {
         return print_json(&Report {

@@ -239,7 +239,7 @@ fn write_charts(report: &ScenarioReport, folder: &Path) -> Result<(), Failure> {
             let path = folder.join(format!("{name}.{extension}"));
             std::fs::create_dir_all(folder)
                 .and_then(|()| std::fs::write(&path, text))
-                .map_err(|cause| Failure::input(format!("{}: {cause}", path.display())))?;
+                .map_err(Failure::at(&path))?;
         }
     }
     Ok(())

@@ -163,8 +163,7 @@ fn convert_lines(
 /// The input, which is a file or what is piped in.
 fn open(file: Option<&Path>) -> Result<Box<dyn BufRead>, Failure> {
     if let Some(path) = file {
-        let file = File::open(path);
-        let file = file.map_err(|error| Failure::Input(format!("{}: {error}", path.display())))?;
+        let file = File::open(path).map_err(Failure::at(path))?;
         return Ok(Box::new(BufReader::new(file)));
     }
     if std::io::stdin().is_terminal() {

@@ -92,10 +92,7 @@ fn names() -> PossibleValuesParser {
 
 /// What happens.
 fn scenario(arguments: &Arguments) -> Result<Scenario, Failure> {
-    let site = match &arguments.site {
-        Some(path) => SiteFile::read(path).map_err(Failure::input)?,
-        None => SiteFile::street(),
-    };
+    let site = super::site::or_street(arguments.site.as_deref())?;
     let shipped = Path::new(&arguments.scenario);
     let plan = PlanFile::open(arguments.plan.as_deref().unwrap_or(shipped), site);
     Scenario::of(plan.map_err(Failure::input)?).map_err(Failure::input)
@@ -178,11 +175,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         port: arguments.port,
         security_mode: arguments.security.mode(),
         security: arguments.security.of_robots(&names)?,
-        capture: arguments
-            .pcap
-            .as_deref()
-            .map(super::create_capture)
-            .transpose()?,
+        capture: super::create_capture(arguments.pcap.as_deref())?,
         perceived: super::open_feed(arguments.perceived.as_deref())?,
         awareness: arguments.etsi.add_to(Awareness::default()),
         stop: Arc::clone(&interrupted),
@@ -268,8 +261,7 @@ struct DemoLog {
 impl DemoLog {
     fn create(path: &Path) -> Result<Self, Failure> {
         destinations::file(path)?;
-        let file = LogFile::create(path, LogLimits::default())
-            .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))?;
+        let file = LogFile::create(path, LogLimits::default()).map_err(Failure::at(path))?;
         Ok(Self {
             path: path.to_owned(),
             file,

@@ -69,7 +69,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         ];
         for (path, picture) in pictures {
             if let Some(path) = path {
-                std::fs::write(path, picture).map_err(|error| cannot(path, &error))?;
+                std::fs::write(path, picture).map_err(Failure::at(path))?;
                 print(format_args!("{}: {} steps", path.display(), steps.len()))?;
             }
         }
@@ -83,21 +83,17 @@ fn merged(logs: &[PathBuf]) -> Result<Merged<'static>, Failure> {
 
 /// Writes a line for each fact, and says how many there are.
 fn write_facts(mut logs: Merged, path: &Path) -> Result<(), Failure> {
-    let file = File::create(path).map_err(|error| cannot(path, &error))?;
+    let file = File::create(path).map_err(Failure::at(path))?;
     let (mut file, mut observer, mut count) = (BufWriter::new(file), Observer::default(), 0_u64);
     while let Some(Timed { at_us, record, .. }) = logs.take().map_err(Failure::input)? {
         for fact in observer.take(&record) {
             let robot = &*record.robot;
             let line = serde_json::to_string(&FactLine { at_us, robot, fact });
             let line = line.map_err(Failure::input)?;
-            writeln!(file, "{line}").map_err(|error| cannot(path, &error))?;
+            writeln!(file, "{line}").map_err(Failure::at(path))?;
             count += 1;
         }
     }
-    file.flush().map_err(|error| cannot(path, &error))?;
+    file.flush().map_err(Failure::at(path))?;
     print(format_args!("{}: {count} facts", path.display()))
-}
-
-fn cannot(path: &Path, error: &dyn std::fmt::Display) -> Failure {
-    Failure::Input(format!("{}: {error}", path.display()))
 }

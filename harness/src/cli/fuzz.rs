@@ -7,7 +7,6 @@ use std::time::{Duration, Instant};
 use crossguard_judge::sim::{Files, Fuzz, Longest, Measure, Planned, Totals, write_failure};
 use crossguard_protocol::StationId;
 use crossguard_robot::plan_file::PlanFile;
-use crossguard_robot::site_file::SiteFile;
 use crossguard_robot::transport::Faults;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
@@ -136,8 +135,7 @@ fn write(
     failure: &crossguard_judge::sim::Failure,
 ) -> Result<(PathBuf, Files), Failure> {
     let written = write_failure(folder, fuzz, failure);
-    let files =
-        written.map_err(|error| Failure::Input(format!("{}: {error}", folder.display())))?;
+    let files = written.map_err(Failure::at(folder))?;
     let logs = std::slice::from_ref(&files.log);
     let mut studied = report::study(|| open_logs(logs), report::names(logs), None)?;
     let again = format!("again: {}", fuzz.reproduce(failure.seed));
@@ -164,13 +162,11 @@ fn planned(arguments: &Arguments) -> Result<Option<Planned>, Failure> {
         return Ok(None);
     };
     let plan = format!("--plan '{}'", path.display());
-    let (site, said) = match &arguments.site {
-        Some(path) => {
-            let site = SiteFile::read(path).map_err(Failure::input)?;
-            (site, format!("{plan} --site '{}'", path.display()))
-        }
-        None => (SiteFile::street(), plan),
+    let said = match &arguments.site {
+        Some(path) => format!("{plan} --site '{}'", path.display()),
+        None => plan,
     };
+    let site = super::site::or_street(arguments.site.as_deref())?;
     let file = PlanFile::open(path, site).map_err(Failure::input)?;
     if file.followers >= arguments.robots {
         return Err(Failure::Input(format!(
@@ -178,9 +174,8 @@ fn planned(arguments: &Arguments) -> Result<Option<Planned>, Failure> {
             arguments.robots, file.name, file.followers
         )));
     }
-    let plan = file.plan(StationId(0), file.followers);
     Ok(Some(Planned {
-        plan,
+        plan: file.plan(StationId(0), file.followers),
         arguments: said,
     }))
 }
@@ -235,22 +230,19 @@ fn tell(totals: &Totals, seconds: Duration) -> Result<(), Failure> {
         "Runs in which a property had something to say: {}.",
         premises.join(", ")
     ))?;
-    let seeds = |counts: Vec<String>| counts.join(", ");
     let hazards = totals.hazards.iter();
-    let hazards = hazards.map(|(hazard, runs)| format!("{hazard} {runs}"));
+    let hazards: Vec<_> = hazards.map(|(it, runs)| format!("{it} {runs}")).collect();
     print(format_args!(
         "Runs with each hazard: {}.",
-        seeds(hazards.collect())
+        hazards.join(", ")
     ))?;
     let left_out = totals.left_out.iter();
-    let left_out = left_out.map(|(name, runs)| format!("{name} {runs}"));
+    let left_out: Vec<_> = left_out.map(|(it, runs)| format!("{it} {runs}")).collect();
     print(format_args!(
         "Runs whose faults leave a property open: {}.",
-        seeds(left_out.collect())
+        left_out.join(", ")
     ))?;
-    print(format_args!(
-        "Longest times, and what the timers of that run allow:"
-    ))?;
+    print("Longest times, and what the timers of that run allow:")?;
     for measure in Measure::ALL {
         let (id, name) = (measure.property(), measure.name());
         match totals.worst.of(measure) {

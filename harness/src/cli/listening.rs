@@ -1,6 +1,5 @@
 //! What commands that read packets and messages of others have to be told.
 
-use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use crossguard_codec::{Dictionary, Identifiers};
@@ -49,11 +48,11 @@ pub(super) fn identifiers_of(file: Option<&Path>) -> Result<Identifiers, Failure
     let Some(path) = file else {
         return Ok(Identifiers::default());
     };
-    let bad = |error: &dyn Display| Failure::Input(format!("{}: {error}", path.display()));
-    let text = std::fs::read_to_string(path).map_err(|error| bad(&error))?;
-    let file: IdentifiersFile = toml::from_str(&text).map_err(|error| bad(&error))?;
+    let text = std::fs::read_to_string(path).map_err(Failure::at(path))?;
+    let file: IdentifiersFile = toml::from_str(&text).map_err(Failure::at(path))?;
     let checked = file.identifiers.check();
-    checked.map_err(|error| bad(&format_args!("[identifiers] {error}")))?;
+    let checked = checked.map_err(|error| format!("[identifiers] {error}"));
+    checked.map_err(Failure::at(path))?;
     Ok(file.identifiers)
 }
 

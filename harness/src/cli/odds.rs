@@ -13,7 +13,6 @@ use crossguard_model_check::odds::{
     TeamOdds, TimeGrid, write_drn,
 };
 use crossguard_protocol::{Config, Millis};
-use crossguard_robot::robot_file::RobotFile;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
@@ -106,10 +105,7 @@ struct SettingsOdds {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let config = match &arguments.config {
-        Some(path) => RobotFile::read(path).map_err(Failure::input)?.config,
-        None => Config::default(),
-    };
+    let config = super::config_or_default(arguments.config.as_deref())?;
     destinations::folders([&arguments.export])?;
     let configs = match &arguments.vary {
         Some(varied) => varied.configs(&config).map_err(Failure::input)?,
@@ -317,10 +313,10 @@ fn written(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
 ) -> Result<(), Failure> {
-    let cannot = |cause| Failure::Input(format!("{}: {cause}", path.display()));
+    let cannot = Failure::at(path);
     if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(cannot)?;
+        std::fs::create_dir_all(folder).map_err(&cannot)?;
     }
-    let mut to = BufWriter::new(File::create(path).map_err(cannot)?);
+    let mut to = BufWriter::new(File::create(path).map_err(&cannot)?);
     write(&mut to).and_then(|()| to.flush()).map_err(cannot)
 }

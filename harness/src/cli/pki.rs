@@ -262,7 +262,7 @@ fn take_place(unfinished: &Path, folder: &Path) -> Result<(), Failure> {
         })
     });
     let moved = moved.and_then(|()| pki::sync_folder(folder));
-    moved.map_err(|error| Failure::Input(format!("{}: {error}", folder.display())))
+    moved.map_err(Failure::at(folder))
 }
 
 /// The same from not before an issuer is valid on.

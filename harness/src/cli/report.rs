@@ -86,6 +86,5 @@ fn when(
 
 /// Writes the page of a run.
 pub(super) fn write(path: &Path, studied: &Studied) -> Result<(), Failure> {
-    std::fs::write(path, saved(studied))
-        .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
+    std::fs::write(path, saved(studied)).map_err(Failure::at(path))
 }

@@ -145,8 +145,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let link = configured_link(arguments, &file);
     one_signs(arguments, &link)?;
     let (mut link, address) = open_link(arguments, link)?;
-    let capture = arguments.pcap.as_deref().map(super::create_capture);
-    let capture = capture.transpose()?;
+    let capture = super::create_capture(arguments.pcap.as_deref())?;
     if let Some(capture) = &capture {
         link = capture.of_all(link);
     }

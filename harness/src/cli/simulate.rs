@@ -301,7 +301,7 @@ fn record(arguments: &Record) -> Result<(), Failure> {
         let name = format!("{}-{pedestrians}.json.gz", streets.preset_name());
         let path = arguments.output.join(name);
         let file = std::fs::File::create(&path).and_then(|file| traces.write(file));
-        file.map_err(|error| Failure::Input(format!("{}: {error}", path.display())))?;
+        file.map_err(Failure::at(&path))?;
         print(format_args!(
             "{}: {} runs of {} s",
             path.display(),

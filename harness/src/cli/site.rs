@@ -27,10 +27,7 @@ pub(super) struct Files {
 
 pub(super) fn run(command: &Command) -> Result<(), Failure> {
     let Command::Check(files) = command;
-    let site = match &files.site {
-        Some(path) => SiteFile::read(path).map_err(Failure::input)?,
-        None => SiteFile::street(),
-    };
+    let site = or_street(files.site.as_deref())?;
     let plan = files.plan.as_deref();
     let plan = plan.map(|name| PlanFile::open(name, site.clone()));
     let plan = plan.transpose().map_err(Failure::input)?;
@@ -43,6 +40,12 @@ pub(super) fn run(command: &Command) -> Result<(), Failure> {
             plan.name
         ))
     })
+}
+
+/// The site in a file; without one the street of the demonstrations.
+pub(super) fn or_street(file: Option<&Path>) -> Result<SiteFile, Failure> {
+    let read = |file| SiteFile::read(file).map_err(Failure::input);
+    file.map_or_else(|| Ok(SiteFile::street()), read)
 }
 
 /// The site that an option names, if it names one: a file, or the street of the demonstrations.

@@ -126,8 +126,7 @@ fn link(arguments: &Arguments) -> Option<Link> {
 
 fn listen(arguments: &Arguments, link: &Link, printer: &mut Printer) -> Result<(), Failure> {
     let mut halves = link.open().map_err(Failure::input)?;
-    let capture = arguments.pcap.as_deref().map(super::create_capture);
-    let capture = capture.transpose()?;
+    let capture = super::create_capture(arguments.pcap.as_deref())?;
     if let Some(capture) = &capture {
         halves = capture.of_all(halves);
     }

@@ -94,20 +94,18 @@ pub fn json(output: &Output) -> Value {
         .unwrap_or_else(|error| panic!("{error}\n{}\n{}", stdout(output), stderr(output)))
 }
 
-/// What a demo says as JSON, and what `attack` gives, which gets the first of its two ports and goes on
-/// until it is told to stop. The demo has to end well.
-pub fn demo_under_attack<T: Send>(attack: impl FnOnce(u16, &AtomicBool) -> T + Send) -> (Value, T) {
+/// What a demo with these more arguments says as JSON, and what `attack` gives, which gets the first of its two ports and
+/// goes on until it is told to stop. The demo has to end well.
+pub fn demo_under_attack<T: Send>(
+    more: &str,
+    attack: impl FnOnce(u16, &AtomicBool) -> T + Send,
+) -> (Value, T) {
     let port = two_free_ports();
-    let demo = ["demo", "--speed", "10", "--json", "--port"];
-    let child = crossguard(&demo)
-        .arg(port.to_string())
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let demo = format!("demo --json --port {port} {more}");
     let done = AtomicBool::new(false);
     let (output, came) = std::thread::scope(|scope| {
         let attacker = scope.spawn(|| attack(port, &done));
-        let output = child.wait_with_output().unwrap();
+        let output = run_line(&demo);
         done.store(true, Ordering::Relaxed);
         (output, attacker.join().unwrap())
     });

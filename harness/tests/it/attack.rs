@@ -83,7 +83,7 @@ fn of_others(n: u32) -> Vec<u8> {
 
 #[test]
 fn the_crossing_goes_on_in_a_flood_and_each_kind_of_garbage_is_counted_by_its_cause() {
-    let (result, ()) = demo_under_attack(|port, stop| {
+    let (result, ()) = demo_under_attack("--speed 10", |port, stop| {
         let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
         let garbage = garbage();
         let packets: Vec<_> = (0..2_000).map(of_others).collect();

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use crossguard_model_check::scenario::Scenario;
 use crossguard_testkit::command::*;
+use serde_json::Value;
 use tempfile::TempDir;
 
 /// A file with this number of hosts that are free just now.
@@ -29,11 +30,8 @@ fn process(scenario: &str, hosts: &str, number: usize) -> Child {
 fn begin(scenario: &str, arguments: &[&str]) -> Child {
     let mut command = crossguard(&["check", scenario, "--json"]);
     command.args(arguments);
-    command
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
-    command.spawn().unwrap()
+    command.stdin(Stdio::null()).stdout(Stdio::piped());
+    command.stderr(Stdio::piped()).spawn().unwrap()
 }
 
 #[test]
@@ -42,13 +40,7 @@ fn workers_report_what_they_judge_and_name_what_they_do_not() {
     let scenario = &json(&output)["scenarios"][0];
     let existing = json(&run_line("check stable --json"));
     let existing = &existing["scenarios"][0];
-    for figure in [
-        "uniqueStates",
-        "transitions",
-        "depth",
-        "exhaustive",
-        "sizeAsExpected",
-    ] {
+    for figure in "uniqueStates transitions depth exhaustive sizeAsExpected".split(' ') {
         assert_eq!(scenario[figure], existing[figure], "{figure}");
     }
     assert_eq!(scenario["fingerprintBits"], 92);
@@ -56,11 +48,8 @@ fn workers_report_what_they_judge_and_name_what_they_do_not() {
     let judged = scenario["properties"].as_array().unwrap();
     let not_judged = scenario["notJudged"].as_array().unwrap();
     assert!(!judged.is_empty() && !not_judged.is_empty());
-    assert!(
-        judged
-            .iter()
-            .all(|property| !not_judged.contains(&property["id"]))
-    );
+    let is_judged_once = |property: &Value| !not_judged.contains(&property["id"]);
+    assert!(judged.iter().all(is_judged_once));
 }
 
 #[test]
@@ -161,10 +150,8 @@ fn processes_that_check_something_else_are_refused() {
     let processes = [process("stable", &hosts, 0), process("wrap", &hosts, 1)];
     for process in processes {
         let output = process.wait_with_output().unwrap();
-        assert_refused(
-            &output,
-            "checks something else: all processes need the same scenario",
-        );
+        let cause = "checks something else: all processes need the same scenario";
+        assert_refused(&output, cause);
     }
 }
 
@@ -182,16 +169,9 @@ fn a_port_that_is_taken_is_refused_with_its_address() {
 fn a_process_that_never_comes_leaves_the_check_incomplete() {
     let folder = TempDir::new().unwrap();
     let hosts = hosts(folder.path(), 2);
-    let output = run(&[
-        "check",
-        "stable",
-        "--hosts",
-        &hosts,
-        "--process",
-        "0",
-        "--patience",
-        "1",
-    ]);
+    let output = run_line(&format!(
+        "check stable --hosts {hosts} --process 0 --patience 1"
+    ));
     assert_code(&output, 3);
     stderr(&output).must_have(&["was not there within 1 s"]);
 }

@@ -4,7 +4,7 @@
 use std::io::{BufRead, BufReader, Write};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crossguard_testkit::command::*;
@@ -16,8 +16,8 @@ const PATIENCE: Duration = Duration::from_mins(1);
 struct Street {
     _folder: tempfile::TempDir,
     files: [String; 2],
-    robots: [Child; 2],
-    bodies: [Child; 2],
+    robots: [Killed; 2],
+    bodies: [Killed; 2],
 }
 
 /// The robot file of a robot with a body port at a UNIX socket beside it.
@@ -29,26 +29,23 @@ fn ported(folder: &Path, name: &str, station: u32, port: u16, peer: u16) -> Stri
 }
 
 fn socket_of(file: &str) -> String {
-    Path::new(file)
-        .with_extension("sock")
-        .to_str()
-        .unwrap()
-        .to_owned()
+    let socket = Path::new(file).with_extension("sock");
+    socket.display().to_string()
 }
 
 /// The example body at a place.
-fn body(file: &str, [east, north]: [f64; 2], faster: f64) -> Child {
+fn body(file: &str, [east, north]: [f64; 2], faster: f64) -> Killed {
     let socket = socket_of(file);
     wait_until("the body port", || Path::new(&socket).exists());
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/body.py");
-    Command::new("python3")
+    let body = Command::new("python3")
         .arg(source)
         .arg(format!("unix:{socket}"))
         .args([east, north, faster].map(|number| number.to_string()))
         .stdout(Stdio::null())
         .stderr(Stdio::null())
-        .spawn()
-        .unwrap()
+        .spawn();
+    Killed(body.unwrap())
 }
 
 impl Street {
@@ -63,7 +60,7 @@ impl Street {
         for file in &files {
             edit(file, &[("[body]", &silence)]);
         }
-        let robots = [start(&files[0]), start(&files[1])];
+        let robots = [0, 1].map(|robot| Killed(start(&files[robot])));
         let bodies = [
             body(&files[0], [0.0, -1.5], faster),
             body(&files[1], [1.0, -1.11], faster),
@@ -74,7 +71,7 @@ impl Street {
             robots,
             bodies,
         };
-        type_to(&mut street.robots[0], "wait 1.5\ndetect\n");
+        type_to(&mut street.robots[0].0, "wait 1.5\ndetect\n");
         street
     }
 
@@ -94,25 +91,16 @@ impl Street {
     /// Stops everybody in order; the logs, which are valid.
     fn end(mut self) -> [String; 2] {
         for robot in &mut self.robots {
-            type_to(robot, "quit\n");
+            type_to(&mut robot.0, "quit\n");
         }
         for robot in &mut self.robots {
-            assert_eq!(wait_for(robot, PATIENCE).code(), Some(0));
+            assert_eq!(wait_for(&mut robot.0, PATIENCE).code(), Some(0));
         }
-        let logs = [log_of(&self.files[0]), log_of(&self.files[1])];
+        let logs = self.files.each_ref().map(|file| log_of(file));
         for log in &logs {
             crossguard_judge::validate::one(log.as_bytes()).unwrap();
         }
         logs
-    }
-}
-
-impl Drop for Street {
-    fn drop(&mut self) {
-        for process in self.robots.iter_mut().chain(&mut self.bodies) {
-            let _ = process.kill();
-            let _ = process.wait();
-        }
     }
 }
 
@@ -137,11 +125,8 @@ fn two_bodies_in_python_do_a_whole_crossing() {
     assert_eq!(ari.matches("\"corridorOpened\"").count(), 1);
     assert_eq!(go2.matches("\"startManeuver\"").count(), 2);
     for log in [&ari, &go2] {
-        assert_eq!(
-            counted(log, "silent") + counted(log, "not understood"),
-            0,
-            "{log}"
-        );
+        let dropped = counted(log, "silent") + counted(log, "not understood");
+        assert_eq!(dropped, 0, "{log}");
     }
 }
 
@@ -150,7 +135,7 @@ fn lose(victim: usize, how: &str) {
     let street = Street::begin(1.5, 500);
     let opened = street.until(0, "\"corridorOpened\"", 0);
     std::thread::sleep(Duration::from_millis(500));
-    signal(&street.bodies[victim], how);
+    signal(&street.bodies[victim].0, how);
     let closed = street.until(0, "\"corridorClosed\"", opened);
     // The robot tells it after half a second of silence, and does not just fall silent itself.
     let log = log_of(&street.files[0]);
@@ -159,16 +144,14 @@ fn lose(victim: usize, how: &str) {
     street.until(0, "sessionEnded", opened);
     // A body that wakes up, or comes again, does not end the stop.
     if how == "-STOP" {
-        signal(&street.bodies[victim], "-CONT");
+        signal(&street.bodies[victim].0, "-CONT");
     }
     std::thread::sleep(Duration::from_millis(300));
     let logs = street.end();
     let stopped = &logs[victim];
     assert_eq!(counted(stopped, "silent"), 1, "{stopped}");
-    assert_eq!(
-        availability(stopped),
-        json!({"unavailable": "emergencyStop"})
-    );
+    let emergency_stop = json!({"unavailable": "emergencyStop"});
+    assert_eq!(availability(stopped), emergency_stop);
 }
 
 #[test]
@@ -228,53 +211,31 @@ fn a_body_that_is_not_understood_is_counted_and_a_second_one_is_refused() {
     let second = UnixStream::connect(&socket).unwrap();
     let refused = hears(&mut BufReader::new(second));
     assert_eq!(refused["type"], "refused");
-    wait_until("the fault", || {
-        log_of(&go2).contains(r#""layer":"body","cause":"fault""#)
-    });
-    type_to(&mut robot, "quit\n");
-    assert_eq!(wait_for(&mut robot, PATIENCE).code(), Some(0));
+    let fault = r#""layer":"body","cause":"fault""#;
+    wait_until("the fault", || log_of(&go2).contains(fault));
+    quit(&mut robot);
     let log = log_of(&go2);
     let counts = ["not understood", "fault", "silent"].map(|reason| counted(&log, reason));
     assert_eq!(counts, [4, 1, 0], "{log}");
     log.must_have(&["hot motor"]);
-    assert_eq!(
-        availability(&log),
-        json!({"unavailable": "localFault"}),
-        "{log}"
-    );
+    let local_fault = json!({"unavailable": "localFault"});
+    assert_eq!(availability(&log), local_fault, "{log}");
 }
 
 #[test]
 fn a_port_that_cannot_be_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let file = ported(folder.path(), "ARI", 1, 47_000, 47_001);
-    for (from, to, cause) in [
-        (
-            "unix:ARI.sock",
-            "192.0.2.1:4000",
-            "[body] listen: '192.0.2.1:4000'",
-        ),
-        (
-            "192.0.2.1:4000\"",
-            "unix:a.sock\"\nsilence_ms = 10",
-            "[body] silence_ms is 10",
-        ),
-        (
-            "silence_ms = 10",
-            "stands_m = nan",
-            "[body] stands_m is NaN",
-        ),
-        (
-            "stands_m = nan",
-            "\n[operator]\nlisten = \"unix:\"",
-            "[operator] listen: 'unix:'",
-        ),
-        (
-            "unix:\"",
-            "unix:ARI.toml\"",
-            "ARI.toml is there, and is no socket",
-        ),
+    for row in [
+        "unix:ARI.sock => 192.0.2.1:4000 => [body] listen: '192.0.2.1:4000'",
+        "192.0.2.1:4000\" => unix:a.sock\"\nsilence_ms = 10 => [body] silence_ms is 10",
+        "silence_ms = 10 => stands_m = nan => [body] stands_m is NaN",
+        "stands_m = nan => \n[operator]\nlisten = \"unix:\" => [operator] listen: 'unix:'",
+        "unix:\" => unix:ARI.toml\" => ARI.toml is there, and is no socket",
     ] {
+        let [from, to, cause] = row.split(" => ").collect::<Vec<_>>()[..] else {
+            panic!("{row}");
+        };
         edit(&file, &[(from, to)]);
         assert_refused(&run(&["run", "--config", &file]), cause);
     }

@@ -30,9 +30,9 @@ impl Embedded {
         let child = Command::new(program)
             .args([
                 role,
-                &station.to_string(),
-                &port.to_string(),
-                &peer.to_string(),
+                &format!("{station}"),
+                &format!("{port}"),
+                &format!("{peer}"),
             ])
             .arg(folder.join("embedded.boot"))
             .arg(folder.join("embedded.log"))
@@ -75,16 +75,11 @@ fn assert_valid(embedded: &str, rust: &str) {
     assert!(alone.steps > 50 && alone.sent > 10, "{alone:?}");
     assert_eq!((alone.missing, alone.cut_off.len()), (0, 0), "{alone:?}");
     let together = validated(&[("embedded", embedded), ("rust", rust)]);
-    assert_eq!(
-        (together.robots, together.from_strangers),
-        (2, 0),
-        "{together:?}"
-    );
+    let heard = (together.robots, together.from_strangers);
+    assert_eq!(heard, (2, 0), "{together:?}");
     for property in ["I2", "I3", "I6", "I8", "I11"] {
-        assert!(
-            together.properties.iter().any(|id| id == property),
-            "{together:?}"
-        );
+        let is_judged = together.properties.iter().any(|id| id == property);
+        assert!(is_judged, "{together:?}");
     }
 }
 
@@ -96,8 +91,7 @@ fn leads(program: &Path) {
     let mut leader = Embedded::start(program, folder.path(), "leader", 1, port, port + 1);
     let log = leader.finish();
     assert!(leader.said("embedded.out").contains("corridor open\n"));
-    type_to(&mut dog, "quit\n");
-    assert_eq!(wait_for(&mut dog, PATIENCE).code(), Some(0));
+    quit(&mut dog);
     assert_valid(&log, &log_of(&go2));
 }
 
@@ -107,10 +101,8 @@ fn follows(program: &Path) {
     let ari = robot_file(folder.path(), "ARI", 1, port, port + 1);
     let mut follower = Embedded::start(program, folder.path(), "follower", 2, port + 1, port);
     let mut humanoid = start(&ari);
-    type_to(
-        &mut humanoid,
-        "wait 0.3\ndetect\nuntil maneuver-executing\nuntil idle\nquit\n",
-    );
+    let script = "wait 0.3\ndetect\nuntil maneuver-executing\nuntil idle\nquit\n";
+    type_to(&mut humanoid, script);
     assert_eq!(wait_for(&mut humanoid, PATIENCE).code(), Some(0));
     let log = follower.finish();
     // Where the leader wants it to go came over as well.
@@ -118,8 +110,7 @@ fn follows(program: &Path) {
     assert_valid(&log, &log_of(&ari));
     // The command line tool says the same.
     let path = folder.path().join("embedded.log");
-    let output = run(&["validate", path.to_str().unwrap()]);
-    assert_code(&output, 0);
+    run_well(&format!("validate {}", path.display()));
 }
 
 #[test]

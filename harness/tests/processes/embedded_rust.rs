@@ -25,10 +25,8 @@ fn a_stack_with_an_endpoint_follows_and_its_log_is_valid() {
     ];
     let embedded = std::thread::spawn(move || follower::follow(&arguments).unwrap());
     let mut humanoid = start(&ari);
-    type_to(
-        &mut humanoid,
-        "wait 0.3\ndetect\nuntil maneuver-executing\nuntil idle\nquit\n",
-    );
+    let script = "wait 0.3\ndetect\nuntil maneuver-executing\nuntil idle\nquit\n";
+    type_to(&mut humanoid, script);
     let status = wait_for(&mut humanoid, Duration::from_mins(1));
     assert_eq!(status.code(), Some(0));
     assert_eq!(embedded.join().unwrap(), 2);
@@ -42,8 +40,6 @@ fn a_stack_with_an_endpoint_follows_and_its_log_is_valid() {
     };
     let validated = validate::all(vec![followers, leaders]).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!((validated.robots, validated.from_strangers), (2, 0));
-    assert!(
-        validated.properties.iter().any(|id| id == "I6"),
-        "{validated:?}"
-    );
+    let is_judged = validated.properties.iter().any(|id| id == "I6");
+    assert!(is_judged, "{validated:?}");
 }

@@ -16,6 +16,12 @@ fn connect(file: &str) -> BufReader<UnixStream> {
     BufReader::new(crossguard_testkit::command::connect(socket))
 }
 
+const HELLO: &str = r#"{"type": "hello", "crossguard": 1}"#;
+
+fn say(to: &mut BufReader<UnixStream>, line: &str) {
+    writeln!(to.get_mut(), "{line}").unwrap();
+}
+
 /// Reads on until a line is like this.
 fn until(from: &mut impl BufRead, is: impl Fn(&Value) -> bool) -> Value {
     loop {
@@ -43,31 +49,19 @@ fn a_program_commands_and_watches_a_crossing_whatever_others_say() {
         (&hello["robot"], &hello["station"]),
         (&"ARI".into(), &1.into())
     );
-    writeln!(
-        program.get_mut(),
-        "{{\"type\": \"hello\", \"crossguard\": 1}}"
-    )
-    .unwrap();
+    say(&mut program, HELLO);
     // One that talks nonsense, one whose line has no end, and one that never reads.
     let mut spoils = [connect(&ari), connect(&ari), connect(&ari)];
-    writeln!(spoils[0].get_mut(), "no json").unwrap();
+    say(&mut spoils[0], "no json");
     // It may be sent away meanwhile.
     let _ = spoils[1]
         .get_mut()
         .write_all("x".repeat(100_000).as_bytes());
-    writeln!(
-        spoils[2].get_mut(),
-        "{{\"type\": \"hello\", \"crossguard\": 1}}"
-    )
-    .unwrap();
+    say(&mut spoils[2], HELLO);
     until(&mut program, |line| {
         line["type"] == "map" && line["kinds"][0]["count"] == 1
     });
-    writeln!(
-        program.get_mut(),
-        "{{\"type\": \"command\", \"line\": \"detect\"}}"
-    )
-    .unwrap();
+    say(&mut program, r#"{"type": "command", "line": "detect"}"#);
     until(&mut program, |line| line["output"] == "corridorOpened");
     let open = until(&mut program, |line| line["type"] == "state");
     assert_eq!(
@@ -80,11 +74,7 @@ fn a_program_commands_and_watches_a_crossing_whatever_others_say() {
     );
     let ended = until(&mut program, |line| line["notice"] == "sessionEnded");
     assert_eq!(ended["reason"], "taskCompleted");
-    writeln!(
-        program.get_mut(),
-        "{{\"type\": \"command\", \"line\": \"quit\"}}"
-    )
-    .unwrap();
+    say(&mut program, r#"{"type": "command", "line": "quit"}"#);
     until(&mut program, |line| line["type"] == "stopped");
     type_to(&mut robots[1], "quit\n");
     for robot in &mut robots {

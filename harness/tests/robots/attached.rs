@@ -17,11 +17,8 @@ use crate::street::{ARI, CLOCKS_MS, CROSS, GO2, PATIENCE, Street, sign_ended_ms}
 /// A street whose robots are attached to the units at the first of these ports and the next one.
 fn attached(port: u16, speed: &str) -> Street {
     let street = Street::new(&[("speed = 40.0", speed)]);
-    for (config, unit) in street.configs.iter().zip([port, port + 1]) {
-        let text = fs::read_to_string(config).unwrap();
-        let (robot, _) = text.split_once("[link]").unwrap();
-        let text = format!("{robot}[link]\nunit = \"127.0.0.1:{unit}\"\n");
-        fs::write(config, text).unwrap();
+    for (robot, unit) in [(ARI, port), (GO2, port + 1)] {
+        street.link(robot, &format!("unit = \"127.0.0.1:{unit}\""));
     }
     street
 }

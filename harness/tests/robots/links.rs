@@ -4,16 +4,7 @@ use std::net::UdpSocket;
 
 use crossguard_testkit::command::*;
 
-use crate::street::{ARI, CROSS, GO2, PATIENCE, Street};
-
-/// Gives robots this link instead of their own.
-fn link(street: &Street, link: &str) {
-    for config in &street.configs {
-        let text = std::fs::read_to_string(config).unwrap();
-        let (robot, _) = text.split_once("[link]").unwrap();
-        std::fs::write(config, format!("{robot}[link]\n{link}")).unwrap();
-    }
-}
+use crate::street::{ARI, CROSS, GO2, Street};
 
 #[test]
 fn two_robots_cross_by_multicast_behind_an_ethernet_header_and_signed() {
@@ -23,7 +14,9 @@ fn two_robots_cross_by_multicast_behind_an_ethernet_header_and_signed() {
     let group = format!(
         "multicast = \"239.118.50.17:{port}\"\ninterface = \"lo\"\nframing = \"ethernet\"\n"
     );
-    link(&street, &group);
+    for robot in [ARI, GO2] {
+        street.link(robot, &group);
+    }
     let pki = street.path("pki");
     assert!(run(&["pki", "init", &pki]).status.success());
     street.start(&["--security", "enforce", "--pki", &pki]);
@@ -43,8 +36,8 @@ fn two_robots_cross_by_multicast_behind_an_ethernet_header_and_signed() {
 fn datagrams_without_the_ethernet_header_that_the_link_has_are_counted_by_cause() {
     let street = Street::new(&[]);
     let port = free_ports(1);
-    link(
-        &street,
+    street.link(
+        ARI,
         &format!("address = \"127.0.0.1:{port}\"\npeers = []\nframing = \"ethernet\"\n"),
     );
     let mut robot = Killed(start(&street.configs[ARI]));
@@ -54,8 +47,7 @@ fn datagrams_without_the_ethernet_header_that_the_link_has_are_counted_by_cause(
         socket.send_to(datagram, ("127.0.0.1", port)).unwrap();
     }
     street.until(ARI, "no Ethernet header");
-    type_to(&mut robot.0, "quit\n");
-    assert_eq!(wait_for(&mut robot.0, PATIENCE).code(), Some(0));
+    quit(&mut robot.0);
     let last = records(&street.log(ARI)).pop().unwrap();
     let counted = &last["counters"]["link"];
     assert_eq!(counted["another ethertype"], 2, "{last}");
@@ -75,8 +67,8 @@ fn a_robot_that_others_can_reach_says_so_unless_it_verifies() {
     };
     assert_eq!(warned(&[]), "");
     let port = free_ports(1);
-    link(
-        &street,
+    street.link(
+        ARI,
         &format!("address = \"0.0.0.0:{port}\"\npeers = [\"192.0.2.1:47411\"]\n"),
     );
     let expected = format!("warning: packets on 0.0.0.0:{port} are neither signed nor verified");

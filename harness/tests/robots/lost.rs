@@ -21,10 +21,18 @@ struct Row {
     lacks: [&'static [&'static str]; 2],
 }
 
+/// A row that says nothing.
+const ROW: Row = Row {
+    what: "",
+    lose: |_| (),
+    guard_leaves: false,
+    has: [&[], &[]],
+    lacks: [&[], &[]],
+};
+
 const ROWS: [Row; 7] = [
     Row {
         what: "the leader is killed and boots again",
-        guard_leaves: false,
         lose: |street| {
             street.signal(ARI, "-KILL");
             street.until(GO2, "contactLost");
@@ -34,11 +42,10 @@ const ROWS: [Row; 7] = [
             street.until(ARI, "taskCompleted");
         },
         has: [&["taskCompleted"], &["fallBack"]],
-        lacks: [&[], &[]],
+        ..ROW
     },
     Row {
         what: "the follower is killed and boots again",
-        guard_leaves: false,
         lose: |street| {
             street.signal(GO2, "-KILL");
             street.until(ARI, "noFollowers");
@@ -49,11 +56,10 @@ const ROWS: [Row; 7] = [
             street.until(ARI, "taskCompleted");
         },
         has: [&["corridorClosed", "leaseExpired"], &["taskCompleted"]],
-        lacks: [&[], &[]],
+        ..ROW
     },
     Row {
         what: "the leader hangs for longer than its sign may show go",
-        guard_leaves: false,
         lose: |street| {
             street.signal(ARI, "-STOP");
             street.until(GO2, "contactLost");
@@ -63,11 +69,10 @@ const ROWS: [Row; 7] = [
             &["corridorClosed", "waited too long"],
             &["fallBack", "contactLost"],
         ],
-        lacks: [&[], &[]],
+        ..ROW
     },
     Row {
         what: "the follower hangs for a moment",
-        guard_leaves: false,
         lose: |street| {
             street.signal(GO2, "-STOP");
             std::thread::sleep(Duration::from_millis(400));
@@ -76,10 +81,10 @@ const ROWS: [Row; 7] = [
         },
         has: [&[], &["waited too long"]],
         lacks: [&[], &["fallBack"]],
+        ..ROW
     },
     Row {
         what: "the leader is told to stop",
-        guard_leaves: false,
         lose: |street| street.signal(ARI, "-TERM"),
         has: [
             &["leaveRequested", "corridorClosed"],
@@ -87,16 +92,17 @@ const ROWS: [Row; 7] = [
         ],
         // Released by name, not by silence.
         lacks: [&[], &["contactLost"]],
+        ..ROW
     },
     Row {
         what: "the leader is interrupted",
-        guard_leaves: false,
         lose: |street| street.signal(ARI, "-INT"),
         has: [
             &["leaveRequested", "corridorClosed"],
             &["fallBack", "sessionEnded"],
         ],
         lacks: [&[], &["contactLost"]],
+        ..ROW
     },
     Row {
         what: "the follower is told to stop",

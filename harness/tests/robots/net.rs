@@ -81,17 +81,15 @@ fn cross(options: &str, typed: &str, links: Option<[&str; 2]>) -> Option<[String
     let tried = hosts(&["try"]);
     if !tried.status.success() {
         let why = stderr(&tried);
+        let why = why.trim();
         skipped(&format!(
-            "this machine permits no network namespaces: {}",
-            why.trim()
+            "this machine permits no network namespaces: {why}"
         ));
         return None;
     }
     let street = Street::new(&[("speed = 40.0", "speed = 4.0")]);
-    for (config, link) in street.configs.iter().zip(links.into_iter().flatten()) {
-        let text = fs::read_to_string(config).unwrap();
-        let (robot, _) = text.split_once("[link]").unwrap();
-        fs::write(config, format!("{robot}[link]\n{link}\n")).unwrap();
+    for (robot, link) in links.into_iter().flatten().enumerate() {
+        street.link(robot, link);
     }
     let pki = street.path("pki");
     let made = run(&["pki", "init", &pki, "--robot", "ARI=1", "--robot", "Go2=2"]);

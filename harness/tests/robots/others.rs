@@ -1,7 +1,7 @@
 //! Stations of others on the link of a robot that runs: their CAM, VAM and CPM, as independent encoders made them, and
 //! garbage.
 
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{BufRead, BufReader, Write};
 use std::net::{TcpStream, UdpSocket};
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
@@ -69,12 +69,9 @@ impl Running {
 
     fn scrape(&self) -> String {
         let mut client = TcpStream::connect(&self.metrics).unwrap();
-        client
-            .write_all(b"GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n")
-            .unwrap();
-        let mut answer = String::new();
-        client.read_to_string(&mut answer).unwrap();
-        answer
+        let request = b"GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n";
+        client.write_all(request).unwrap();
+        std::io::read_to_string(client).unwrap()
     }
 }
 
@@ -94,9 +91,8 @@ fn stations_of_others_are_in_status_metrics_and_log_and_what_outlived_its_lifeti
     let mut robot = Running::start(config, &log);
     let station = UdpSocket::bind("127.0.0.1:0").unwrap();
     let send = |packet: &[u8]| {
-        station
-            .send_to(packet, ("127.0.0.1", port_of(config)))
-            .unwrap()
+        let robot = ("127.0.0.1", port_of(config));
+        station.send_to(packet, robot).unwrap()
     };
     let others = [
         packet(golden::ITS, "C2", 2_001, 100),
@@ -113,34 +109,24 @@ fn stations_of_others_are_in_status_metrics_and_log_and_what_outlived_its_lifeti
     }
     let scraped = robot.scrape();
     type_to(&mut robot.child, "status\nquit\n");
-    let said: Vec<_> = robot.lines.collect();
-    let said = said.join("\n");
-    assert_eq!(
-        wait_for(&mut robot.child, PATIENCE).code(),
-        Some(0),
-        "{said}"
-    );
+    let said = robot.lines.collect::<Vec<_>>().join("\n");
+    let status = wait_for(&mut robot.child, PATIENCE);
+    assert_eq!(status.code(), Some(0), "{said}");
 
     let heard = format!("heard {TIMES} CAM, {} VAM, {TIMES} CPM", 2 * TIMES);
-    for (text, part) in [
-        (&said, &*heard),
-        (&said, "of 4 stations"),
+    said.must_have(&[
+        &heard,
+        "of 4 stations",
         // A station, and what another one perceives; one by itself, and a cluster.
-        (&said, "2 vehicles (nearest station 100 at 0.0 m, oldest "),
-        (&said, "2 vulnerable road users (nearest "),
-        (&said, "; channel: nobody measures it"),
-        (&scraped, "crossguard_stations_heard{robot=\"ARI\"} 4"),
-        (
-            &scraped,
-            "crossguard_around{robot=\"ARI\",kind=\"vehicle\"} 2",
-        ),
-        (
-            &scraped,
-            "crossguard_around{robot=\"ARI\",kind=\"vulnerable road user\"} 2",
-        ),
-    ] {
-        assert!(text.contains(part), "'{part}' is not in:\n{text}");
-    }
+        "2 vehicles (nearest station 100 at 0.0 m, oldest ",
+        "2 vulnerable road users (nearest ",
+        "; channel: nobody measures it",
+    ]);
+    scraped.must_have(&[
+        "crossguard_stations_heard{robot=\"ARI\"} 4",
+        "crossguard_around{robot=\"ARI\",kind=\"vehicle\"} 2",
+        "crossguard_around{robot=\"ARI\",kind=\"vulnerable road user\"} 2",
+    ]);
     in_log(&std::fs::read_to_string(&log).unwrap());
     assert_valid([log.into()].into_iter());
 }
@@ -169,10 +155,8 @@ fn in_log(log: &str) {
     let octets = golden::vector(golden::VAM, "V3").replacen("075bcd15", "0000012c", 1);
     assert_eq!(vam["octets"], octets);
     // What goes by the robot's own station id is not heard, and counted.
-    let dropped = of("dropped")
-        .into_iter()
-        .map(|it| it["cause"].as_str().unwrap());
-    let dropped: Vec<_> = dropped.collect();
+    let dropped = of("dropped").into_iter();
+    let dropped: Vec<_> = dropped.map(|it| it["cause"].as_str().unwrap()).collect();
     assert_eq!(dropped, ["message of the own station"; TIMES]);
 }
 
@@ -205,11 +189,8 @@ fn garbage_does_not_fill_the_disk_and_every_piece_of_it_is_counted() {
     assert!(counted > 1_000, "{counted} arrived");
     // Of each cause so many in a second; these have up to three.
     let of = |entry: &str| records.iter().filter(|it| it["entry"] == entry).count() as u64;
-    assert!(
-        of("dropped") <= 3 * 32 * seconds,
-        "{} in {seconds} s",
-        of("dropped")
-    );
+    let dropped = of("dropped");
+    assert!(dropped <= 3 * 32 * seconds, "{dropped} in {seconds} s");
     assert!(of("unrecorded") >= 1);
     assert_valid([log.into()].into_iter());
 }

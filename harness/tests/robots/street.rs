@@ -57,6 +57,14 @@ impl Street {
         street
     }
 
+    /// Gives a robot this link instead of its own.
+    pub(crate) fn link(&self, robot: usize, link: &str) {
+        let text = fs::read_to_string(&self.configs[robot]).unwrap();
+        let (before, _) = text.split_once("[link]").unwrap();
+        let text = format!("{before}[link]\n{link}\n");
+        fs::write(&self.configs[robot], text).unwrap();
+    }
+
     /// Starts both, with these arguments.
     pub(crate) fn start(&mut self, arguments: &[&str]) {
         let starts = self.configs.iter().map(|it| start_with(it, arguments));
@@ -84,11 +92,8 @@ impl Street {
     pub(crate) fn until(&self, robot: usize, what: &str) {
         let deadline = Instant::now() + PATIENCE;
         while !self.log(robot).contains(what) {
-            assert!(
-                Instant::now() < deadline,
-                "no '{what}' in:\n{}",
-                self.log(robot)
-            );
+            let log = self.log(robot);
+            assert!(Instant::now() < deadline, "no '{what}' in:\n{log}");
             std::thread::sleep(Duration::from_millis(20));
         }
     }

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use crossguard_testkit::command::*;
 
-use crate::street::{ARI, CROSS, GO2, PATIENCE, Street};
+use crate::street::{ARI, CROSS, GO2, Street};
 
 #[test]
 fn a_person_types_every_step_and_reads_what_happens() {
@@ -17,10 +17,8 @@ fn a_person_types_every_step_and_reads_what_happens() {
     let script = "wait 0.5\ndetect 1 high block # a child\nuntil role-established\nwait 0.4\n\
                   order 2 block\nuntil maneuver-executing\nopen\nwait 0.2\nstatus\nclose\n\
                   task-completed\nuntil idle\nquit\n";
-    let output = run_with(
-        &["run", "--config", &street.configs[ARI]],
-        script.as_bytes(),
-    );
+    let run = ["run", "--config", &street.configs[ARI]];
+    let output = run_with(&run, script.as_bytes());
     let text = stdout(&output);
     assert_code(&output, 0);
     text.must_have(&[
@@ -35,8 +33,7 @@ fn a_person_types_every_step_and_reads_what_happens() {
     ]);
     // Nothing is told on standard error that was not asked for.
     assert_eq!(stderr(&output), "");
-    type_to(&mut go2.0, "quit\n");
-    assert_eq!(wait_for(&mut go2.0, PATIENCE).code(), Some(0));
+    quit(&mut go2.0);
 }
 
 #[test]
@@ -49,21 +46,14 @@ fn a_script_that_waits_in_vain_fails_and_a_mistake_is_refused_at_its_line() {
     let text = stdout(&output);
     let expected = "RoleEstablished was not reached in time; the state is Idle";
     text.must_have(&[expected]);
-    assert_refused(
-        &typed("detect\nfly\n"),
-        "'fly': no command 'fly'; type 'help'",
-    );
+    let unknown = "'fly': no command 'fly'; type 'help'";
+    assert_refused(&typed("detect\nfly\n"), unknown);
     assert_refused(&typed("{\"id\": 1}\n"), "missing field `position_m`");
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = taken.local_addr().unwrap().to_string();
-    let metrics = [
-        "run",
-        "--config",
-        &street.configs[ARI],
-        "--metrics",
-        &address,
-    ];
-    assert_refused(&run(&metrics), &format!("--metrics {address}: "));
+    let ari = &street.configs[ARI];
+    let run = run_line(&format!("run --config {ari} --metrics {address}"));
+    assert_refused(&run, &format!("--metrics {address}: "));
 }
 
 #[test]
@@ -74,15 +64,11 @@ fn two_processes_of_one_robot_are_refused() {
     street.until(ARI, "\"started\"");
     assert_refused(&run(&["run", "--config", config]), "is in use");
     // Also when the second one would listen elsewhere.
-    let text = std::fs::read_to_string(config).unwrap();
-    let (robot, _) = text.split_once("[link]").unwrap();
-    let moved = format!("{robot}[link]\naddress = \"127.0.0.1:0\"\npeers = []\n");
-    std::fs::write(config, moved).unwrap();
+    street.link(ARI, "address = \"127.0.0.1:0\"\npeers = []");
     let second = run(&["run", "--config", config]);
     let cause = "is in use by another process: one robot, one process";
     assert_refused(&second, cause);
-    type_to(&mut first.0, "quit\n");
-    assert_eq!(wait_for(&mut first.0, PATIENCE).code(), Some(0));
+    quit(&mut first.0);
     let counter = std::fs::read_to_string(street.path("ARI.boot")).unwrap();
     assert_eq!(counter, "crossguard boot counter 1\n");
 }
@@ -103,9 +89,8 @@ fn what_a_robot_drops_is_told_with_its_cause_and_a_status_line_counts_it() {
     let own = text.split("address = \"").nth(1).unwrap();
     for _ in 0..6 {
         std::thread::sleep(Duration::from_millis(300));
-        stranger
-            .send_to(&[0xA5; 80], own.split('"').next().unwrap())
-            .unwrap();
+        let own = own.split('"').next().unwrap();
+        stranger.send_to(&[0xA5; 80], own).unwrap();
     }
     type_to(&mut robot, "leave\nquit\n");
     let output = robot.wait_with_output().unwrap();
@@ -131,10 +116,8 @@ fn after_an_emergency_stop_of_a_follower_nothing_more_is_commanded() {
     let log = street.log(ARI);
     let (_, after) = log.split_once("maneuverFailed").expect("it fails");
     for output in ["corridorOpened", "sendRmcm", "commandManeuver"] {
-        assert!(
-            !after.contains(&format!("\"{output}\"")),
-            "{output}: {after}"
-        );
+        let is_there = after.contains(&format!("\"{output}\""));
+        assert!(!is_there, "{output}: {after}");
     }
 }
 
@@ -172,13 +155,8 @@ fn a_stolen_robot_is_put_on_the_list_and_nobody_hears_it_any_more() {
 fn a_robot_whose_log_cannot_be_written_crosses_all_the_same_and_says_so() {
     let street = Street::new(&[]);
     let mut go2 = Killed(start(&street.configs[GO2]));
-    let arguments = [
-        "run",
-        "--config",
-        &street.configs[ARI],
-        "--log",
-        "/dev/full",
-    ];
+    let ari = &street.configs[ARI];
+    let arguments = ["run", "--config", ari, "--log", "/dev/full"];
     let output = run_with(&arguments, format!("{CROSS}quit\n").as_bytes());
     let (said, error) = (stdout(&output), stderr(&output));
     assert!(
@@ -187,18 +165,15 @@ fn a_robot_whose_log_cannot_be_written_crosses_all_the_same_and_says_so() {
     );
     error.must_have(&["/dev/full: No space left on device", "the robot goes on"]);
     assert_eq!(output.status.code(), Some(3), "the log is incomplete");
-    type_to(&mut go2.0, "quit\n");
-    assert_eq!(wait_for(&mut go2.0, PATIENCE).code(), Some(0));
+    quit(&mut go2.0);
 }
 
 #[test]
 fn two_processes_block_both_directions_by_the_plan_of_the_demonstration() {
     let mut street = Street::new(&[("autopilot = true\n", ""), ("speed = 40.0", "speed = 20.0")]);
     let place = |place: &str| format!("place = {place}\nboot_file");
-    edit(
-        &street.configs[ARI],
-        &[("boot_file", &place("[-4.0, -0.8]"))],
-    );
+    let first = [("boot_file", &*place("[-4.0, -0.8]"))];
+    edit(&street.configs[ARI], &first);
     let second = [
         ("\"Go2\"", "\"ARI-2\""),
         ("station = 2", "station = 3"),

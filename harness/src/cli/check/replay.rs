@@ -12,10 +12,8 @@ use super::untimed;
 
 /// The run in `file`.
 pub(in crate::cli) fn read(file: &Path) -> Result<Replay, Failure> {
-    let cannot =
-        |cause: &dyn std::fmt::Display| Failure::input(format!("{}: {cause}", file.display()));
-    let text = std::fs::read_to_string(file).map_err(|cause| cannot(&cause))?;
-    serde_json::from_str(&text).map_err(|cause| cannot(&cause))
+    let text = std::fs::read_to_string(file).map_err(Failure::at(file))?;
+    serde_json::from_str(&text).map_err(Failure::at(file))
 }
 
 /// Follows the run in `file`.

@@ -248,7 +248,7 @@ impl Matrix {
 fn read(path: &PathBuf) -> Result<Traces, Failure> {
     let file = File::open(path).map_err(crossguard_evaluation::trace::TraceError::from);
     let traces = file.and_then(Traces::read);
-    traces.map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
+    traces.map_err(Failure::at(path))
 }
 
 /// What the results depend on besides robots, people and radius.
