@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use crate::steps::{NotStarted, Step, run};
+use crate::steps::{NotStarted, run};
 
 /// Files, folders and parts of files, and the command that writes each. Sources first: what follows from other files comes
 /// after them.
@@ -48,9 +48,8 @@ pub(crate) fn bless(root: &Path, part: &str) -> Result<bool, NotStarted> {
     let mut is_ok = true;
     for (path, by) in generated().filter(|(path, _)| path.contains(part)) {
         if !done.contains(&by) {
-            let step = Step::new(path, by).with("CROSSGUARD_BLESS", "1");
-            let step = step.with("TRYCMD", "overwrite");
-            is_ok &= run(root, &step)?;
+            let bless = [("CROSSGUARD_BLESS", "1"), ("TRYCMD", "overwrite")];
+            is_ok &= run(root, (path, by), &bless)?;
             done.push(by);
         }
     }

@@ -12,45 +12,27 @@ pub(crate) struct NotStarted {
     cause: std::io::Error,
 }
 
-/// A program to run from the root of the workspace, with its arguments, by single spaces.
-pub(crate) struct Step<'a> {
-    name: &'a str,
-    command: &'a str,
-    environment: Vec<(&'a str, &'a str)>,
-}
-
-impl<'a> Step<'a> {
-    pub(crate) fn new(name: &'a str, command: &'a str) -> Self {
-        Self {
-            name,
-            command,
-            environment: Vec::new(),
-        }
-    }
-
-    /// With a variable in its environment.
-    pub(crate) fn with(mut self, name: &'a str, value: &'a str) -> Self {
-        self.environment.push((name, value));
-        self
-    }
-}
-
-/// Whether the program succeeds.
-pub(crate) fn run(root: &Path, step: &Step) -> Result<bool, NotStarted> {
-    println!("== {}: {}", step.name, step.command);
-    let mut words = step.command.split(' ');
+/// Whether a command succeeds that is run from the root of the workspace, its words parted by single spaces, with these
+/// variables in its environment.
+pub(crate) fn run(
+    root: &Path,
+    (name, line): (&str, &str),
+    environment: &[(&str, &str)],
+) -> Result<bool, NotStarted> {
+    println!("== {name}: {line}");
+    let mut words = line.split(' ');
     let program = words.next().unwrap_or_default();
     let began = Instant::now();
     let mut command = Command::new(program);
     command.args(words).current_dir(root);
-    command.envs(step.environment.iter().copied());
+    command.envs(environment.iter().copied());
     let status = command.status().map_err(|cause| NotStarted {
         program: program.to_owned(),
         cause,
     })?;
     let verdict = if status.success() { "passed" } else { "FAILED" };
     let seconds = began.elapsed().as_secs();
-    println!("== {}: {verdict}, {seconds} s", step.name);
+    println!("== {name}: {verdict}, {seconds} s");
     Ok(status.success())
 }
 
@@ -69,8 +51,8 @@ pub(crate) fn quick(root: &Path) -> Result<bool, NotStarted> {
         ("check", "cargo run --quiet --locked -- check crossing"),
     ];
     let mut is_ok = true;
-    for (name, command) in steps {
-        is_ok &= run(root, &Step::new(name, command))?;
+    for step in steps {
+        is_ok &= run(root, step, &[])?;
     }
     let verdict = if is_ok { "passed" } else { "FAILED" };
     println!("quick: {verdict}, {} s", began.elapsed().as_secs());
@@ -79,5 +61,5 @@ pub(crate) fn quick(root: &Path) -> Result<bool, NotStarted> {
 
 /// Checks everything.
 pub(crate) fn full(root: &Path) -> Result<bool, NotStarted> {
-    run(root, &Step::new("full", ".ci/run"))
+    run(root, ("full", ".ci/run"), &[])
 }

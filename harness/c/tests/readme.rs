@@ -13,22 +13,17 @@ fn block(page: &str, language: &str) -> String {
     block.split_once("```").expect("it ends").0.to_owned()
 }
 
-fn assert_compiles(test: &str, language: Language, file: &str, code: &str) {
+fn assert_compiles(language: Language, file: &str, code: &str) {
     let source = Path::new(env!("CARGO_TARGET_TMPDIR")).join(file);
     std::fs::write(&source, code).unwrap();
-    compile_to_object(test, language, &source);
+    compile_to_object(file, language, &source);
 }
 
 #[test]
 fn the_readmes_robot_compiles() {
     let code = block(include_str!("../README.md"), "cpp");
     let code = format!("{}\n{code}", include_str!("readme.hpp"));
-    assert_compiles(
-        "the_readmes_robot_compiles",
-        Language::Cpp,
-        "readme.cpp",
-        &code,
-    );
+    assert_compiles(Language::Cpp, "readme.cpp", &code);
 }
 
 #[test]
@@ -41,12 +36,7 @@ fn the_robot_of_the_front_page_compiles() {
          int step(uint16_t boot, uint32_t elapsed_ms) {{\n{}return 0;\n}}\n",
         block(&page, "c")
     );
-    assert_compiles(
-        "the_robot_of_the_front_page_compiles",
-        Language::C,
-        "front_page.c",
-        &code,
-    );
+    assert_compiles(Language::C, "front_page.c", &code);
 }
 
 #[test]

@@ -14,7 +14,7 @@ use crossguard_conform::statements::Statement;
 use crossguard_conform::subject::{Gone, Subject as _};
 use crossguard_protocol::StationId;
 use crossguard_robot::robot_file::RobotFile;
-use crossguard_robot::transport::{Framing, Link, Transport as _};
+use crossguard_robot::transport::{Link, Transport as _};
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
 use super::interrupts::interrupts;
@@ -135,33 +135,23 @@ fn events(arguments: &Arguments) -> Events {
 fn reach(arguments: &Arguments) -> Result<(Link, Table), Failure> {
     let file = arguments.config.as_deref().map(RobotFile::read).transpose();
     let file = file.map_err(Failure::input)?;
+    let file = file.as_ref();
     let missing =
         |what: &str| Failure::input(format!("{what} is wanted, or a --config that says it"));
     // The tester is the robot's peer.
-    let turned = match file.as_ref().map(|file| &file.link) {
+    let turned = match file.map(|file| &file.link) {
         Some(Link::Peers { address, peers, .. }) => (peers.first().copied(), Some(*address)),
         _ => (None, None),
     };
-    let framing = file
-        .as_ref()
-        .map_or(Framing::default(), |file| file.link.framing());
-    let address = arguments
-        .address
-        .or(turned.0)
-        .ok_or_else(|| missing("--address"))?;
-    let peer = arguments
-        .peer
-        .or(turned.1)
-        .ok_or_else(|| missing("--peer"))?;
-    let station = arguments
-        .station
-        .map(StationId)
-        .or(file.as_ref().map(|file| file.station));
+    let framing = file.map(|file| file.link.framing()).unwrap_or_default();
+    let address = arguments.address.or(turned.0);
+    let address = address.ok_or_else(|| missing("--address"))?;
+    let peer = arguments.peer.or(turned.1);
+    let peer = peer.ok_or_else(|| missing("--peer"))?;
+    let station = arguments.station.map(StationId);
+    let station = station.or(file.map(|file| file.station));
     let robot = station.ok_or_else(|| missing("--station"))?;
-    let identifiers = file
-        .as_ref()
-        .map(|file| file.identifiers)
-        .unwrap_or_default();
+    let identifiers = file.map(|file| file.identifiers).unwrap_or_default();
     let securities = arguments.security.of_robots(&NAMES)?;
     let ids = [StationId(arguments.tester), StationId(arguments.tester + 1)];
     let players = [0, 1].map(|i| match securities.get(i) {
@@ -175,9 +165,8 @@ fn reach(arguments: &Arguments) -> Result<(Link, Table), Failure> {
     }
     let mut envelopes = securities.into_iter().map(|security| security.envelope);
     let envelopes = [(); 2].map(|()| envelopes.next().unwrap_or(Envelope::Off));
-    let settings = file
-        .map(|file| file.config.settings().clone())
-        .unwrap_or_default();
+    let settings = file.map(|file| file.config.settings().clone());
+    let settings = settings.unwrap_or_default();
     let link = Link::Peers {
         address,
         peers: vec![peer],

@@ -19,10 +19,7 @@ pub(super) fn speed(text: &str) -> Result<f64, String> {
 
 /// A number from `min` to `max`; `why` not less or more.
 pub(super) fn in_range(text: &str, min: f64, max: f64, why: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if (min..=max).contains(&value) => Ok(value),
-        _ => Err(format!("a number from {min} to {max} is wanted ({why})")),
-    }
+    number(min..=max)(text).map_err(|wanted| format!("{wanted} ({why})"))
 }
 
 /// Takes a number of this range.

@@ -58,16 +58,11 @@ impl WatchArguments {
     pub(super) fn begin(&self, link: String, security: &'static str) -> Result<Watch, Failure> {
         let tally = Shared::default();
         tally.with(|tally| (tally.link, tally.security) = (link, security));
-        let metrics = match self.metrics {
-            None => None,
-            Some(address) => {
-                let served = metrics::serve(address, tally.clone());
-                Some(
-                    served
-                        .map_err(|error| Failure::Input(format!("--metrics {address}: {error}")))?,
-                )
-            }
+        let serve = |address| {
+            metrics::serve(address, tally.clone())
+                .map_err(|error| Failure::Input(format!("--metrics {address}: {error}")))
         };
+        let metrics = self.metrics.map(serve).transpose()?;
         let is_terminal = std::io::stderr().is_terminal();
         let is_shown = match self.status {
             // It would be drawn over the line that is typed.

@@ -29,27 +29,23 @@ impl Run {
             result: Value::Null,
         };
         let pki = made.path("pki");
-        let init = ["pki", "init", &pki, "--robot", "ARI=1", "--robot", "Go2=2"];
-        assert!(run(&init).status.success());
+        run_well(&format!("pki init {pki} --robot ARI=1 --robot Go2=2"));
         let people = (0..120).map(|n| {
             let (at_s, id) = (f64::from(n / 3) / 10.0, n % 3 + 1);
             format!("{{\"at_s\": {at_s}, \"id\": {id}, \"position_m\": [{id}.0, 2.0]}}\n")
         });
         std::fs::write(made.path("people"), people.collect::<String>()).unwrap();
-        let mut demo = crossguard(&["demo", "--speed", "10", "--json", "--port"]);
-        demo.arg(two_free_ports().to_string());
-        demo.args(["--security", "enforce", "--cam", "--cluster-vam"]);
-        for (option, name) in [
-            ("--pki", "pki"),
-            ("--perceived", "people"),
-            ("--pcap", "pcap"),
-            ("--log", "log"),
-            ("--report", "page"),
-        ] {
-            demo.arg(option).arg(made.path(name));
-        }
-        let output = demo.output().unwrap();
-        assert_code(&output, 0);
+        let sends = "--security enforce --cam --cluster-vam";
+        let demo = format!("demo --speed 10 --json --port {} {sends}", two_free_ports());
+        let files = [
+            ("pki", "pki"),
+            ("perceived", "people"),
+            ("pcap", "pcap"),
+            ("log", "log"),
+            ("report", "page"),
+        ];
+        let files = files.map(|(option, name)| format!("--{option} {}", made.path(name)));
+        let output = run_well(&format!("{demo} {}", files.join(" ")));
         made.result = json(&output);
         made
     }
@@ -58,20 +54,21 @@ impl Run {
         self.folder.path().join(name).display().to_string()
     }
 
-    /// What `sniff --json` says of the packets.
-    fn sniffed(&self, arguments: &[&str]) -> Vec<Value> {
+    /// The records of the log.
+    fn log(&self) -> Vec<Value> {
+        records(&std::fs::read_to_string(self.path("log")).unwrap())
+    }
+
+    /// What `sniff --json` says of the packets, with more arguments.
+    fn sniffed(&self, arguments: &str) -> Vec<Value> {
         sniffed(&self.path("pcap"), arguments)
     }
 }
 
-fn sniffed(pcap: &str, arguments: &[&str]) -> Vec<Value> {
-    let output = run(&[&["sniff", "--json", pcap], arguments].concat());
-    assert_code(&output, 0);
-    let lines = stdout(&output);
-    lines
-        .lines()
-        .map(|line| serde_json::from_str(line).unwrap())
-        .collect()
+fn sniffed(pcap: &str, arguments: &str) -> Vec<Value> {
+    records(&stdout(&run_well(&format!(
+        "sniff --json {pcap} {arguments}"
+    ))))
 }
 
 #[test]
@@ -79,24 +76,21 @@ fn every_reader_says_the_same_of_one_run() {
     let run = Run::new();
     the_log_has_every_step(&run);
     all_names_are_in_camel_case(&run);
-    let seen = run.sniffed(&[]);
+    let seen = run.sniffed("");
     a_sniffer_sees_both_robots(&run, &seen);
     signatures_are_verified_where_roots_are_given(&run, &seen);
     people_are_announced_by_one_robot(&seen);
     a_packet_is_decoded_and_a_message_comes_back(&run);
     wireshark_takes_all_apart(&run, &seen);
-    assert!(
-        std::fs::read_to_string(run.path("page"))
-            .unwrap()
-            .contains("</html>")
-    );
+    let page = std::fs::read_to_string(run.path("page")).unwrap();
+    assert!(page.contains("</html>"));
 }
 
 fn the_log_has_every_step(of: &Run) {
     assert_eq!(of.result["traceValid"], true, "{}", of.result);
     let log = trace::open(Path::new(&of.path("log"))).unwrap();
     let validated = validate::all(vec![log]).unwrap();
-    let records = records(&std::fs::read_to_string(of.path("log")).unwrap());
+    let records = of.log();
     let count = |entry: &str| records.iter().filter(|it| it["entry"] == entry).count();
     assert_eq!(count("step"), validated.steps);
     assert_eq!(of.result["trace"]["steps"], validated.steps);
@@ -108,7 +102,7 @@ fn the_log_has_every_step(of: &Run) {
 
 /// In the log, in what everything can be told and say, and in the figures of a run; robots and causes are no names.
 fn all_names_are_in_camel_case(of: &Run) {
-    let mut values = records(&std::fs::read_to_string(of.path("log")).unwrap());
+    let mut values = of.log();
     values.extend(Event::SAMPLES.iter().map(|it| json!(it)));
     values.extend(Output::SAMPLES.iter().map(|it| json!(it)));
     values.push(of.result.clone());
@@ -136,16 +130,10 @@ fn others_than_camel_case(value: &Value) -> Vec<String> {
 }
 
 fn a_sniffer_sees_both_robots(of: &Run, seen: &[Value]) {
-    let kinds: BTreeSet<_> = seen
-        .iter()
-        .map(|it| format!("{} {}", it["kind"], it["station"]))
-        .collect();
     for kind in ["RAM", "RMCM", "CAM"] {
         for station in [1, 2] {
-            assert!(
-                kinds.contains(&format!("\"{kind}\" {station}")),
-                "{kinds:?}"
-            );
+            let is_it = |it: &Value| it["kind"] == kind && it["station"] == station;
+            assert!(seen.iter().any(is_it), "{kind} {station}: {seen:?}");
         }
     }
     let lines = stdout(&run(&["sniff", &of.path("pcap")]));
@@ -155,7 +143,7 @@ fn a_sniffer_sees_both_robots(of: &Run, seen: &[Value]) {
         "leader 1#",
         "around: robot station 2",
     ]);
-    assert_eq!(of.sniffed(&["--count", "3"]).len(), 3);
+    assert_eq!(of.sniffed("--count 3").len(), 3);
 }
 
 fn signatures_are_verified_where_roots_are_given(of: &Run, seen: &[Value]) {
@@ -166,24 +154,22 @@ fn signatures_are_verified_where_roots_are_given(of: &Run, seen: &[Value]) {
     let other = of.path("other");
     assert!(run(&["pki", "init", &other]).status.success());
     for (roots, is_verified) in [(&of.path("pki"), true), (&other, false)] {
-        for it in of.sniffed(&["--trust", roots]) {
+        for it in of.sniffed(&format!("--trust {roots}")) {
             assert_eq!(it["signature"]["isVerified"], is_verified, "{it}");
         }
     }
     // The times in a capture are those of several threads.
     let disordered = of.path("disordered");
     let copy = Capture::create(Path::new(&disordered)).unwrap();
-    for (n, it) in capture::read(Path::new(&of.path("pcap")))
-        .unwrap()
-        .enumerate()
-    {
+    let captured = capture::read(Path::new(&of.path("pcap"))).unwrap();
+    for (n, it) in captured.enumerate() {
         let captured = it.unwrap();
         let early = Duration::from_millis(if n % 2 == 1 { 20 } else { 0 });
         let at = captured.at.checked_sub(early).unwrap();
         copy.record_at(at, &captured.packet);
     }
     copy.finish().unwrap();
-    for it in sniffed(&disordered, &["--trust", &of.path("pki")]) {
+    for it in sniffed(&disordered, &format!("--trust {}", of.path("pki"))) {
         assert_eq!(it["signature"]["isVerified"], true, "{it}");
     }
 }
@@ -216,7 +202,7 @@ fn a_packet_is_decoded_and_a_message_comes_back(of: &Run) {
     let encoded = run_with(&["codec", "encode"], &decoded.stdout);
     assert_refused(&encoded, "nobody here has the key");
 
-    let log = records(&std::fs::read_to_string(of.path("log")).unwrap());
+    let log = of.log();
     let sent = log.iter().find(|it| it["message"] == "RMCM").unwrap();
     let digits = sent["octets"].as_str().unwrap();
     let decoded = decode(digits, &[]);
@@ -227,19 +213,13 @@ fn a_packet_is_decoded_and_a_message_comes_back(of: &Run) {
     let octets = run_with(&["codec", "encode", "--binary"], &decoded.stdout).stdout;
     let again = run_with(&["codec", "decode", "--binary"], &octets);
     assert_eq!(again.stdout, decoded.stdout);
-    for (digits, cause) in [
-        (&digits[..digits.len() - 8], "the message ends within it"),
-        (
-            &format!("{digits}00"),
-            "1 octets follow the end of the message",
-        ),
-        (
-            &format!("09{}", &digits[2..]),
-            "protocolVersion 9 of RMCM is unknown, 1 is known",
-        ),
-    ] {
-        assert_refused(&decode(digits, &[]), cause);
-    }
+    let refused = |digits: &str, cause| assert_refused(&decode(digits, &[]), cause);
+    let end = digits.len() - 8;
+    refused(&digits[..end], "the message ends within it");
+    let more = "1 octets follow the end of the message";
+    refused(&format!("{digits}00"), more);
+    let version = "protocolVersion 9 of RMCM is unknown, 1 is known";
+    refused(&format!("09{}", &digits[2..]), version);
 }
 
 /// What tshark prints of these fields with the kit's dissector, line by line; `None` where it is not installed.
@@ -312,27 +292,24 @@ fn a_station_that_does_not_know_ram_sees_a_robot_that_sends_cam() {
     let count = |seen: &[Value]| {
         let mut kinds = BTreeMap::new();
         for packet in seen {
-            *kinds
-                .entry(packet["kind"].as_str().unwrap().to_owned())
-                .or_insert(0) += 1;
+            let kind = packet["kind"].as_str().unwrap().to_owned();
+            *kinds.entry(kind).or_insert(0) += 1;
         }
         kinds
     };
     // Who stands still sends one a second. Its RAM are known by those who have its identifiers.
-    let strangers = count(&sniffed(&pcap, &[]));
-    let friends = count(&sniffed(&pcap, &["--config", &config]));
+    let strangers = count(&sniffed(&pcap, ""));
+    let friends = count(&sniffed(&pcap, &format!("--config {config}")));
     assert!((3..=5).contains(&strangers["CAM"]), "{strangers:?}");
     assert!(
         strangers["?"] >= 3 && strangers["?"] == friends["RAM"],
         "{strangers:?} {friends:?}"
     );
-    let seen = sniffed(&pcap, &["--config", &config]);
+    let seen = sniffed(&pcap, &format!("--config {config}"));
     let north_m = |kind: &str| {
         let packet = seen.iter().find(|it| it["kind"] == kind).unwrap();
-        packet["roadUsers"][0]["position"]["latitude"]
-            .as_f64()
-            .unwrap()
-            * 111_000.0
+        let position = &packet["roadUsers"][0]["position"];
+        position["latitude"].as_f64().unwrap() * 111_000.0
     };
     assert!((north_m("CAM") - north_m("RAM")).abs() < 0.5);
     let records = records(&std::fs::read_to_string(&log).unwrap());

@@ -1,6 +1,5 @@
 //! Settings that are varied, one by one or all together.
 
-use std::fmt;
 use std::str::FromStr;
 
 use crossguard_protocol::{BrokenInequality, Config, Inequality, Millis, Settings};
@@ -50,7 +49,7 @@ impl Knob {
 
 /// The longest lease, to 50 ms, that `t_safety` allows.
 fn longest_lease(settings: &Settings) -> Millis {
-    let leases = (1..=settings.t_safety.0 / 50).rev().map(|n| Millis(n * 50));
+    let mut leases = (1..=settings.t_safety.0 / 50).rev().map(|n| Millis(n * 50));
     let fits = |lease: &Millis| {
         let with = Settings {
             t_lease: *lease,
@@ -61,7 +60,6 @@ fn longest_lease(settings: &Settings) -> Millis {
             Err(BrokenInequality(Inequality::LeaseWithinSafety))
         )
     };
-    let mut leases = leases;
     leases.find(fits).unwrap_or(Millis(1))
 }
 
@@ -73,16 +71,13 @@ pub(super) struct Varied {
 }
 
 impl Varied {
-    /// The settings with each of the values.
-    pub(super) fn configs(&self, config: &Config) -> Result<Vec<Config>, VariedError> {
+    /// The settings with each of the values; or what is wrong with one that the other settings do not allow.
+    pub(super) fn configs(&self, config: &Config) -> Result<Vec<Config>, String> {
         let with = |&value: &u32| {
             let mut settings = config.settings().clone();
             self.knob.set(&mut settings, value);
-            Config::new(settings).map_err(|broken| VariedError {
-                knob: self.knob,
-                value,
-                broken,
-            })
+            let name = self.knob.name();
+            Config::new(settings).map_err(|broken| format!("{name}={value}: {broken}"))
         };
         self.values.iter().map(with).collect()
     }
@@ -111,20 +106,6 @@ impl FromStr for Varied {
     }
 }
 
-/// A value that the other settings do not allow.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) struct VariedError {
-    knob: Knob,
-    value: u32,
-    broken: BrokenInequality,
-}
-
-impl fmt::Display for VariedError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}={}: {}", self.knob.name(), self.value, self.broken)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -136,29 +117,19 @@ mod tests {
         assert_eq!(settings.t_lease, Millis(2_900));
         let varied: Varied = "t_safety=1000,2000".parse().unwrap();
         let configs = varied.configs(&Config::default()).unwrap();
-        let leases: Vec<_> = configs
-            .iter()
-            .map(|config| config.settings().t_lease.0)
-            .collect();
-        assert_eq!(leases, [900, 1_900]);
+        let leases = configs.iter().map(|it| it.settings().t_lease.0);
+        assert!(leases.eq([900, 1_900]));
     }
 
     #[test]
     fn a_value_that_breaks_an_inequality_is_refused_by_its_name() {
         let varied: Varied = "ram_period=700".parse().unwrap();
-        let error = varied.configs(&Config::default()).unwrap_err().to_string();
+        let error = varied.configs(&Config::default()).unwrap_err();
         assert!(
             error.starts_with("ram_period=700: ") && error.contains("heartbeats-within-lease"),
             "{error}"
         );
-        for bad in [
-            "",
-            "ram_period",
-            "ram_period=",
-            "t_help=1",
-            "n_ack=1.5",
-            "n_ack=1,",
-        ] {
+        for bad in ";ram_period;ram_period=;t_help=1;n_ack=1.5;n_ack=1,".split(';') {
             assert!(bad.parse::<Varied>().is_err(), "{bad}");
         }
     }

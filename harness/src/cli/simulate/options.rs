@@ -165,21 +165,14 @@ impl Matrix {
 
     /// The traces: files, fresh ones, or the shipped ones.
     pub(super) fn traces(&self, is_json: bool) -> Result<Vec<Traces>, Failure> {
-        let traces = if !self.traces.is_empty() {
-            self.traces
-                .iter()
-                .map(read)
-                .collect::<Result<Vec<_>, _>>()?
+        let people = self.pedestrians.iter();
+        let traces: Result<Vec<_>, Failure> = if !self.traces.is_empty() {
+            self.traces.iter().map(read).collect()
         } else if let Some(folder) = &self.sumo {
             let sumo = Sumo::in_folder(folder);
-            let fresh = |&pedestrians: &usize| {
-                let seeds: Vec<u64> = (self.first_seed..).take(self.seeds).collect();
-                self.record(&sumo, &self.plan(pedestrians), &seeds, is_json)
-            };
-            self.pedestrians
-                .iter()
-                .map(fresh)
-                .collect::<Result<Vec<_>, _>>()?
+            let seeds: Vec<u64> = (self.first_seed..).take(self.seeds).collect();
+            let fresh = |&it| self.record(&sumo, &self.plan(it), &seeds, is_json);
+            people.map(fresh).collect()
         } else {
             let shipped = |&pedestrians: &usize| match shipped::traces(self.preset, pedestrians) {
                 Some(traces) => traces.map_err(Failure::input),
@@ -188,11 +181,9 @@ impl Matrix {
                     shipped::PEDESTRIANS
                 ))),
             };
-            self.pedestrians
-                .iter()
-                .map(shipped)
-                .collect::<Result<Vec<_>, _>>()?
+            people.map(shipped).collect()
         };
+        let traces = traces?;
         let most = self.robots.iter().max().copied().unwrap_or(0);
         for traces in &traces {
             let stationing = self.stationing();
