@@ -102,10 +102,7 @@ fn a_check_ends_when_its_time_is_over_and_at_once_at_a_second_interrupt() {
 
 /// The command with its standard output on a disk that is full.
 fn to_a_full_disk(arguments: &[&str]) -> Output {
-    let full = std::fs::File::options()
-        .write(true)
-        .open("/dev/full")
-        .unwrap();
+    let full = std::fs::File::create("/dev/full").unwrap();
     let mut command = crossguard(arguments);
     command.stdin(Stdio::null()).stdout(full).output().unwrap()
 }
@@ -156,10 +153,8 @@ fn a_reader_that_goes_away_is_no_failure() {
     let mut child = command.spawn().unwrap();
     drop(child.stdout.take());
     let output = child.wait_with_output().unwrap();
-    assert_eq!(
-        (output.status.code(), stderr(&output)),
-        (Some(0), String::new())
-    );
+    assert_code(&output, 0);
+    assert_eq!(stderr(&output), "");
 }
 
 #[test]
@@ -171,12 +166,9 @@ fn a_pki_is_made_whole_or_not_at_all() {
     std::fs::create_dir_all(path.join(".unfinished/robots")).unwrap();
     let early = run(&["pki", "init", pki, "--start-in", "-5", "--json"]);
     assert_code(&early, 0);
-    let shown = json(&early);
-    let mut shown = shown.as_array().unwrap().iter();
-    assert!(
-        shown
-            .all(|it| it["isValidNow"] == true
-                && Path::new(it["file"].as_str().unwrap()).is_file())
-    );
+    for it in json(&early).as_array().unwrap() {
+        let is_there = Path::new(it["file"].as_str().unwrap()).is_file();
+        assert!(it["isValidNow"] == true && is_there, "{it}");
+    }
     assert!(!path.join(".unfinished").exists());
 }
