@@ -141,6 +141,7 @@ fn refuse(criterion: &mut Criterion) {
         additions: Vec::new(),
         certificate: certificate.to_vec(),
         in_full,
+        r_forms: [0x80; 2],
         key,
     };
     let wrong_signature = envelope(&ticket, false, now.0, 21).octets();

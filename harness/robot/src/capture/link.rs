@@ -11,8 +11,11 @@ const UDP: u8 = 17;
 /// LLC and SNAP in front of an ethertype (RFC 1042).
 const SNAP: [u8; 6] = [0xaa, 0xaa, 3, 0, 0, 0];
 
+/// Finds the packet in a frame.
+type Find = fn(&[u8]) -> Option<&[u8]>;
+
 /// How the frames of a link are taken apart; `None` where the kit cannot do that.
-pub(super) fn reader_of(link: DataLink) -> Option<fn(&[u8]) -> Option<&[u8]>> {
+pub(super) fn reader_of(link: DataLink) -> Option<Find> {
     Some(match link {
         DataLink::ETHERNET => |frame| behind_ethertype(without_check_sequence(frame).get(12..)?),
         DataLink::IEEE802_11 => |frame| in_802_11(without_check_sequence(frame)),
