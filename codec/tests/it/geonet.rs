@@ -109,7 +109,7 @@ fn each_shape_has_its_header_type_and_no_other_is_accepted() {
 #[test]
 fn a_wrong_octet_names_its_field() {
     let cases = [
-        (0, 0x21, HeaderField::BasicNextHeader),
+        (0, 0x13, HeaderField::BasicNextHeader),
         (3, 2, HeaderField::RemainingHopLimit),
         (4, 0x10, HeaderField::CommonNextHeader),
         (5, 0x51, HeaderField::HeaderType),
@@ -122,6 +122,9 @@ fn a_wrong_octet_names_its_field() {
         };
         assert_eq!(field, wrong);
     }
+    let mut newer = vector("G1");
+    newer[0] = 0x21;
+    assert_eq!(Headers::decode(&newer), Err(GeonetError::Version(2)));
     let mut secured = vector("G1");
     secured[0] = 0x12;
     assert_eq!(Headers::decode(&secured), Err(GeonetError::Secured));

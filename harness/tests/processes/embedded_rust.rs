@@ -29,7 +29,9 @@ fn a_stack_with_an_endpoint_follows_and_its_log_is_valid() {
     type_to(&mut humanoid, script);
     let status = wait_for(&mut humanoid, Duration::from_mins(1));
     assert_eq!(status.code(), Some(0));
-    assert_eq!(embedded.join().unwrap(), 2);
+    // On a busy machine its leader hears that it is done before it hears it at its place, and sends it there again.
+    let maneuvers = embedded.join().unwrap();
+    assert!(maneuvers >= 2, "{maneuvers} maneuvers");
     let followers = Log {
         name: "follower".to_owned(),
         lines: Box::new(BufReader::new(File::open(path("follower.jsonl")).unwrap())),

@@ -139,7 +139,7 @@ fn a_full_channel_is_shown_and_bad_frames_are_counted_each_under_its_cause() {
     let mut robot = Killed(robot.unwrap());
     let scrape = || {
         let mut client = TcpStream::connect(&address)?;
-        client.write_all(b"GET /metrics?x=1 HTTP/1.1\r\n\r\n")?;
+        client.write_all(b"GET /metrics?x=1 HTTP/1.1\r\nHost: localhost\r\n\r\n")?;
         std::io::read_to_string(client)
     };
     for expected in [
