@@ -106,7 +106,10 @@ class Reader:
                 self.opaque()
 
     def signature(self):
-        self.expect(0x80, 0x80)
+        self.expect(0x80)
+        # x alone, or a point that is written with the parity of its y.
+        if self.octet() not in (0x80, 0x82, 0x83):
+            raise Malformed("rSig in another form")
         r, s = (int.from_bytes(self.take(32), "big") for _ in range(2))
         if not (0 < r < N and 0 < s < N):
             raise Malformed("a signature out of range")
@@ -157,7 +160,8 @@ class Certificate:
             reader.additions()
         self.signed = reader.octets[signed : reader.at]
         self.signature = reader.signature()
-        self.octets = reader.octets[start : reader.at]
+        # In canonical form rSig is x alone.
+        self.octets = reader.octets[start : reader.at - 65] + b"\x80" + reader.octets[reader.at - 64 : reader.at]
         self.id = sha256(self.octets)[-8:]
 
     def is_signed_by(self, issuer):
