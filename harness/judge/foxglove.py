@@ -28,6 +28,7 @@ from foxglove_schemas_protobuf.Color_pb2 import Color
 from foxglove_schemas_protobuf.FrameTransform_pb2 import FrameTransform
 from foxglove_schemas_protobuf.LocationFix_pb2 import LocationFix
 from foxglove_schemas_protobuf.Log_pb2 import Log
+from foxglove_schemas_protobuf.Point3_pb2 import Point3
 from foxglove_schemas_protobuf.Pose_pb2 import Pose
 from foxglove_schemas_protobuf.Quaternion_pb2 import Quaternion
 from foxglove_schemas_protobuf.SceneEntityDeletion_pb2 import SceneEntityDeletion
@@ -178,7 +179,7 @@ class Recording:
         for name, outlines in (("crossing zone", [(zone["waiting"], ZONE), (zone["road"], ROAD)]), ("clusters", clusters)):
             entity = self.entity(scene, at_us, "street", name)
             for corners, color in outlines:
-                points = [Vector3(x=x, y=y, z=0.02) for x, y in map(self.metres, corners)]
+                points = [Point3(x=x, y=y, z=0.02) for x, y in map(self.metres, corners)]
                 if points:
                     entity.lines.add(type=1, pose=pose(), thickness=0.08, points=points, color=color)
         people = self.entity(scene, at_us, "street", "people")
