@@ -1,6 +1,6 @@
 //! Finds `GeoNetworking` packets in the frames of a capture, by its link type (tcpdump's list of LINKTYPE values).
 
-use crossguard_codec::geonet::ethernet::ETHERTYPE;
+use crossguard_codec::geonet::ethernet::{self, ETHERTYPE};
 use pcap_file::DataLink;
 
 /// Ethertypes of tags in front of the ethertype proper (IEEE 802.1Q, 802.1ad).
@@ -91,10 +91,8 @@ fn in_ip(packet: &[u8]) -> Option<&[u8]> {
     let datagram = segment.get(8..length.into())?;
     // Other programs send datagrams as well: this is the first octet of a basic header.
     let is_packet = |octets: &&[u8]| octets.first().is_some_and(|it| matches!(it, 0x10..=0x12));
-    let framed = datagram
-        .get(12..)
-        .and_then(|it| it.strip_prefix(&ETHERTYPE.to_be_bytes()));
-    framed.or(Some(datagram)).filter(is_packet)
+    let packet = ethernet::packet(datagram).map_or(datagram, |(_, packet)| packet);
+    Some(packet).filter(is_packet)
 }
 
 #[cfg(test)]
@@ -106,10 +104,6 @@ mod tests {
 
     fn with_ethertype(ethertype: u16) -> Vec<u8> {
         [&ethertype.to_be_bytes()[..], PACKET].concat()
-    }
-
-    fn with_check_sequence(frame: &[u8]) -> Vec<u8> {
-        [frame, &crc32fast::hash(frame).to_le_bytes()].concat()
     }
 
     fn udp(payload: &[u8]) -> Vec<u8> {
@@ -145,14 +139,12 @@ mod tests {
         let plain = with_ethertype(ETHERTYPE);
         let ethernet = [&addresses[..], &plain].concat();
         let snap = [&SNAP[..], &plain].concat();
-        let framed = [&addresses[..], &plain].concat();
+        // The CRC-32 of `ethernet` and of a frame of 802.11, by Python's zlib.
+        let ethernet_checked = [&ethernet[..], &[0x20, 0xd1, 0x2d, 0x90]].concat();
+        let data_checked = [&data(0x0088, 2, &snap)[..], &[0x61, 0xc8, 0x81, 0x3d]].concat();
         let found: &[(&str, DataLink, Vec<u8>)] = &[
             ("Ethernet", DataLink::ETHERNET, ethernet.clone()),
-            (
-                "its check sequence",
-                DataLink::ETHERNET,
-                with_check_sequence(&ethernet),
-            ),
+            ("its check sequence", DataLink::ETHERNET, ethernet_checked),
             (
                 "802.1Q",
                 DataLink::ETHERNET,
@@ -187,7 +179,7 @@ mod tests {
             (
                 "radiotap",
                 DataLink::IEEE802_11_RADIOTAP,
-                radiotap(&with_check_sequence(&data(0x0088, 2, &snap))),
+                radiotap(&data_checked),
             ),
             (
                 "Linux cooked",
@@ -201,7 +193,7 @@ mod tests {
             ),
             ("raw IPv4", DataLink::RAW, ipv4(UDP, 0, PACKET)),
             ("raw IPv6", DataLink::RAW, ipv6(PACKET)),
-            ("IPv4", DataLink::IPV4, ipv4(UDP, 0, &framed)),
+            ("IPv4", DataLink::IPV4, ipv4(UDP, 0, &ethernet)),
             (
                 "UDP in a Linux cooked frame",
                 DataLink::LINUX_SLL,
