@@ -345,3 +345,29 @@ fn a_denm_is_a_line_that_names_its_cause_and_place() {
     assert_eq!(json["event"]["cause"]["name"], "collisionRisk");
     assert_eq!(json["event"]["number"], 1);
 }
+
+#[test]
+fn a_packet_that_is_not_decoded_has_the_name_of_its_message_or_a_reason() {
+    let packet = hex::decode(golden::vector(golden::PACKETS, "G2")).unwrap();
+    let mut sniffer = Sniffer::new(Identifiers::default());
+    let mut see = |at: usize, octets: &[u8]| {
+        let mut changed = packet.clone();
+        changed[at..at + octets.len()].copy_from_slice(octets);
+        sniffer.see(&changed, 5_000, 694_694_401_000)
+    };
+    assert_eq!(packet[56..58], 2_002_u16.to_be_bytes(), "the BTP port");
+    for (port, name) in [(2_003_u16, "MAPEM"), (2_004, "SPATEM"), (2_007, "SREM")] {
+        let seen = see(56, &port.to_be_bytes());
+        assert_eq!((seen.kind, seen.station), (name, Some(123_456_789)));
+    }
+    let seen = see(0, &[0x01]);
+    let why = "GeoNetworking of version 0: version 1 is read";
+    assert_eq!((seen.kind, &*seen.text), ("?", why));
+    // An envelope of signed data, whose hash is none that is known.
+    let seen = see(0, &[0x12, 0, 0x50, 1, 3, 0x81, 1]);
+    assert!(
+        seen.is_signed && seen.text.contains("a hash other than SHA-256"),
+        "{seen:?}"
+    );
+    assert_eq!(sniffer.counters().iter().count(), 2);
+}
