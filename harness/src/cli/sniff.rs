@@ -9,7 +9,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use crossguard_codec::si::timestamp_its;
 use crossguard_evaluation::messages::packet_air_time_us;
 use crossguard_judge::sniffer::{self, Seen, Sniffer};
-use crossguard_robot::capture;
+use crossguard_robot::capture::{self, Captured, NoCapture};
 use crossguard_robot::transport::{Arrival, Framing, Link, Transport};
 
 use super::interrupts::interrupts;
@@ -77,19 +77,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut is_read = Ok(());
     match (&arguments.file, link(arguments)) {
         (Some(path), _) => {
-            for captured in capture::read(path).map_err(Failure::input)? {
-                // What was seen before the file turns bad is summed up.
-                let goes_on = match captured {
-                    Ok(captured) => printer.see(&captured.packet, captured.at)?,
-                    Err(error) => {
-                        is_read = Err(Failure::input(error));
-                        false
-                    }
-                };
-                if !goes_on {
-                    break;
-                }
-            }
+            let packets = capture::read(path).map_err(Failure::input)?;
+            // What was seen before the file turns bad is summed up.
+            is_read = printer.see_all(packets);
         }
         (None, Some(link)) => listen(arguments, &link, &mut printer)?,
         (None, None) => {
@@ -162,6 +152,20 @@ struct Printer {
 }
 
 impl Printer {
+    /// Prints packets to the end, or up to one that cannot be read.
+    fn see_all(
+        &mut self,
+        packets: impl Iterator<Item = Result<Captured, NoCapture>>,
+    ) -> Result<(), Failure> {
+        for captured in packets {
+            let captured = captured.map_err(Failure::input)?;
+            if !self.see(&captured.packet, captured.at)? {
+                break;
+            }
+        }
+        Ok(())
+    }
+
     /// Prints a packet. Whether to go on.
     fn see(&mut self, packet: &[u8], at: Duration) -> Result<bool, Failure> {
         if self.left == 0 {
