@@ -36,6 +36,9 @@ from crossguard_msgs.msg import Corridor, Event, People, Person, Status
 PATIENCE = 60.0
 SILENCE_S = 3.0
 
+# In the log of a robot that was without its body.
+SILENT = '"cause":"silent"'
+
 
 def until(what, holds):
     """Waits for that; what it holds then."""
@@ -151,7 +154,7 @@ class Robot:
             return since and time.monotonic() - since > 0.5
 
         until(f"{self.name}, ready", is_ready)
-        self.silences = self.said('"cause":"silent"')
+        self.silences = self.said(SILENT)
 
     def stands(self):
         """Whether its body has not moved for half a second."""
@@ -201,9 +204,10 @@ class Street(Graph):
             robot.events.until("its end", lambda it: it.kind == Event.STOPPED)
         judged = subprocess.run([CROSSGUARD, "validate", *(it.log for it in self.robots)], capture_output=True, text=True)
         assert judged.returncode == 0, judged.stdout + judged.stderr
-        logs = [list(map(json.loads, it.log.read_text().splitlines())) for it in self.robots]
-        assert not any(log[-1]["counters"].get("body", {}).get("not understood") for log in logs), logs
-        return [sum(it.get("cause") == "silent" for it in log) - robot.silences for log, robot in zip(logs, self.robots)]
+        for robot in self.robots:
+            counters = json.loads(robot.log.read_text().splitlines()[-1])["counters"].get("body", {})
+            assert counters.get("not understood", 0) == 0, counters
+        return [robot.said(SILENT) - robot.silences for robot in self.robots]
 
 
 def a_whole_crossing_is_done_by_two_bodies_of_rclpy(stack):
