@@ -143,7 +143,7 @@ fn a_lost_command_is_not_waited_for_for_ever() {
     assert_eq!(report.verdict("P10"), Some(CheckVerdict::Holds));
 }
 
-/// Keys and kinds are those that the studio reads.
+/// The studio reads these keys and kinds.
 #[test]
 fn a_run_is_written_flat_with_its_text() {
     let run = &serde_json::to_value(runs()).unwrap()[0];

@@ -97,7 +97,7 @@ pub struct PerceivedVru {
 }
 
 impl PerceivedVru {
-    /// A person on foot who stands there, and of whom the sensor is sure.
+    /// A pedestrian who stands there. The sensor reports full confidence.
     #[must_use]
     pub const fn pedestrian(id: u32, position_m: Point) -> Self {
         Self {
