@@ -13,7 +13,10 @@ macro_rules! statements {
     (@ $judge:ident $each:ident) => {
         |trace| $each(trace).into_iter().filter_map(|it| $judge(trace, it)).collect()
     };
-    ($($name:literal $rule:literal $judge:ident $(of $each:ident)?: $says:literal;)*) => {
+    (@ $judge:ident (&$each:ident)) => {
+        |trace| $each(trace).iter().filter_map(|it| $judge(trace, it)).collect()
+    };
+    ($($name:literal $rule:literal $judge:ident $(of $each:tt)?: $says:literal;)*) => {
         pub(super) const ALL: &[super::Statement] = &[$(super::Statement {
             name: $name,
             rule: $rule,
@@ -265,6 +268,22 @@ impl Trace<'_> {
         let of_it = played.filter(move |(_, it)| it.ram.station == from && it.follows(session));
         of_it.filter_map(|(at, it)| Some((at, it.echo()?.1)))
     }
+}
+
+/// The first of each kind.
+fn first_of_each<T, K: PartialEq>(
+    all: impl Iterator<Item = T>,
+    kind: impl Fn(&T) -> K,
+) -> impl Iterator<Item = T> {
+    let mut known = Vec::new();
+    all.filter(move |it| {
+        let kind = kind(it);
+        let is_new = !known.contains(&kind);
+        if is_new {
+            known.push(kind);
+        }
+        is_new
+    })
 }
 
 /// When each heartbeat that was newer than all before was played: `(at, heartbeat)`, of RAM that give one.

@@ -1,11 +1,10 @@
 //! A follower and its commands.
 
 use crossguard_protocol::{
-    Answer, Command, Coordination, Progress, Rejection, Report, RequestId, SessionId, TaskSet,
-    Verdict,
+    Answer, Command, Coordination, Progress, Rejection, Report, SessionId, TaskSet, Verdict,
 };
 
-use super::{Breach, Met, Told, Trace, told};
+use super::{Breach, Met, Told, Trace, first_of_each, told};
 use crate::exchange::{Happening, RamSeen};
 use crate::subject::Local;
 use crate::words;
@@ -65,17 +64,13 @@ fn new_commands(trace: &Trace) -> Vec<Commanded> {
 }
 
 fn acknowledged_before_executed(trace: &Trace) -> Vec<Met> {
-    let mut found: Vec<(SessionId, RequestId)> = Vec::new();
-    let mut all = Vec::new();
-    for (at, state) in trace.rams() {
-        let Some((session, Some(report))) = state.following() else {
-            continue;
-        };
+    let reports = trace.rams().filter_map(|(at, state)| {
+        let (session, report) = state.following()?;
+        Some((at, session, report?))
+    });
+    let first = first_of_each(reports, |(_, session, report)| (*session, report.request));
+    let judge = |(at, session, report): (u64, SessionId, Report)| {
         let Report { request, progress } = report;
-        if found.contains(&(session, request)) {
-            continue;
-        }
-        found.push((session, request));
         let mut answers = trace.answers().filter(|(then, _)| *then <= at);
         let is_acknowledged = answers.any(|(_, it)| {
             (it.session, it.request, it.verdict) == (session, request, Verdict::Accepted)
@@ -84,9 +79,9 @@ fn acknowledged_before_executed(trace: &Trace) -> Vec<Met> {
             let progress = words::progress(progress);
             format!("it reports command {request} as {progress}, which it has not acknowledged")
         });
-        all.push(trace.met(at.saturating_sub(1), broken));
-    }
-    all
+        trace.met(at.saturating_sub(1), broken)
+    };
+    first.map(judge).collect()
 }
 
 /// Whether an answer is to this command.

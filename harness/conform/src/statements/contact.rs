@@ -2,7 +2,7 @@
 
 use crossguard_protocol::{Coordination, Heartbeat, Progress, SessionId};
 
-use super::{Met, Trace, met_when, news};
+use super::{Met, Trace, first_of_each, met_when, news};
 
 statements! {
     "falls-back-not-before-t-safety" "R12" not_before_t_safety of fallbacks:
@@ -23,14 +23,12 @@ statements! {
 fn newest_news(trace: &Trace, session: SessionId, until_ms: u64) -> Option<u64> {
     let beats = news(trace.heartbeats(session)).map(|(at, _)| at);
     // A command that was acknowledged for the first time.
-    let mut known = Vec::new();
-    let commands = trace.played_commands().filter_map(|(at, command)| {
-        let is_new = command.session == session && !known.contains(&command.request);
-        known.push(command.request);
+    let commands = first_of_each(trace.played_commands(), |(_, it)| it.request);
+    let commands = commands.filter_map(|(at, command)| {
         let mut answers = trace.answers();
         let is_taken =
             answers.any(|(_, it)| it.session == session && it.request == command.request);
-        (is_new && is_taken).then_some(at)
+        (command.session == session && is_taken).then_some(at)
     });
     beats.chain(commands).filter(|at| *at <= until_ms).max()
 }
@@ -48,16 +46,11 @@ fn t_safety_ms(trace: &Trace, session: SessionId) -> u64 {
 
 /// The first RAM in which the robot reports that it fell back, in each session.
 fn fallbacks(trace: &Trace) -> Vec<(u64, SessionId)> {
-    let mut found: Vec<(u64, SessionId)> = Vec::new();
-    for (at, state) in trace.rams() {
-        if let Some((session, Some(last))) = state.following()
-            && last.progress == Progress::SafeIdle
-            && found.iter().all(|(_, known)| *known != session)
-        {
-            found.push((at, session));
-        }
-    }
-    found
+    let fallen_back = trace.rams().filter_map(|(at, state)| {
+        let (session, last) = state.following()?;
+        (last?.progress == Progress::SafeIdle).then_some((at, session))
+    });
+    first_of_each(fallen_back, |(_, session)| *session).collect()
 }
 
 fn not_before_t_safety(trace: &Trace, (at, session): (u64, SessionId)) -> Option<Met> {
@@ -83,14 +76,8 @@ fn silence(trace: &Trace, session: SessionId, at_ms: u64) -> &'static str {
 
 /// The sessions in which the robot executes, and since when its leader had given no news by the end.
 fn silences(trace: &Trace) -> Vec<(u64, SessionId, bool)> {
-    let mut sessions: Vec<SessionId> = Vec::new();
-    for (_, state) in trace.rams() {
-        if let Some((session, _)) = state.following()
-            && !sessions.contains(&session)
-        {
-            sessions.push(session);
-        }
-    }
+    let followed = trace.rams().filter_map(|(_, state)| state.following());
+    let sessions = first_of_each(followed.map(|(session, _)| session), |session| *session);
     let silence = |session: SessionId| {
         let since = newest_news(trace, session, u64::MAX)?;
         let state = trace.state_at(since + 300)?;
@@ -105,7 +92,7 @@ fn silences(trace: &Trace) -> Vec<(u64, SessionId, bool)> {
         (now == session && !is_over && !trace.is_disturbed(since + 1..))
             .then_some((since, session, runs))
     };
-    sessions.into_iter().filter_map(silence).collect()
+    sessions.filter_map(silence).collect()
 }
 
 fn after_t_safety(trace: &Trace, (since, session, runs): (u64, SessionId, bool)) -> Option<Met> {

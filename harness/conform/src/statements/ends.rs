@@ -2,7 +2,7 @@
 
 use crossguard_protocol::{Availability, Coordination, Ending, Farewell, SessionId};
 
-use super::{Met, Told, Trace, met_when, told};
+use super::{Met, Told, Trace, first_of_each, met_when, told};
 use crate::exchange::RamSeen;
 use crate::subject::Local;
 
@@ -25,7 +25,7 @@ statements! {
         "A robot that hears of a session of its own which is over names it as ended, unless it is naming another one.";
     "a-clear-road-ends-a-duty" "R20" duty_ends:
         "A duty ends when the road is said to be clear, and nothing else ends it.";
-    "unavailability-is-said" "R24" unavailability_is_said:
+    "unavailability-is-said" "R24" unavailability_is_said of told:
         "A robot that becomes unavailable says so in its RAM.";
     "unavailability-ends-the-part" "R24" unavailability_ends_the_part of told:
         "A helper, or a follower that executes nothing, leaves when it becomes unavailable; a requester or leader ends its session.";
@@ -33,18 +33,16 @@ statements! {
 
 /// The first RAM in which a station of the tester names a session as ended.
 fn played_ends(trace: &Trace) -> Vec<(u64, SessionId, Ending)> {
-    let mut all: Vec<(u64, SessionId, Ending)> = Vec::new();
-    for (at, played) in trace.played_rams() {
+    let ends = trace.played_rams().filter_map(|(at, played)| {
         let leader = played.ram.station;
-        if let Some(Farewell::Ended(number, how)) = played.ram.farewell {
-            let session = SessionId { leader, number };
-            let mut known = all.iter().map(|(_, session, how)| (*session, *how));
-            if leader != trace.robot && !known.any(|known| known == (session, how)) {
-                all.push((at, session, how));
+        match played.ram.farewell? {
+            Farewell::Ended(number, how) if leader != trace.robot => {
+                Some((at, SessionId { leader, number }, how))
             }
+            _ => None,
         }
-    }
-    all
+    });
+    first_of_each(ends, |(_, session, how)| (*session, *how)).collect()
 }
 
 fn completed_frees(trace: &Trace, (at, session, how): (u64, SessionId, Ending)) -> Option<Met> {
@@ -245,16 +243,13 @@ fn duty_ends(trace: &Trace) -> Vec<Met> {
     all
 }
 
-fn unavailability_is_said(trace: &Trace) -> Vec<Met> {
-    let judge = |(at, local): (u64, Local)| {
-        let Local::Unavailable(why) = local else {
-            return None;
-        };
-        trace.ram_soon(at, "no RAM that says it is unavailable", |state| {
-            state.availability == Availability::Unavailable(why)
-        })
+fn unavailability_is_said(trace: &Trace, (at, local, _): Told) -> Option<Met> {
+    let Local::Unavailable(why) = local else {
+        return None;
     };
-    trace.told().filter_map(judge).collect()
+    trace.ram_soon(at, "no RAM that says it is unavailable", |state| {
+        state.availability == Availability::Unavailable(why)
+    })
 }
 
 fn unavailability_ends_the_part(trace: &Trace, (at, local, state): Told) -> Option<Met> {

@@ -1,11 +1,10 @@
 //! Requests and offers.
 
 use crossguard_protocol::{
-    Coordination, Ending, Farewell, HelpRequest, SessionId, SessionNumber, StationId, TaskSet,
-    UniqueNumber,
+    Coordination, Ending, Farewell, HelpRequest, SessionId, SessionNumber, TaskSet, UniqueNumber,
 };
 
-use super::{Met, Told, Trace, met_when, news, told};
+use super::{Met, Told, Trace, first_of_each, met_when, news, told};
 use crate::exchange::RamSeen;
 use crate::subject::Local;
 
@@ -39,20 +38,18 @@ struct Request {
 }
 
 fn requests(trace: &Trace) -> Vec<Request> {
-    let mut all: Vec<Request> = Vec::new();
-    for (at_ms, played) in trace.played_rams() {
-        if let (Coordination::NeedHelp { request: asked, .. }, Some(session)) =
-            (played.ram.coordination, played.session())
-            && all.iter().all(|known| known.session != session)
-        {
-            all.push(Request {
-                at_ms,
-                session,
-                asked,
-            });
-        }
-    }
-    all
+    let played = trace.played_rams().filter_map(|(at_ms, played)| {
+        let Coordination::NeedHelp { request: asked, .. } = played.ram.coordination else {
+            return None;
+        };
+        let session = played.session()?;
+        Some(Request {
+            at_ms,
+            session,
+            asked,
+        })
+    });
+    first_of_each(played, |it| it.session).collect()
 }
 
 fn free_robots_offer(trace: &Trace, it: Request) -> Option<Met> {
@@ -246,17 +243,15 @@ fn requests_end(trace: &Trace) -> Vec<Met> {
 fn numbers_grow(trace: &Trace) -> Vec<Met> {
     let mut all = Vec::new();
     let mut newest: Option<UniqueNumber> = None;
-    let mut known: Vec<(StationId, UniqueNumber)> = Vec::new();
-    for (at, state) in trace.rams() {
+    let numbers = trace.rams().filter_map(|(at, state)| {
         let (leader, number) = match state.ram.coordination {
             Coordination::NeedHelp { number, .. } => (trace.robot, number.0),
             Coordination::OfferHelp { session, offer, .. } => (session.leader, offer.0),
-            _ => continue,
+            _ => return None,
         };
-        if known.contains(&(leader, number)) {
-            continue;
-        }
-        known.push((leader, number));
+        Some((at, leader, number))
+    });
+    for (at, leader, number) in first_of_each(numbers, |(_, leader, number)| (*leader, *number)) {
         // The number of an offer may be given out again once nobody can confirm it.
         let is_taken_back = trace.played_rams().any(|(_, played)| {
             played.ram.station == leader && matches!(played.ram.farewell, Some(Farewell::Ended(..)))

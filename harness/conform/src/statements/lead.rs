@@ -7,21 +7,21 @@ use super::{Breach, Met, Told, Trace, met_when, told};
 use crate::subject::Local;
 
 statements! {
-    "orders-are-commanded" "R10" orders_are_commanded:
+    "orders-are-commanded" "R10" orders_are_commanded of told:
         "What the leader's application orders goes out as a command to a follower that has nothing outstanding.";
     "commands-are-repeated-after-t-ack" "R10" repeated_after_t_ack:
         "A command that is not acknowledged is repeated after t_ack, unchanged.";
-    "commands-are-repeated-n-ack-times" "R10" repeated_n_ack_times:
+    "commands-are-repeated-n-ack-times" "R10" repeated_n_ack_times of (&sent):
         "A command is repeated n_ack times at most.";
-    "the-follower-is-given-up" "R10" given_up:
+    "the-follower-is-given-up" "R10" given_up of (&sent):
         "A follower that acknowledges nothing is not listed any more, t_ack after the last repetition.";
-    "answers-end-the-repetition" "R10" answers_end_repetition:
+    "answers-end-the-repetition" "R10" answers_end_repetition of (&sent):
         "A command that is acknowledged or rejected is not repeated.";
-    "reports-end-the-repetition" "R11" reports_end_repetition:
+    "reports-end-the-repetition" "R11" reports_end_repetition of (&sent):
         "A RAM that reports the command acknowledges it as well.";
     "other-answers-do-not-count" "R9" other_answers_do_not_count:
         "An answer of another session, for another command, or by another station acknowledges nothing: the command is repeated.";
-    "one-command-is-outstanding" "R9" one_is_outstanding:
+    "one-command-is-outstanding" "R9" one_is_outstanding of told:
         "A follower is commanded anew only when it has answered the command before.";
     "silent-followers-are-dropped" "R13" silent_is_dropped:
         "A follower that echoes nothing is listed until its lease and t_lost are over, and not for longer.";
@@ -115,33 +115,27 @@ fn repeated_after_t_ack(trace: &Trace) -> Vec<Met> {
     all
 }
 
-fn repeated_n_ack_times(trace: &Trace) -> Vec<Met> {
+fn repeated_n_ack_times(trace: &Trace, sent: &Sent) -> Option<Met> {
     let n_ack = usize::from(trace.terms.settings.n_ack);
-    let judge = |sent: Sent| {
-        let repeats = sent.times.len() - 1;
-        let last = *sent.times.last()?;
-        let broken = (repeats > n_ack).then(|| format!("it repeats the command {repeats} times"));
-        // One repetition more would have been seen.
-        let is_met =
-            repeats >= n_ack && trace.ended_ms > last + trace.ms(|s| s.t_ack) + trace.soon_ms();
-        (is_met || broken.is_some()).then(|| met_when(sent.times[0], "unacknowledged", broken))
-    };
-    sent(trace).into_iter().filter_map(judge).collect()
+    let repeats = sent.times.len() - 1;
+    let last = *sent.times.last()?;
+    let broken = (repeats > n_ack).then(|| format!("it repeats the command {repeats} times"));
+    // One repetition more would have been seen.
+    let is_met =
+        repeats >= n_ack && trace.ended_ms > last + trace.ms(|s| s.t_ack) + trace.soon_ms();
+    (is_met || broken.is_some()).then(|| met_when(sent.times[0], "unacknowledged", broken))
 }
 
-fn given_up(trace: &Trace) -> Vec<Met> {
+fn given_up(trace: &Trace, sent: &Sent) -> Option<Met> {
     let n_ack = usize::from(trace.terms.settings.n_ack);
-    let judge = |sent: Sent| {
-        let (last, to) = (*sent.times.last()?, sent.command.to);
-        let due_ms = last + trace.ms(|settings| settings.t_ack) + trace.soon_ms();
-        if sent.times.len() <= n_ack || sent.answered.is_some() || trace.ended_ms < due_ms {
-            return None;
-        }
-        let is_kept = trace.state_at(due_ms)?.lists(to);
-        let broken = is_kept.then(|| format!("it still lists {to}"));
-        Some(met_when(last, "unacknowledged", broken))
-    };
-    sent(trace).into_iter().filter_map(judge).collect()
+    let (last, to) = (*sent.times.last()?, sent.command.to);
+    let due_ms = last + trace.ms(|settings| settings.t_ack) + trace.soon_ms();
+    if sent.times.len() <= n_ack || sent.answered.is_some() || trace.ended_ms < due_ms {
+        return None;
+    }
+    let is_kept = trace.state_at(due_ms)?.lists(to);
+    let broken = is_kept.then(|| format!("it still lists {to}"));
+    Some(met_when(last, "unacknowledged", broken))
 }
 
 /// Whether a command goes on after it was answered; only where a repetition would have been due by the end.
@@ -157,30 +151,24 @@ fn goes_on(trace: &Trace, sent: &Sent, answered_ms: u64) -> Option<Breach> {
     Some(later.map(|ms| format!("it repeats the command {ms} ms after the answer")))
 }
 
-fn answers_end_repetition(trace: &Trace) -> Vec<Met> {
-    let judge = |sent: Sent| {
-        let (at, by_report) = sent.answered?;
-        if by_report {
-            return None;
-        }
-        Some(trace.met(at, goes_on(trace, &sent, at)?))
-    };
-    sent(trace).into_iter().filter_map(judge).collect()
+fn answers_end_repetition(trace: &Trace, sent: &Sent) -> Option<Met> {
+    let (at, by_report) = sent.answered?;
+    if by_report {
+        return None;
+    }
+    Some(trace.met(at, goes_on(trace, sent, at)?))
 }
 
-fn reports_end_repetition(trace: &Trace) -> Vec<Met> {
-    let judge = |sent: Sent| {
-        let (at, by_report) = sent.answered?;
-        let soon = at..=at + trace.ms(|s| s.t_ack);
-        let is_late = trace
-            .played_answers()
-            .all(|(then, _)| !soon.contains(&then));
-        if !by_report || !is_late {
-            return None;
-        }
-        Some(trace.met(at, goes_on(trace, &sent, at)?))
-    };
-    sent(trace).into_iter().filter_map(judge).collect()
+fn reports_end_repetition(trace: &Trace, sent: &Sent) -> Option<Met> {
+    let (at, by_report) = sent.answered?;
+    let soon = at..=at + trace.ms(|s| s.t_ack);
+    let is_late = trace
+        .played_answers()
+        .all(|(then, _)| !soon.contains(&then));
+    if !by_report || !is_late {
+        return None;
+    }
+    Some(trace.met(at, goes_on(trace, sent, at)?))
 }
 
 fn other_answers_do_not_count(trace: &Trace) -> Vec<Met> {
@@ -215,59 +203,53 @@ fn other_answers_do_not_count(trace: &Trace) -> Vec<Met> {
     all
 }
 
-fn orders_are_commanded(trace: &Trace) -> Vec<Met> {
+fn orders_are_commanded(trace: &Trace, (at, local, state): Told) -> Option<Met> {
     let all_sent = sent(trace);
-    let judge = |(at, local, state): Told| {
-        let Local::Order(to, task) = local else {
-            return None;
-        };
-        let session = state.session()?;
-        let has_joined = trace.played_rams().any(|(then, played)| {
-            then + 200 < at && played.ram.station == to && played.follows(session)
-        });
-        let is_bound = all_sent.iter().any(|sent| {
-            sent.command.to == to
-                && sent.times[0] < at
-                && sent.answered.is_none_or(|(then, _)| then + 200 > at)
-        });
-        let may_be_on_road = trace
-            .told()
-            .any(|(then, local)| local == Local::Open && then < at);
-        if !has_joined || is_bound || may_be_on_road || !state.lists(to) {
-            return None;
-        }
-        trace.due(at, trace.soon_ms(), "no command", |said| {
-            said.command()
-                .is_some_and(|it| (it.to, it.task) == (to, task))
-        })
+    let Local::Order(to, task) = local else {
+        return None;
     };
-    told(trace).filter_map(judge).collect()
+    let session = state.session()?;
+    let has_joined = trace.played_rams().any(|(then, played)| {
+        then + 200 < at && played.ram.station == to && played.follows(session)
+    });
+    let is_bound = all_sent.iter().any(|sent| {
+        sent.command.to == to
+            && sent.times[0] < at
+            && sent.answered.is_none_or(|(then, _)| then + 200 > at)
+    });
+    let may_be_on_road = trace
+        .told()
+        .any(|(then, local)| local == Local::Open && then < at);
+    if !has_joined || is_bound || may_be_on_road || !state.lists(to) {
+        return None;
+    }
+    trace.due(at, trace.soon_ms(), "no command", |said| {
+        said.command()
+            .is_some_and(|it| (it.to, it.task) == (to, task))
+    })
 }
 
-fn one_is_outstanding(trace: &Trace) -> Vec<Met> {
+fn one_is_outstanding(trace: &Trace, (at, local, _): Told) -> Option<Met> {
     let all_sent = sent(trace);
-    let judge = |(at, local): (u64, Local)| {
-        let Local::Order(to, _) = local else {
-            return None;
-        };
-        let mut to_it = all_sent.iter().filter(|sent| sent.command.to == to);
-        let waiting = to_it
-            .clone()
-            .find(|sent| sent.times[0] < at && sent.answered.is_none_or(|(then, _)| then > at))?;
-        let until_ms = waits_until(trace, waiting).min(trace.undisturbed_until(at));
-        let newer = to_it.find(|sent| {
-            sent.command.session == waiting.command.session
-                && sent.command.request.is_newer_than(waiting.command.request)
-                && sent.times[0] <= until_ms
-        });
-        let broken = newer.map(|sent| format!("it sends command {}", sent.command.request));
-        Some(met_when(
-            at,
-            "an order while a command is outstanding",
-            broken,
-        ))
+    let Local::Order(to, _) = local else {
+        return None;
     };
-    trace.told().filter_map(judge).collect()
+    let mut to_it = all_sent.iter().filter(|sent| sent.command.to == to);
+    let waiting = to_it
+        .clone()
+        .find(|sent| sent.times[0] < at && sent.answered.is_none_or(|(then, _)| then > at))?;
+    let until_ms = waits_until(trace, waiting).min(trace.undisturbed_until(at));
+    let newer = to_it.find(|sent| {
+        sent.command.session == waiting.command.session
+            && sent.command.request.is_newer_than(waiting.command.request)
+            && sent.times[0] <= until_ms
+    });
+    let broken = newer.map(|sent| format!("it sends command {}", sent.command.request));
+    Some(met_when(
+        at,
+        "an order while a command is outstanding",
+        broken,
+    ))
 }
 
 fn silent_is_dropped(trace: &Trace) -> Vec<Met> {

@@ -2,7 +2,7 @@
 
 use crossguard_protocol::{Coordination, OfferNumber, SessionId};
 
-use super::{Met, Trace, met_when};
+use super::{Met, Trace, first_of_each, met_when};
 use crate::exchange::RamSeen;
 
 statements! {
@@ -52,49 +52,37 @@ fn first_lists(trace: &Trace) -> Vec<Listing> {
 }
 
 fn follows_only_confirmed(trace: &Trace) -> Vec<Met> {
-    let mut all = Vec::new();
-    let mut known: Vec<SessionId> = Vec::new();
-    for (at, state) in trace.rams() {
-        let Some((session, _)) = state.following() else {
-            continue;
-        };
-        if known.contains(&session) {
-            continue;
-        }
-        known.push(session);
+    let followed = trace
+        .rams()
+        .filter_map(|(at, state)| Some((at, state.following()?.0)));
+    let follows = |(at, session): (u64, SessionId)| {
         let own = offer_to(trace, session, at);
         let is_confirmed = lists(trace).any(|(then, to, listed)| {
             then <= at && to == session && listed.is_some() && listed == own
         });
         let broken = (!is_confirmed)
             .then(|| format!("it follows in {session} without a confirmation of its offer"));
-        all.push(met_when(at, "follows", broken));
-    }
-    // Where it must not.
-    all.extend(
-        first_lists(trace)
-            .into_iter()
-            .filter_map(|(at, session, listed)| {
-                let own = offer_to(trace, session, at);
-                let is_wrong = listed.is_some() && listed != own || own.is_none();
-                if !is_wrong || trace.state_at(at).is_some_and(|it| it.follows(session)) {
-                    return None;
-                }
-                let how = |_| format!("it follows in {session}");
-                let broken = trace.never(at, |state| state.follows(session), how)?;
-                let how = match (listed, own) {
-                    (None, _) => "not listed",
-                    (Some(_), None) => "listed in a session to which it did not offer",
-                    (Some(_), Some(_)) => "listed for another offer",
-                };
-                Some(met_when(
-                    at,
-                    format!("{}, {how}", trace.situation_at(at)),
-                    broken,
-                ))
-            }),
-    );
-    all
+        met_when(at, "follows", broken)
+    };
+    let must_not = |(at, session, listed): Listing| {
+        let own = offer_to(trace, session, at);
+        let is_wrong = listed.is_some() && listed != own || own.is_none();
+        if !is_wrong || trace.state_at(at).is_some_and(|it| it.follows(session)) {
+            return None;
+        }
+        let how = |_| format!("it follows in {session}");
+        let broken = trace.never(at, |state| state.follows(session), how)?;
+        let how = match (listed, own) {
+            (None, _) => "not listed",
+            (Some(_), None) => "listed in a session to which it did not offer",
+            (Some(_), Some(_)) => "listed for another offer",
+        };
+        let situation = format!("{}, {how}", trace.situation_at(at));
+        Some(met_when(at, situation, broken))
+    };
+    let first = first_of_each(followed, |(_, session)| *session);
+    let wrong = first_lists(trace).into_iter().filter_map(must_not);
+    first.map(follows).chain(wrong).collect()
 }
 
 fn takes_the_role(trace: &Trace, (at, session, listed): Listing) -> Option<Met> {

@@ -2,7 +2,7 @@
 
 use crossguard_protocol::{Coordination, OfferNumber, SessionId, StationId};
 
-use super::{Met, Trace, met_when};
+use super::{Met, Trace, first_of_each, met_when};
 use crate::exchange::RamSeen;
 
 statements! {
@@ -37,20 +37,14 @@ fn offers(
 
 /// The first RAM in which the robot leads each session, with how many followers it had asked for.
 pub(super) fn begun<'a>(trace: &'a Trace) -> Vec<(u64, SessionId, &'a RamSeen, Option<u8>)> {
-    let mut all: Vec<(u64, SessionId, &RamSeen, Option<u8>)> = Vec::new();
     let mut asked = None;
-    for (at, state) in trace.rams() {
-        match (state.ram.coordination, state.session()) {
-            (Coordination::NeedHelp { request, .. }, _) => asked = Some(request.followers),
-            (Coordination::Leader { .. }, Some(session))
-                if all.iter().all(|(_, known, ..)| *known != session) =>
-            {
-                all.push((at, session, state, asked));
-            }
-            _ => {}
+    let led = trace.rams().filter_map(|(at, state)| {
+        if let Coordination::NeedHelp { request, .. } = state.ram.coordination {
+            asked = Some(request.followers);
         }
-    }
-    all
+        Some((at, state.session().filter(|_| state.leads())?, state, asked))
+    });
+    first_of_each(led, |(_, session, ..)| *session).collect()
 }
 
 /// Whether a helper's `t_safety` is long enough for the robot's lease, in whole ms with the drift left out.
@@ -70,15 +64,10 @@ fn selects_in_time(trace: &Trace) -> Vec<Met> {
         if all.iter().any(|(known, _)| *known == session) {
             continue;
         }
-        let mut helpers: Vec<(StationId, u64)> = Vec::new();
-        for (at, station, _, t_safety_ms) in offers(trace, session) {
-            let is_known = helpers.iter().any(|(known, _)| *known == station);
-            if !is_known && fits(trace, t_safety_ms) {
-                helpers.push((station, at));
-            }
-        }
+        let fit = offers(trace, session).filter(|(.., t_safety_ms)| fits(trace, *t_safety_ms));
+        let helpers: Vec<_> = first_of_each(fit, |(_, station, ..)| *station).collect();
         let enough = usize::from(request.followers).checked_sub(1);
-        let Some((_, at)) = enough.and_then(|last| helpers.get(last)).copied() else {
+        let Some((at, ..)) = enough.and_then(|last| helpers.get(last)).copied() else {
             continue;
         };
         let led = trace
