@@ -1,16 +1,16 @@
 //! The bench: the tester's two stations and the robot under test, and what was seen of them.
 
-use crossguard_codec::geonet::{EgoPosition, Envelope, Stack};
+use crossguard_codec::geonet::{EgoPosition, Stack};
 use crossguard_codec::si::generation_delta_time;
 use crossguard_codec::{
-    ExecutionStatus, Heard, Identifiers, Position, RobotState, Service, Target, TaskParameters,
-    TaskProgression, encode, ram_from, rmcm_from_answer, rmcm_from_commands,
+    ExecutionStatus, Heard, Identifiers, Message as Pdu, Position, RobotState, Service, Target,
+    TaskParameters, TaskProgression, ram_from, rmcm_from_answer, rmcm_from_commands,
 };
 use crossguard_protocol::{
-    Answer, Availability, Command, Heartbeat, Input, OfferNumber, Ram, RequestId, Rmcm, Settings,
-    StationId, TaskType,
+    Command, Heartbeat, Input, OfferNumber, RequestId, Rmcm, Settings, StationId, TaskType,
 };
 
+use crate::case::Table;
 use crate::exchange::{Exchange, Happening, Message, Player, RamSeen, Seen};
 use crate::station::PlayedStation;
 use crate::subject::{Gone, Local, NotTold, Packet, Subject, Telling};
@@ -92,15 +92,14 @@ pub(crate) struct Bench<S> {
 }
 
 impl<S: Subject> Bench<S> {
-    /// A bench at which nothing has happened. `boot` is larger than that of any bench before with these stations.
-    pub(crate) fn new(
-        subject: S,
-        robot: StationId,
-        terms: Terms,
-        envelopes: [Envelope; 2],
-        boot: u16,
-    ) -> Self {
-        let [ada, bo] = envelopes;
+    /// A bench at which nothing has happened.
+    pub(crate) fn new(subject: S, table: Table) -> Self {
+        let Table {
+            robot,
+            terms,
+            envelopes: [ada, bo],
+            boot,
+        } = table;
         let station = |id: StationId, envelope, distance_m| {
             let mut stack = Stack::of_robot(terms.identifiers, id);
             *stack.envelope_mut() = envelope;
@@ -192,7 +191,7 @@ impl<S: Subject> Bench<S> {
             if station.speaks() && station.due_ms <= now_ms {
                 station.due_ms = now_ms + period_ms;
                 let ram = station.next_ram(newest);
-                self.send_ram(player, ram)?;
+                self.send(player, RamSeen::of(ram).into())?;
             }
         }
         Ok(())
@@ -203,56 +202,30 @@ impl<S: Subject> Bench<S> {
         self.station(player).due_ms = 0;
     }
 
-    pub(crate) fn send_ram(&mut self, player: Player, ram: Ram) -> Result<(), Gone> {
-        let (state, time) = (self.state_of(player), self.subject.timestamp_its());
-        let ids = self.terms.identifiers;
-        let available = Availability::Available;
-        let time = generation_delta_time(time);
-        let message = ram_from(&ids, &state, &ram, available, time, true).map_err(failed)?;
-        let octets = encode(&ids, &message).map_err(failed)?;
-        let seen = RamSeen {
-            ram,
-            availability: available,
-            sign: None,
-            speed_mps: None,
+    /// Has a station say something.
+    pub(crate) fn send(&mut self, player: Player, message: Message) -> Result<(), Gone> {
+        let (state, its) = (self.state_of(player), self.subject.timestamp_its());
+        let (ids, position) = (self.terms.identifiers, &state.position);
+        let time = generation_delta_time(its);
+        let pdu = match &message {
+            Message::Ram(RamSeen {
+                ram, availability, ..
+            }) => ram_from(&ids, &state, ram, *availability, time, true).map(Pdu::Ram),
+            Message::Rmcm(Rmcm::Command(command)) => {
+                let commands = [(*command, self.parameters(command.task))];
+                rmcm_from_commands(&ids, position, &commands, time).map(Pdu::Rmcm)
+            }
+            Message::Rmcm(Rmcm::Answer(answer)) => {
+                let status = ExecutionStatus {
+                    progression: TaskProgression::Executing,
+                    time_to_completion: None,
+                };
+                rmcm_from_answer(&ids, position, answer, status, time).map(Pdu::Rmcm)
+            }
         };
-        self.transmit(player, Service::Ram, octets, Message::Ram(seen))
-    }
-
-    pub(crate) fn send_command(&mut self, player: Player, command: Command) -> Result<(), Gone> {
-        let parameters = self.parameters(command.task);
-        let (state, time) = (self.state_of(player), self.subject.timestamp_its());
-        let ids = self.terms.identifiers;
-        let time = generation_delta_time(time);
-        let message = rmcm_from_commands(&ids, &state.position, &[(command, parameters)], time);
-        let message = message.map_err(failed)?;
-        let octets = encode(&ids, &message).map_err(failed)?;
-        self.transmit(player, Service::Rmcm, octets, Message::Command(command))
-    }
-
-    pub(crate) fn send_answer(&mut self, player: Player, answer: Answer) -> Result<(), Gone> {
-        let (state, time) = (self.state_of(player), self.subject.timestamp_its());
-        let ids = self.terms.identifiers;
-        let status = ExecutionStatus {
-            progression: TaskProgression::Executing,
-            time_to_completion: None,
-        };
-        let time = generation_delta_time(time);
-        let message = rmcm_from_answer(&ids, &state.position, &answer, status, time);
-        let message = message.map_err(failed)?;
-        let octets = encode(&ids, &message).map_err(failed)?;
-        self.transmit(player, Service::Rmcm, octets, Message::Answer(answer))
-    }
-
-    fn transmit(
-        &mut self,
-        player: Player,
-        service: Service,
-        octets: Vec<u8>,
-        message: Message,
-    ) -> Result<(), Gone> {
-        let time = self.subject.timestamp_its();
-        let ego = EgoPosition::of(&self.state_of(player), time);
+        let octets = pdu.map_err(failed)?.encode(&ids).map_err(failed)?;
+        let ego = EgoPosition::of(&state, its);
+        let service = message.service();
         let packet = self.station(player).stack.packet(&ego, service, &octets);
         let packet = packet.map_err(failed)?;
         let at_ms = self.subject.now_ms();
@@ -334,8 +307,7 @@ impl<S: Subject> Bench<S> {
                     self.newest = seen.heartbeat();
                     Message::Ram(seen)
                 }
-                Input::Rmcm(Rmcm::Command(command)) => Message::Command(command),
-                Input::Rmcm(Rmcm::Answer(answer)) => Message::Answer(answer),
+                Input::Rmcm(rmcm) => Message::Rmcm(rmcm),
                 Input::Elapsed(_) | Input::Expired(_) | Input::Local(_) => continue,
             };
             self.exchange.seen.push(Seen {

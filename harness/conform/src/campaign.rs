@@ -272,21 +272,16 @@ pub fn chart(exchange: &Exchange, title: &str) -> String {
     let begun_ms = exchange.seen.first().map_or(0, |seen| seen.at_ms);
     for seen in &exchange.seen {
         let at_us = seen.at_ms.saturating_sub(begun_ms) * 1_000;
-        let heard_by = |robot: &str, from: StationId, is_ram: bool| Record {
+        let heard_by = |robot: &str, from: StationId, message: &Message| Record {
             at_us,
             robot: robot.to_owned(),
             entry: Entry::Heard {
-                message: if is_ram {
-                    crossguard_codec::Service::Ram
-                } else {
-                    crossguard_codec::Service::Rmcm
-                },
+                message: message.service(),
                 from,
                 reception: None,
                 octets: seen.octets.clone(),
             },
         };
-        let is_ram = |message: &Message| matches!(message, Message::Ram(_));
         #[expect(clippy::cast_precision_loss, reason = "a case takes seconds")]
         let seconds = at_us as f64 / 1e6;
         let note = |lane, text: &str| ChartStep {
@@ -296,13 +291,12 @@ pub fn chart(exchange: &Exchange, title: &str) -> String {
         };
         match &seen.what {
             Happening::Said(message) => {
-                let record = heard_by(Player::Ada.name(), exchange.robot, is_ram(message));
-                let said = sequence.steps(&record);
-                steps.extend(said);
+                let record = heard_by(Player::Ada.name(), exchange.robot, message);
+                steps.extend(sequence.steps(&record));
             }
             Happening::Played(player, message) => {
                 let from = exchange.players[*player as usize];
-                steps.extend(sequence.steps(&heard_by("robot", from, is_ram(message))));
+                steps.extend(sequence.steps(&heard_by("robot", from, message)));
             }
             Happening::Play(words) => steps.push(note(1, &format!("* {words}"))),
             Happening::Noise(name) => steps.push(note(1, &format!("sends {name}"))),

@@ -124,6 +124,22 @@ pub struct Table {
     pub boot: u16,
 }
 
+impl Table {
+    /// The tester's side of cases with a robot [in this process](crate::in_process), which is not late.
+    #[must_use]
+    pub fn in_process(robot: StationId) -> Self {
+        Self {
+            robot,
+            terms: Terms {
+                slack_ms: 100,
+                ..Terms::default()
+            },
+            envelopes: [Envelope::Off, Envelope::Off],
+            boot: 1,
+        }
+    }
+}
+
 /// How long a robot may take to say something after it was started, in ms.
 const STARTS_MS: u64 = 15_000;
 
@@ -132,13 +148,7 @@ const STARTS_MS: u64 = 15_000;
 /// # Errors
 /// The robot or the link is gone.
 pub fn play<S: Subject>(subject: &mut S, table: &Table, plays: &[Play]) -> Result<Played, Gone> {
-    let mut bench = Bench::new(
-        subject,
-        table.robot,
-        table.terms.clone(),
-        table.envelopes.clone(),
-        table.boot,
-    );
+    let mut bench = Bench::new(subject, table.clone());
     if !bench.pass_until(STARTS_MS, |bench| bench.said().is_some())? {
         let station = table.robot;
         let text = format!("station {station} says nothing for {} s", STARTS_MS / 1_000);
@@ -167,9 +177,8 @@ pub fn play<S: Subject>(subject: &mut S, table: &Table, plays: &[Play]) -> Resul
         }
         done += 1;
     }
-    let exchange = bench.exchange;
     Ok(Played {
-        exchange,
+        exchange: bench.exchange,
         done,
         stopped,
     })

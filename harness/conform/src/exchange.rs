@@ -2,10 +2,10 @@
 
 use std::ops::RangeBounds;
 
-use crossguard_codec::PublicSignal;
+use crossguard_codec::{PublicSignal, Service};
 use crossguard_protocol::{
     Answer, Availability, Command, Coordination, Farewell, Heartbeat, OfferNumber, Ram, Report,
-    SessionId, SessionNumber, StationId,
+    Rmcm, SessionId, SessionNumber, StationId,
 };
 
 use crate::subject::Local;
@@ -51,6 +51,16 @@ pub struct RamSeen {
 const MOVES_MPS: f64 = 0.5;
 
 impl RamSeen {
+    /// That of a station that takes part, and says nothing of a sign and of its speed.
+    pub(crate) const fn of(ram: Ram) -> Self {
+        Self {
+            ram,
+            availability: Availability::Available,
+            sign: None,
+            speed_mps: None,
+        }
+    }
+
     /// The session that it has a part in, its own included.
     pub(crate) const fn session(&self) -> Option<SessionId> {
         match self.ram.coordination {
@@ -189,25 +199,43 @@ impl RamSeen {
 pub enum Message {
     /// A RAM.
     Ram(RamSeen),
-    /// A command.
-    Command(Command),
-    /// An answer to a command.
-    Answer(Answer),
+    /// A command, or an answer to one.
+    Rmcm(Rmcm),
+}
+
+impl From<RamSeen> for Message {
+    fn from(ram: RamSeen) -> Self {
+        Self::Ram(ram)
+    }
+}
+
+impl From<Rmcm> for Message {
+    fn from(rmcm: Rmcm) -> Self {
+        Self::Rmcm(rmcm)
+    }
 }
 
 impl Message {
+    /// The service that it belongs to.
+    pub(crate) const fn service(&self) -> Service {
+        match self {
+            Self::Ram(_) => Service::Ram,
+            Self::Rmcm(_) => Service::Rmcm,
+        }
+    }
+
     /// What it says as a RAM.
     pub(crate) const fn ram(&self) -> Option<&RamSeen> {
         match self {
             Self::Ram(ram) => Some(ram),
-            _ => None,
+            Self::Rmcm(_) => None,
         }
     }
 
     /// What it says as a command.
     pub(crate) const fn command(&self) -> Option<Command> {
         match self {
-            Self::Command(command) => Some(*command),
+            Self::Rmcm(Rmcm::Command(command)) => Some(*command),
             _ => None,
         }
     }
@@ -215,7 +243,7 @@ impl Message {
     /// What it says as an answer.
     pub(crate) const fn answer(&self) -> Option<Answer> {
         match self {
-            Self::Answer(answer) => Some(*answer),
+            Self::Rmcm(Rmcm::Answer(answer)) => Some(*answer),
             _ => None,
         }
     }
@@ -352,21 +380,16 @@ impl Exchange {
         text
     }
 
-    /// When the tester, or somebody at the robot's side, next does something else after this time.
-    pub(crate) fn next_play(&self, after_ms: u64) -> Option<u64> {
+    /// Until when what the tester did at `at_ms` may be judged: neither the tester nor anybody at the robot's side did
+    /// anything else, and the tester listened.
+    pub(crate) fn undisturbed_until(&self, at_ms: u64) -> u64 {
         let mut plays = self.seen.iter().filter(|seen| {
             matches!(
                 seen.what,
                 Happening::Play(_) | Happening::Told(_) | Happening::Restarted
             )
         });
-        plays
-            .find(|seen| seen.at_ms > after_ms)
-            .map(|seen| seen.at_ms)
-    }
-
-    /// Until when what the tester did at `at_ms` may be judged: nothing else was done, and the tester listened.
-    pub(crate) fn undisturbed_until(&self, at_ms: u64) -> u64 {
-        self.next_play(at_ms).unwrap_or(self.ended_ms)
+        let next = plays.find(|seen| seen.at_ms > at_ms);
+        next.map_or(self.ended_ms, |seen| seen.at_ms)
     }
 }

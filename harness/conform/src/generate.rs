@@ -12,11 +12,10 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
-use crossguard_codec::geonet::Envelope;
 use crossguard_protocol::{Config, StationId};
 
-use crate::bench::{Bench, Terms};
-use crate::case::Case;
+use crate::bench::Bench;
+use crate::case::{Case, Table};
 use crate::in_process::Reference;
 use crate::perform::Performed;
 use crate::play::{Play, Span};
@@ -62,13 +61,10 @@ pub struct Generated {
 /// Never: a robot in this process is never gone.
 #[must_use]
 pub fn generate() -> Generated {
-    let terms = Terms {
-        slack_ms: 100,
-        ..Terms::default()
-    };
     let subject = Reference::reference(ROBOT, Config::default());
-    let envelopes = [Envelope::Off, Envelope::Off];
-    let mut bench = Bench::new(subject, ROBOT, terms.clone(), envelopes, 1);
+    let table = Table::in_process(ROBOT);
+    let terms = table.terms.clone();
+    let mut bench = Bench::new(subject, table);
     bench.generates = true;
     bench.pass(1_100).expect("it is here");
     let statements = Statement::all();

@@ -11,10 +11,11 @@ use crossguard_protocol::{
 };
 
 use crate::bench::{APART_MS, Bench};
-use crate::exchange::{Happening, Player};
+use crate::exchange::{Happening, Player, RamSeen};
 use crate::play::{Play, Side};
-use crate::station::{Beating, Part};
+use crate::station::Beating;
 use crate::subject::{Gone, Subject};
+use crate::words;
 
 /// What became of a play.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -65,7 +66,7 @@ impl<S: Subject> Bench<S> {
     /// What the robot says, but for what changes with every RAM.
     fn essence(&self) -> Option<String> {
         let said = self.said()?;
-        let part = crate::words::part(&said.ram.coordination);
+        let part = words::part(&said.ram.coordination);
         let list = said.listed().len();
         let (farewell, duty) = (said.ram.farewell, said.ram.on_duty);
         let session = said.session();
@@ -97,14 +98,14 @@ impl<S: Subject> Bench<S> {
             }
             Play::Beat(beating) => {
                 let ada = self.station(Player::Ada);
-                let fits = ada.part != Part::Nothing && ada.beating != beating;
+                let fits = ada.part.is_some() && ada.beating != beating;
                 ada.beating = beating;
                 fits
             }
             _ => match play.side() {
                 Side::Asks => self.begin_as_requester(play),
-                Side::Leads => self.begin_as_leader(play)?,
-                Side::Helps => self.begin_as_helper(play)?,
+                Side::Leads | Side::Commands => self.begin_as_leader(play)?,
+                _ => self.begin_as_helper(play)?,
             },
         };
         Ok(if fits {
@@ -175,7 +176,7 @@ impl<S: Subject> Bench<S> {
             on_duty: false,
         };
         for _ in 0..3 {
-            self.send_ram(Player::Ada, ram)?;
+            self.send(Player::Ada, RamSeen::of(ram).into())?;
             self.pass(APART_MS)?;
         }
         Ok(Performed::Yes)
@@ -188,23 +189,13 @@ impl<S: Subject> Bench<S> {
         // Names of sessions differ, and make no difference.
         key.retain(|c| !c.is_ascii_digit());
         for station in &self.stations {
-            let part = match station.part {
-                Part::Nothing => "nothing",
-                Part::SaysNothing => "says nothing",
-                Part::Asks { .. } => "asks",
-                Part::Leads { .. } => "leads",
-                Part::Offers { .. } => "offers",
-                Part::Follows { last: None, .. } => "follows",
-                Part::Follows {
-                    last: Some(last), ..
-                } => crate::words::progress(last.progress),
-            };
+            let part = station.part.as_ref().map(words::part);
             let beating = if station.speaks() {
                 station.beating
             } else {
                 Beating::Mute
             };
-            let _ = write!(key, " | {part} {beating:?}");
+            let _ = write!(key, " | {part:?} {beating:?}");
         }
         let newest = self.exchange.commands().next_back();
         let outstanding = newest.map(|(_, command)| {

@@ -1,7 +1,5 @@
 //! What the tester can do: the words in which cases are written.
 
-use std::fmt;
-
 use crossguard_protocol::{Millis, StationId, TaskType, Unavailability};
 
 use crate::station::Beating;
@@ -28,9 +26,12 @@ pub enum Span {
     Farewell,
 }
 
-/// A table of what the tester does, each with the words for it, which say what it means.
+/// A table of what the tester does: each with who does it, and the words for it, which say what it means.
 macro_rules! plays {
-    ($($play:ident $($words:literal)? $(($of:ty) { $($value:path => $said:literal,)* })?;)*) => {
+    ($(
+        $play:ident $($side:ident $(($local:expr))? $words:literal)?
+        $(($of:ty) { $($value:path => $said:literal,)* })?;
+    )*) => {
         /// Something that the tester does.
         #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
         #[allow(missing_docs, reason = "the table of words says what each is")]
@@ -38,88 +39,91 @@ macro_rules! plays {
             $($play $(($of))?,)*
         }
 
-        /// Each play, and the words for it.
-        const WORDS: &[(Play, &str)] = &[
-            $($((Play::$play, $words),)? $($((Play::$play($value), $said),)*)?)*
+        /// Each play, who does it, and the words for it.
+        const ALL: &[(Play, Side, &str)] = &[
+            $(
+                $((Play::$play, Side::$side $(($local))?, $words),)?
+                $($((Play::$play($value), Side::Other, $said),)*)?
+            )*
         ];
     };
 }
 
 plays! {
-    Ask "Ada asks for help";
-    AskForUnsupported "Ada asks for a task that nobody can do";
-    BoAsks "Bo asks for help";
-    Confirm "Ada leads and lists the robot's offer";
-    ConfirmOtherOffer "Ada leads and lists an offer that the robot did not make";
-    ConfirmNobody "Ada leads and lists Bo alone";
-    ConfirmElsewhere "Ada leads another session and lists the robot's offer in it";
-    BoConfirms "Bo leads and lists the robot's offer to Ada";
-    CommandMove "Ada commands a move";
-    CommandBlock "Ada commands a block";
-    CommandInitialPos "Ada commands initialPos";
-    CommandUnsupported "Ada commands a task that the robot did not offer";
-    CommandElsewhere "Ada commands in another session";
-    CommandToOther "Ada commands Bo";
-    Repeat "Ada repeats her newest command";
-    Older "Ada's command of long before arrives";
-    Drop "Ada lists the robot no more";
-    EndCompleted "Ada ends the session as completed";
-    EndAborted "Ada ends the session as aborted";
-    EndElsewhere "Ada names another session as ended";
-    BareNone "Ada says none, and ends nothing";
+    Ask Asks "Ada asks for help";
+    AskForUnsupported Asks "Ada asks for a task that nobody can do";
+    BoAsks Asks "Bo asks for help";
+    Confirm Leads "Ada leads and lists the robot's offer";
+    ConfirmOtherOffer Leads "Ada leads and lists an offer that the robot did not make";
+    ConfirmNobody Leads "Ada leads and lists Bo alone";
+    ConfirmElsewhere Leads "Ada leads another session and lists the robot's offer in it";
+    BoConfirms Leads "Bo leads and lists the robot's offer to Ada";
+    CommandMove Commands "Ada commands a move";
+    CommandBlock Commands "Ada commands a block";
+    CommandInitialPos Commands "Ada commands initialPos";
+    CommandUnsupported Commands "Ada commands a task that the robot did not offer";
+    CommandElsewhere Commands "Ada commands in another session";
+    CommandToOther Commands "Ada commands Bo";
+    Repeat Commands "Ada repeats her newest command";
+    Older Commands "Ada's command of long before arrives";
+    Drop Leads "Ada lists the robot no more";
+    EndCompleted Leads "Ada ends the session as completed";
+    EndAborted Leads "Ada ends the session as aborted";
+    EndElsewhere Leads "Ada names another session as ended";
+    BareNone Leads "Ada says none, and ends nothing";
     Beat(Beating) {
         Beating::Newer => "Ada beats again",
         Beating::Same => "Ada's heartbeat stands still",
         Beating::Older => "Ada's heartbeats of long before arrive",
         Beating::Mute => "Ada falls silent",
     };
-    Offer "Ada offers";
-    OfferUnfit "Ada offers with a t_safety of 1 ms";
-    OfferElsewhere "Ada offers for a session that does not exist";
-    OfferOlder "Ada's older offer arrives after the newer one";
-    BoSpeaks "Bo is there and has no part";
-    BoOffers "Bo offers and is nearer";
-    Join "Ada follows";
-    BoJoins "Bo follows";
-    Ack "Ada acknowledges";
-    AckOther "Ada acknowledges commands that are not outstanding";
-    AckElsewhere "Ada acknowledges in another session";
-    BoAcks "Bo acknowledges Ada's command";
-    Reject "Ada rejects";
-    ReportExecuting "Ada reports that she executes";
-    ReportInPosition "Ada reports that she is in position";
-    ReportCompleted "Ada reports that she has completed";
-    ReportFailed "Ada reports that she has failed";
-    ReportOther "Ada reports another command as completed";
-    AdaLeaves "Ada leaves";
-    BoLeaves "Bo leaves";
-    BoClaims "Bo follows the robot in a session that is over";
-    BoIntrudes "Bo follows the robot in its session, unasked";
-    BoAsksFirst "Bo asks for the same place and goes before";
-    BoAsksFirstOnce "Bo asks for the same place and goes before, without a heartbeat";
-    BoAsksLater "Bo asks for the same place and goes behind";
-    BoLeadsFirst "Bo leads at the same place and goes before";
-    BoLeadsFirstOnce "Bo leads at the same place and goes before, without a heartbeat";
-    BoLeadsLater "Bo leads at the same place and goes behind";
-    Noise "packets arrive that mean nothing";
-    OwnName "somebody speaks under the robot's name";
-    Restart "the robot loses power and starts again";
-    Detect "the robot detects a pedestrian and needs one follower";
-    DetectTwo "the robot detects a pedestrian and needs two followers";
-    OrderMove "the robot orders Ada to move";
-    OrderBlock "the robot orders Ada to block";
-    OrderInitialPos "the robot orders Ada to initialPos";
-    InPosition "the robot is in position";
-    Done "the robot has done it";
-    Fail "the robot cannot do it";
-    Clear "the robot sees a clear road";
-    Open "the robot lets people cross";
-    Close "the robot holds people back";
-    TaskCompleted "the robot's pedestrian is across";
-    Leave "the robot wants to leave";
-    LowBattery "the robot's battery is low";
-    LocalFault "the robot has a fault";
-    Available "the robot is available again";
+    Offer Helps "Ada offers";
+    OfferUnfit Helps "Ada offers with a t_safety of 1 ms";
+    OfferElsewhere Helps "Ada offers for a session that does not exist";
+    OfferOlder Helps "Ada's older offer arrives after the newer one";
+    BoSpeaks Asks "Bo is there and has no part";
+    BoOffers Helps "Bo offers and is nearer";
+    Join Helps "Ada follows";
+    BoJoins Helps "Bo follows";
+    Ack Helps "Ada acknowledges";
+    AckOther Helps "Ada acknowledges commands that are not outstanding";
+    AckElsewhere Helps "Ada acknowledges in another session";
+    BoAcks Helps "Bo acknowledges Ada's command";
+    Reject Helps "Ada rejects";
+    ReportExecuting Helps "Ada reports that she executes";
+    ReportInPosition Helps "Ada reports that she is in position";
+    ReportCompleted Helps "Ada reports that she has completed";
+    ReportFailed Helps "Ada reports that she has failed";
+    ReportOther Helps "Ada reports another command as completed";
+    AdaLeaves Helps "Ada leaves";
+    BoLeaves Helps "Bo leaves";
+    BoClaims Helps "Bo follows the robot in a session that is over";
+    BoIntrudes Helps "Bo follows the robot in its session, unasked";
+    BoAsksFirst Asks "Bo asks for the same place and goes before";
+    BoAsksFirstOnce Asks "Bo asks for the same place and goes before, without a heartbeat";
+    BoAsksLater Asks "Bo asks for the same place and goes behind";
+    BoLeadsFirst Asks "Bo leads at the same place and goes before";
+    BoLeadsFirstOnce Asks "Bo leads at the same place and goes before, without a heartbeat";
+    BoLeadsLater Asks "Bo leads at the same place and goes behind";
+    Noise Other "packets arrive that mean nothing";
+    OwnName Other "somebody speaks under the robot's name";
+    Restart Other "the robot loses power and starts again";
+    Detect Happens(|_| Local::Detect(1)) "the robot detects a pedestrian and needs one follower";
+    DetectTwo Happens(|_| Local::Detect(2)) "the robot detects a pedestrian and needs two followers";
+    OrderMove Happens(|ada| Local::Order(ada, TaskType::MOVE)) "the robot orders Ada to move";
+    OrderBlock Happens(|ada| Local::Order(ada, TaskType::BLOCK)) "the robot orders Ada to block";
+    OrderInitialPos Happens(|ada| Local::Order(ada, TaskType::INITIAL_POS)) "the robot orders Ada to initialPos";
+    InPosition Happens(|_| Local::InPosition) "the robot is in position";
+    Done Happens(|_| Local::Done) "the robot has done it";
+    Fail Happens(|_| Local::Fail) "the robot cannot do it";
+    Clear Happens(|_| Local::Clear) "the robot sees a clear road";
+    Open Happens(|_| Local::Open) "the robot lets people cross";
+    Close Happens(|_| Local::Close) "the robot holds people back";
+    TaskCompleted Happens(|_| Local::TaskCompleted) "the robot's pedestrian is across";
+    Leave Happens(|_| Local::Leave) "the robot wants to leave";
+    LowBattery Happens(|_| Local::Unavailable(Unavailability::LowBattery)) "the robot's battery is low";
+    LocalFault Happens(|_| Local::Unavailable(Unavailability::LocalFault)) "the robot has a fault";
+    Available Happens(|_| Local::Available) "the robot is available again";
     Wait(Span) {
         Span::Offer => "t_offer passes",
         Span::Help => "t_help passes",
@@ -132,110 +136,56 @@ plays! {
     };
 }
 
-/// The part in which the tester does something.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+/// Who does something.
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum Side {
-    /// It asks for help, or competes with the robot.
+    /// The tester asks for help, or competes with the robot.
     Asks,
-    /// It leads the robot.
+    /// The tester leads the robot.
     Leads,
-    /// It helps and follows the robot.
+    /// The tester commands a follower.
+    Commands,
+    /// The tester helps and follows the robot.
     Helps,
-}
-
-impl fmt::Display for Play {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.words())
-    }
+    /// Somebody at the robot's side brings this about, where Ada has this station id.
+    Happens(fn(StationId) -> Local),
+    /// The tester does what needs no part in a session.
+    Other,
 }
 
 impl Play {
     /// Every play.
     pub(crate) fn all() -> impl Iterator<Item = Self> {
-        WORDS.iter().map(|(play, _)| *play)
+        ALL.iter().map(|(play, ..)| *play)
     }
 
     /// The play of these words.
     #[must_use]
     pub fn of_words(words: &str) -> Option<Self> {
-        WORDS
-            .iter()
-            .find(|(_, known)| *known == words)
-            .map(|(play, _)| *play)
+        let known = ALL.iter().find(|(.., known)| *known == words);
+        known.map(|(play, ..)| *play)
     }
 
     /// The words for it.
     #[must_use]
     pub fn words(self) -> &'static str {
-        let known = WORDS.iter().find(|(play, _)| *play == self);
-        known.map_or("", |(_, words)| words)
+        let known = ALL.iter().find(|(play, ..)| *play == self);
+        known.map_or("", |(.., words)| words)
     }
 
-    /// The part in which the tester does it.
-    pub(crate) const fn side(self) -> Side {
-        match self {
-            Self::Ask
-            | Self::AskForUnsupported
-            | Self::BoAsks
-            | Self::BoAsksFirst
-            | Self::BoAsksFirstOnce
-            | Self::BoAsksLater
-            | Self::BoLeadsFirst
-            | Self::BoLeadsFirstOnce
-            | Self::BoLeadsLater
-            | Self::BoSpeaks => Side::Asks,
-            Self::Confirm
-            | Self::ConfirmOtherOffer
-            | Self::ConfirmNobody
-            | Self::ConfirmElsewhere
-            | Self::BoConfirms
-            | Self::Drop
-            | Self::EndCompleted
-            | Self::EndAborted
-            | Self::EndElsewhere
-            | Self::BareNone => Side::Leads,
-            _ if self.commands() => Side::Leads,
-            _ => Side::Helps,
-        }
-    }
-
-    /// Whether it is a command to a follower.
-    pub(crate) const fn commands(self) -> bool {
-        matches!(
-            self,
-            Self::CommandMove
-                | Self::CommandBlock
-                | Self::CommandInitialPos
-                | Self::CommandUnsupported
-                | Self::CommandElsewhere
-                | Self::CommandToOther
-                | Self::Repeat
-                | Self::Older
-        )
+    /// Who does it.
+    pub(crate) fn side(self) -> Side {
+        let known = ALL.iter().find(|(play, ..)| *play == self);
+        known.map_or(Side::Other, |(_, side, _)| *side)
     }
 
     /// What has to be told to the robot for it.
     #[must_use]
     pub fn local(self, ada: StationId) -> Option<Local> {
-        Some(match self {
-            Self::Detect => Local::Detect(1),
-            Self::DetectTwo => Local::Detect(2),
-            Self::OrderMove => Local::Order(ada, TaskType::MOVE),
-            Self::OrderBlock => Local::Order(ada, TaskType::BLOCK),
-            Self::OrderInitialPos => Local::Order(ada, TaskType::INITIAL_POS),
-            Self::InPosition => Local::InPosition,
-            Self::Done => Local::Done,
-            Self::Fail => Local::Fail,
-            Self::Clear => Local::Clear,
-            Self::Open => Local::Open,
-            Self::Close => Local::Close,
-            Self::TaskCompleted => Local::TaskCompleted,
-            Self::Leave => Local::Leave,
-            Self::LowBattery => Local::Unavailable(Unavailability::LowBattery),
-            Self::LocalFault => Local::Unavailable(Unavailability::LocalFault),
-            Self::Available => Local::Available,
-            _ => return None,
-        })
+        match self.side() {
+            Side::Happens(local) => Some(local(ada)),
+            _ => None,
+        }
     }
 
     /// How long it takes at least, in ms, where the tester waits for a timer.

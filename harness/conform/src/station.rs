@@ -2,8 +2,7 @@
 
 use crossguard_codec::geonet::Stack;
 use crossguard_protocol::{
-    Coordination, Farewell, Followers, Heartbeat, HelpRequest, Millis, OfferNumber, Place, Ram,
-    Report, SessionId, SessionNumber, StationId, TaskSet, UniqueNumber, Urgency,
+    Coordination, Farewell, Heartbeat, Ram, SessionId, SessionNumber, StationId, UniqueNumber,
 };
 
 /// A task that no robot offers.
@@ -23,46 +22,14 @@ pub enum Beating {
     Mute,
 }
 
-/// A station's part in a session.
-#[derive(Clone, Copy, PartialEq, Debug, Default)]
-#[allow(clippy::large_enum_variant, reason = "there are two stations")]
-pub(crate) enum Part {
-    /// None: it sends nothing, but for farewells.
-    #[default]
-    Nothing,
-    /// It says that it has no part.
-    SaysNothing,
-    /// It asks for help.
-    Asks {
-        number: SessionNumber,
-        request: HelpRequest,
-    },
-    /// It leads.
-    Leads {
-        number: SessionNumber,
-        followers: Followers,
-        urgency: Urgency,
-        place: Place,
-    },
-    /// It offers to the robot under test.
-    Offers {
-        session: SessionId,
-        offer: OfferNumber,
-        t_safety: Millis,
-    },
-    /// It follows the robot under test.
-    Follows {
-        session: SessionId,
-        last: Option<Report>,
-    },
-}
-
 /// A station that the tester plays.
 #[derive(Clone, Debug)]
 pub(crate) struct PlayedStation {
     pub(crate) id: StationId,
     pub(crate) stack: Stack,
-    pub(crate) part: Part,
+    /// What it says of its part in a session; heartbeats and echoes are those of the next RAM. `None` if it sends
+    /// nothing, but for farewells.
+    pub(crate) part: Option<Coordination>,
     pub(crate) beating: Beating,
     /// The newest heartbeat of its own.
     pub(crate) heartbeat: Heartbeat,
@@ -83,7 +50,7 @@ impl PlayedStation {
         Self {
             id,
             stack,
-            part: Part::default(),
+            part: None,
             beating: Beating::default(),
             // Not at 0, so that there are older ones.
             heartbeat: Heartbeat(100),
@@ -108,18 +75,18 @@ impl PlayedStation {
 
     /// The session that it has opened.
     pub(crate) fn own_session(&self) -> Option<SessionId> {
-        match self.part {
-            Part::Asks { number, .. } | Part::Leads { number, .. } => Some(SessionId {
-                leader: self.id,
-                number,
-            }),
+        match self.part? {
+            Coordination::NeedHelp { number, .. } | Coordination::Leader { number, .. } => {
+                let leader = self.id;
+                Some(SessionId { leader, number })
+            }
             _ => None,
         }
     }
 
     /// Whether it sends RAM now.
     pub(crate) fn speaks(&self) -> bool {
-        let has_part = self.part != Part::Nothing && self.beating != Beating::Mute;
+        let has_part = self.part.is_some() && self.beating != Beating::Mute;
         has_part || self.farewell.is_some()
     }
 
@@ -134,43 +101,15 @@ impl PlayedStation {
             _ => heartbeat,
         };
         let (heartbeat, echo) = (older(self.heartbeat), older(self.echo));
-        let coordination = match self.part {
-            Part::Nothing | Part::SaysNothing => Coordination::None,
-            Part::Asks { number, request } => Coordination::NeedHelp {
-                number,
-                heartbeat,
-                request,
-            },
-            Part::Leads {
-                number,
-                followers,
-                urgency,
-                place,
-            } => Coordination::Leader {
-                number,
-                heartbeat,
-                followers,
-                urgency,
-                place,
-                yields: false,
-            },
-            Part::Offers {
-                session,
-                offer,
-                t_safety,
-            } => Coordination::OfferHelp {
-                session,
-                offer,
-                capabilities: TaskSet(0b111),
-                echo,
-                t_safety,
-            },
-            Part::Follows { session, last } => Coordination::Follower {
-                session,
-                echo,
-                last,
-            },
-        };
+        let mut coordination = self.part.unwrap_or(Coordination::None);
+        match &mut coordination {
+            Coordination::None => {}
+            Coordination::NeedHelp { heartbeat: it, .. }
+            | Coordination::Leader { heartbeat: it, .. } => *it = heartbeat,
+            Coordination::OfferHelp { echo: it, .. } | Coordination::Follower { echo: it, .. } => {
+                *it = echo;
+            }
+        }
         Ram {
             station: self.id,
             coordination,

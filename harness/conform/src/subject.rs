@@ -4,8 +4,6 @@ use std::fmt;
 
 use crossguard_protocol::{StationId, TaskType, Unavailability};
 
-use crate::words;
-
 /// Something that happens at the robot under test, and that no packet can bring about.
 ///
 /// Its text is a line that `crossguard run` understands when it is typed.
@@ -50,7 +48,10 @@ impl fmt::Display for Local {
             Self::Close => f.write_str("close"),
             Self::TaskCompleted => f.write_str("task-completed"),
             Self::Leave => f.write_str("leave"),
-            Self::Unavailable(why) => write!(f, "unavailable {}", words::reason(*why)),
+            Self::Unavailable(why) => {
+                let why = why.to_string().replace(' ', "-");
+                write!(f, "unavailable {why}")
+            }
             Self::Available => f.write_str("available"),
         }
     }

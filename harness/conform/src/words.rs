@@ -1,17 +1,6 @@
-//! Words for reports, and for lines that are typed.
+//! Words for reports.
 
-use crossguard_protocol::{Coordination, Progress, Unavailability};
-
-/// The word that `crossguard run` knows for a reason.
-pub(crate) const fn reason(why: Unavailability) -> &'static str {
-    match why {
-        Unavailability::LowBattery => "low-battery",
-        Unavailability::Teleoperated => "teleoperated",
-        Unavailability::EmergencyStop => "emergency-stop",
-        Unavailability::LocalFault => "local-fault",
-        Unavailability::NotSafe => "not-safe",
-    }
-}
+use crossguard_protocol::{Coordination, Progress};
 
 /// How far a command is, in a word.
 pub(crate) const fn progress(progress: Progress) -> &'static str {

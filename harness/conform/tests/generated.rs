@@ -4,8 +4,6 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use crossguard_codec::geonet::Envelope;
-use crossguard_conform::Terms;
 use crossguard_conform::case::{Case, Table, play};
 use crossguard_conform::generate::generate;
 use crossguard_conform::in_process::Reference;
@@ -46,15 +44,7 @@ fn the_cases_are_those_that_are_generated() {
 fn the_written_cases_meet_what_they_name() {
     let robot = StationId(1);
     let mut subject = Reference::reference(robot, Config::default());
-    let mut table = Table {
-        robot,
-        terms: Terms {
-            slack_ms: 100,
-            ..Terms::default()
-        },
-        envelopes: [Envelope::Off, Envelope::Off],
-        boot: 0,
-    };
+    let mut table = Table::in_process(robot);
     let mut known: BTreeSet<_> = Case::generated().into_iter().map(|it| it.plays).collect();
     let statements = Statement::all();
     for case in Case::written() {

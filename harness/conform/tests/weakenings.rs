@@ -2,8 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use crossguard_codec::geonet::Envelope;
-use crossguard_conform::Terms;
 use crossguard_conform::campaign::{Campaign, Verdict};
 use crossguard_conform::case::Table;
 use crossguard_conform::in_process::InProcess;
@@ -45,15 +43,7 @@ fn broken(rules: &'static dyn Rules, about: &[&'static str]) -> Vec<&'static str
         rules,
     };
     let mut subject = InProcess::new(robot, Config::default(), boots);
-    let mut table = Table {
-        robot,
-        terms: Terms {
-            slack_ms: 100,
-            ..Terms::default()
-        },
-        envelopes: [Envelope::Off, Envelope::Off],
-        boot: 0,
-    };
+    let mut table = Table::in_process(robot);
     for case in campaign.cases() {
         subject.restart().unwrap();
         campaign.play(&mut subject, &mut table, &case).unwrap();

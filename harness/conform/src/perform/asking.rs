@@ -8,7 +8,7 @@ use crossguard_protocol::{
 use crate::bench::Bench;
 use crate::exchange::Player;
 use crate::play::Play;
-use crate::station::{Beating, Part, UNSUPPORTED};
+use crate::station::{Beating, UNSUPPORTED};
 use crate::subject::Subject;
 
 impl<S: Subject> Bench<S> {
@@ -21,8 +21,12 @@ impl<S: Subject> Bench<S> {
             place,
         };
         let station = self.station(player);
-        (station.part, station.farewell) = (Part::Asks { number, request }, None);
-        station.beating = Beating::Newer;
+        station.part = Some(Coordination::NeedHelp {
+            number,
+            heartbeat: station.heartbeat,
+            request,
+        });
+        (station.farewell, station.beating) = (None, Beating::Newer);
     }
 
     /// Bo leads somebody who is not there.
@@ -32,12 +36,15 @@ impl<S: Subject> Bench<S> {
             station: StationId(77),
             offer: OfferNumber(UniqueNumber { boot: 1, count: 0 }),
         };
-        self.station(Player::Bo).part = Part::Leads {
+        let bo = self.station(Player::Bo);
+        bo.part = Some(Coordination::Leader {
             number,
+            heartbeat: bo.heartbeat,
             followers: [somebody].into_iter().collect(),
             urgency,
             place,
-        };
+            yields: false,
+        });
     }
 
     /// The tester asks for help.
@@ -47,7 +54,8 @@ impl<S: Subject> Bench<S> {
             _ => Player::Bo,
         };
         let competes = self.said().is_some_and(|said| said.asks() || said.leads());
-        let is_free = matches!(self.station(player).part, Part::Nothing | Part::SaysNothing);
+        let part = self.station(player).part;
+        let is_free = part.is_none_or(|part| part == Coordination::None);
         if !is_free {
             return false;
         }
@@ -57,7 +65,7 @@ impl<S: Subject> Bench<S> {
             Play::Ask => self.asks(player, tasks, Urgency::Medium, nowhere),
             Play::AskForUnsupported => self.asks(player, unsupported, Urgency::Medium, nowhere),
             Play::BoAsks => self.asks(player, tasks, Urgency::High, nowhere),
-            Play::BoSpeaks => self.station(player).part = Part::SaysNothing,
+            Play::BoSpeaks => self.station(player).part = Some(Coordination::None),
             _ if !competes => return false,
             Play::BoAsksFirst | Play::BoAsksFirstOnce => {
                 self.asks(player, tasks, Urgency::Emergency, here);

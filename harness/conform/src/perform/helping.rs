@@ -1,15 +1,31 @@
 //! The tester helps and follows the robot.
 
 use crossguard_protocol::{
-    Answer, Coordination, Failure, Farewell, Millis, OfferNumber, Progress, Rejection, Report,
-    RequestId, SessionId, SessionNumber, StationId, TaskSet, UniqueNumber, Verdict,
+    Answer, Coordination, Failure, Farewell, Heartbeat, Millis, OfferNumber, Progress, Rejection,
+    Report, RequestId, Rmcm, SessionId, SessionNumber, StationId, TaskSet, UniqueNumber, Verdict,
 };
 
 use crate::bench::{APART_MS, Bench};
-use crate::exchange::Player;
+use crate::exchange::{Player, RamSeen};
 use crate::play::Play;
-use crate::station::{Part, other_number};
+use crate::station::other_number;
 use crate::subject::{Gone, Subject};
+
+/// An offer of a robot that can do all that is asked for.
+const fn offering(
+    session: SessionId,
+    offer: OfferNumber,
+    echo: Heartbeat,
+    t_safety: Millis,
+) -> Coordination {
+    Coordination::OfferHelp {
+        session,
+        offer,
+        capabilities: TaskSet(0b111),
+        echo,
+        t_safety,
+    }
+}
 
 impl<S: Subject> Bench<S> {
     pub(super) fn begin_as_helper(&mut self, play: Play) -> Result<bool, Gone> {
@@ -46,14 +62,8 @@ impl<S: Subject> Bench<S> {
                 };
                 let station = self.station(Player::Ada);
                 let mut ram = station.next_ram(None);
-                ram.coordination = Coordination::OfferHelp {
-                    session,
-                    offer,
-                    capabilities: TaskSet(0b111),
-                    echo: station.echo,
-                    t_safety,
-                };
-                self.send_ram(Player::Ada, ram)?;
+                ram.coordination = offering(session, offer, station.echo, t_safety);
+                self.send(Player::Ada, RamSeen::of(ram).into())?;
             }
             (Play::Join, Some(session)) if listed(ada).is_some() => {
                 self.follow(Player::Ada, session, None);
@@ -72,7 +82,7 @@ impl<S: Subject> Bench<S> {
                     return Ok(false);
                 };
                 let station = self.station(player);
-                station.part = Part::Nothing;
+                station.part = None;
                 station.farewell = Some(Farewell::Left(session, offer));
                 self.hurry(player);
             }
@@ -103,18 +113,19 @@ impl<S: Subject> Bench<S> {
         let offer = OfferNumber(self.station(player).issue());
         let station = self.station(player);
         station.farewell = None;
-        station.part = Part::Offers {
-            session,
-            offer,
-            t_safety,
-        };
+        station.part = Some(offering(session, offer, station.echo, t_safety));
         self.hurry(player);
     }
 
     fn follow(&mut self, player: Player, session: SessionId, last: Option<Report>) {
         let station = self.station(player);
         // Who takes part says no farewell.
-        (station.part, station.farewell) = (Part::Follows { session, last }, None);
+        station.farewell = None;
+        station.part = Some(Coordination::Follower {
+            session,
+            echo: station.echo,
+            last,
+        });
         self.hurry(player);
     }
 
@@ -155,7 +166,7 @@ impl<S: Subject> Bench<S> {
             }
         }
         for request in requests {
-            self.send_answer(player, Answer { request, ..answer })?;
+            self.send(player, Rmcm::Answer(Answer { request, ..answer }).into())?;
             self.pass(APART_MS)?;
         }
         Ok(true)

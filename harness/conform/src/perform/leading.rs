@@ -1,26 +1,28 @@
 //! The tester leads the robot.
 
 use crossguard_protocol::{
-    Command, Confirmation, Ending, Farewell, Followers, OfferNumber, Place, RequestId, SessionId,
-    SessionNumber, TaskType, UniqueNumber, Urgency,
+    Command, Confirmation, Coordination, Ending, Farewell, OfferNumber, Place, RequestId, Rmcm,
+    SessionId, SessionNumber, TaskType, UniqueNumber, Urgency,
 };
 
 use crate::bench::{APART_MS, Bench};
 use crate::exchange::{Player, RamSeen};
-use crate::play::Play;
-use crate::station::{Beating, Part, UNSUPPORTED, other_number};
+use crate::play::{Play, Side};
+use crate::station::{Beating, UNSUPPORTED, other_number};
 use crate::subject::{Gone, Subject};
 
 impl<S: Subject> Bench<S> {
     fn lead(&mut self, player: Player, number: SessionNumber, list: Confirmation) {
         let station = self.station(player);
         station.farewell = None;
-        station.part = Part::Leads {
+        station.part = Some(Coordination::Leader {
             number,
-            followers: [list].into_iter().collect::<Followers>(),
+            heartbeat: station.heartbeat,
+            followers: [list].into_iter().collect(),
             urgency: Urgency::Medium,
             place: Place::UNKNOWN,
-        };
+            yields: false,
+        });
         self.hurry(player);
     }
 
@@ -39,7 +41,8 @@ impl<S: Subject> Bench<S> {
         let offered = self.said().and_then(RamSeen::offer);
         let offered = offered.filter(|(to, _)| *to == session);
         let offered = offered.map(|(_, offer)| Confirmation { station, offer });
-        let leads = matches!(self.station(Player::Ada).part, Part::Leads { .. });
+        let part = self.station(Player::Ada).part;
+        let leads = matches!(part, Some(Coordination::Leader { .. }));
         let nobody = Confirmation {
             station: bo,
             offer: OfferNumber(UniqueNumber { boot: 1, count: 0 }),
@@ -61,7 +64,7 @@ impl<S: Subject> Bench<S> {
                     Ending::Aborted
                 };
                 let ada = self.station(Player::Ada);
-                (ada.part, ada.beating) = (Part::Nothing, Beating::Newer);
+                (ada.part, ada.beating) = (None, Beating::Newer);
                 ada.farewell = Some(Farewell::Ended(session.number, how));
                 self.hurry(Player::Ada);
             }
@@ -72,10 +75,12 @@ impl<S: Subject> Bench<S> {
                 self.hurry(Player::Ada);
             }
             (Play::BareNone, _) => {
-                self.station(Player::Ada).part = Part::SaysNothing;
+                self.station(Player::Ada).part = Some(Coordination::None);
                 self.hurry(Player::Ada);
             }
-            _ if play.commands() && leads => return self.command(play, session),
+            _ if leads && matches!(play.side(), Side::Commands) => {
+                return self.command(play, session);
+            }
             _ => return Ok(false),
         }
         Ok(true)
@@ -118,7 +123,7 @@ impl<S: Subject> Bench<S> {
             answers.any(|(_, it)| it.session == command.session && it.request == command.request)
         };
         for _ in 0..4 {
-            self.send_command(Player::Ada, command)?;
+            self.send(Player::Ada, Rmcm::Command(command).into())?;
             let apart_ms = if is_new { 3 * APART_MS } else { APART_MS };
             if self.pass_until(apart_ms, |bench| is_new && answers(bench))? {
                 break;
