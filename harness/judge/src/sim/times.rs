@@ -149,29 +149,59 @@ pub(super) struct Times {
     limits: Vec<Limits>,
     judged: Judged,
     worst: Worst,
-    requests: Vec<Option<(SessionNumber, u64)>>,
-    /// Of each robot, the commands that no follower has acknowledged yet, and since when.
-    commands: Vec<Vec<(CommandId, u64)>>,
     /// Who hangs: nothing in time is asked of such a robot.
     hung: Vec<bool>,
-    running: Vec<Running>,
+    running: Vec<Stopwatch>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Running {
-    measure: Measure,
-    /// The robot that it is about: the follower of a crashed leader, or the leader of a failed follower.
+struct Stopwatch {
+    /// The robot that it is about.
     place: usize,
-    session: SessionId,
+    open: Open,
     since_us: u64,
+}
+
+/// What is open at a robot, and must not be for too long.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Open {
+    /// Its request has no roles.
+    Request(SessionNumber),
+    /// A follower has not acknowledged its command.
+    Command(SessionId, StationId, RequestId),
+    /// It executes something for a leader that has crashed.
+    Executing,
+    /// It follows in the session of a leader that has crashed.
+    Following(SessionId),
+    /// It leads, and its corridor is open although a follower has failed.
+    Corridor,
+}
+
+impl Open {
+    const fn measure(self) -> Measure {
+        match self {
+            Self::Request(_) => Measure::Roles,
+            Self::Command(..) => Measure::Commands,
+            Self::Executing => Measure::Stopped,
+            Self::Following(_) => Measure::Left,
+            Self::Corridor => Measure::CorridorClosed,
+        }
+    }
+
+    fn is_so(self, node: &Node) -> bool {
+        match self {
+            Self::Request(_) | Self::Command(..) => opened_by(node).contains(&self),
+            Self::Executing => node.actuation.running().is_some(),
+            Self::Following(session) => is_following(node, session),
+            Self::Corridor => node.actuation.corridor_open,
+        }
+    }
 }
 
 impl Times {
     pub(super) fn new(limits: Vec<Limits>, judged: Judged) -> Self {
         Self {
             worst: Worst::default(),
-            requests: vec![None; limits.len()],
-            commands: vec![Vec::new(); limits.len()],
             hung: vec![false; limits.len()],
             limits,
             judged,
@@ -183,11 +213,17 @@ impl Times {
         self.worst
     }
 
+    fn start(&mut self, since_us: u64, place: usize, open: Open) {
+        self.running.push(Stopwatch {
+            place,
+            open,
+            since_us,
+        });
+    }
+
     /// A robot hangs: what it was to do in time is not asked of it.
     pub(super) fn hang(&mut self, place: usize) {
         self.hung[place] = true;
-        self.requests[place] = None;
-        self.commands[place].clear();
         self.running.retain(|running| running.place != place);
     }
 
@@ -204,9 +240,8 @@ impl Times {
         nodes: impl Iterator<Item = &'a Node> + Clone,
     ) {
         self.fail(now_us, place, nodes.clone());
-        (self.requests[place], self.hung[place]) = (None, false);
-        self.commands[place].clear();
         // A robot that is down has nothing open and does nothing.
+        self.hung[place] = false;
         self.running.retain(|running| running.place != place);
         let Some(session) = nodes.clone().nth(place).and_then(led_by) else {
             return;
@@ -216,15 +251,9 @@ impl Times {
         }
         for (follower, node) in nodes.enumerate() {
             if is_following(node, session) && !self.hung[follower] {
-                let running = |measure| Running {
-                    measure,
-                    place: follower,
-                    session,
-                    since_us: now_us,
-                };
-                self.running.push(running(Measure::Left));
-                if node.actuation.running().is_some() {
-                    self.running.push(running(Measure::Stopped));
+                self.start(now_us, follower, Open::Following(session));
+                if Open::Executing.is_so(node) {
+                    self.start(now_us, follower, Open::Executing);
                 }
             }
         }
@@ -240,125 +269,66 @@ impl Times {
         if !self.judged.is_in_time {
             return;
         }
-        let Some(maneuver) = nodes
-            .clone()
-            .nth(place)
-            .and_then(|node| node.actuation.running())
-        else {
+        let failing = nodes.clone().nth(place);
+        let Some(maneuver) = failing.and_then(|node| node.actuation.running()) else {
             return;
         };
-        let session = maneuver.session;
         let mut places = nodes.enumerate();
-        let leader = places.find(|(_, node)| led_by(node) == Some(session));
-        let is_asked =
-            |leader: usize, node: &Node| node.actuation.corridor_open && !self.hung[leader];
-        if let Some((leader, _)) = leader.filter(|(leader, node)| is_asked(*leader, node)) {
-            self.running.push(Running {
-                measure: Measure::CorridorClosed,
-                place: leader,
-                session,
-                since_us: now_us,
-            });
+        let leader = places.find(|(_, node)| led_by(node) == Some(maneuver.session));
+        if let Some((leader, node)) = leader
+            && Open::Corridor.is_so(node)
+            && !self.hung[leader]
+        {
+            self.start(now_us, leader, Open::Corridor);
         }
     }
 
     /// Looks at a robot after a step. What took too long, if anything did.
     pub(super) fn look(&mut self, now_us: u64, place: usize, node: &Node) -> Option<Measure> {
-        let late = self.look_at_request(now_us, place, node);
-        let mut late = late.or(self.look_at_commands(now_us, place, node));
         let (limits, worst) = (&self.limits[place], &mut self.worst);
+        let mut late = None;
         self.running.retain(|running| {
             if running.place != place {
                 return true;
             }
-            let is_over = match running.measure {
-                Measure::Stopped => node.actuation.running().is_none(),
-                Measure::Left => !is_following(node, running.session),
-                Measure::CorridorClosed => !node.actuation.corridor_open,
-                _ => true,
-            };
-            let took_us = now_us - running.since_us;
-            if is_over {
-                worst.note(running.measure, running.measure.limit(limits).0, took_us);
+            let (measure, is_open) = (running.open.measure(), running.open.is_so(node));
+            let (bound_ms, took_us) = (measure.limit(limits).0, now_us - running.since_us);
+            if !is_open {
+                worst.note(measure, bound_ms, took_us);
             }
-            if took_us > u64::from(running.measure.limit(limits).0) * 1_000 {
-                late = late.or(Some(running.measure));
-                return false;
+            if took_us > u64::from(bound_ms) * 1_000 {
+                late = late.or(Some(measure));
             }
-            !is_over
+            is_open
         });
+        if self.judged.is_in_time && !self.hung[place] {
+            for open in opened_by(node) {
+                let is_it = |running: &Stopwatch| running.place == place && running.open == open;
+                if !self.running.iter().any(is_it) {
+                    self.start(now_us, place, open);
+                }
+            }
+        }
         late
-    }
-
-    fn look_at_commands(&mut self, now_us: u64, place: usize, node: &Node) -> Option<Measure> {
-        if !self.judged.is_in_time || self.hung[place] {
-            return None;
-        }
-        let bound_ms = self.limits[place].commands.0;
-        let open = outstanding(node);
-        let mut is_late = false;
-        let (known, worst) = (&mut self.commands[place], &mut self.worst);
-        known.retain(|(command, since_us)| {
-            let took_us = now_us - since_us;
-            is_late |= took_us > u64::from(bound_ms) * 1_000;
-            let is_over = !open.contains(command);
-            if is_over {
-                worst.note(Measure::Commands, bound_ms, took_us);
-            }
-            !is_over
-        });
-        for command in open {
-            if known.iter().all(|(known, _)| *known != command) {
-                known.push((command, now_us));
-            }
-        }
-        is_late.then_some(Measure::Commands)
-    }
-
-    fn look_at_request(&mut self, now_us: u64, place: usize, node: &Node) -> Option<Measure> {
-        if !self.judged.is_in_time {
-            return None;
-        }
-        let bound_ms = self.limits[place].roles.0;
-        let asks_for = node.robot.as_ref().and_then(|robot| match robot.phase() {
-            Phase::Requesting(requesting) => Some(requesting.number),
-            _ => None,
-        });
-        let request = &mut self.requests[place];
-        let since = request.map_or(now_us, |(_, since)| since);
-        let took_us = now_us - since;
-        match (asks_for, *request) {
-            (Some(number), Some((known, _))) if number == known => {}
-            (Some(number), None) => *request = Some((number, now_us)),
-            (asks_for, Some(_)) => {
-                self.worst.note(Measure::Roles, bound_ms, took_us);
-                *request = asks_for.map(|number| (number, now_us));
-            }
-            (None, None) => {}
-        }
-        let is_late = took_us > u64::from(bound_ms) * 1_000;
-        is_late.then_some(Measure::Roles)
     }
 }
 
-/// A command: session, follower, number.
-type CommandId = (SessionId, StationId, RequestId);
-
-/// The commands of this robot that are not acknowledged.
-fn outstanding(node: &Node) -> Vec<CommandId> {
-    let robot = node.robot.as_ref();
-    let leading = robot.and_then(|robot| match robot.phase() {
-        Phase::Leading(leading) => Some((robot.session()?, leading)),
-        _ => None,
-    });
-    let Some((session, leading)) = leading else {
+/// What a robot has opened itself: a request without roles, and commands that are not acknowledged.
+fn opened_by(node: &Node) -> Vec<Open> {
+    let Some(robot) = &node.robot else {
         return Vec::new();
     };
-    let members = leading.members.iter();
-    let of = |station, request| (session, station, request);
-    members
-        .filter_map(|member| Some(of(member.station, member.outstanding?.request)))
-        .collect()
+    match (robot.phase(), robot.session()) {
+        (Phase::Requesting(requesting), _) => vec![Open::Request(requesting.number)],
+        (Phase::Leading(leading), Some(session)) => {
+            let members = leading.members.iter();
+            let of = |station, request| Open::Command(session, station, request);
+            members
+                .filter_map(|member| Some(of(member.station, member.outstanding?.request)))
+                .collect()
+        }
+        _ => Vec::new(),
+    }
 }
 
 fn led_by(node: &Node) -> Option<SessionId> {
