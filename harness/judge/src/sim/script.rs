@@ -1,6 +1,6 @@
 //! What happens to robots in a run, and when.
 
-use crossguard_protocol::{Availability, StationId, TaskType};
+use crossguard_protocol::Event;
 
 /// Something that happens to one robot.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -24,18 +24,8 @@ pub enum Deed {
     Boot,
     /// Its body cannot finish what it does.
     Fail,
-    /// It leaves its session.
-    Leave,
-    /// It becomes available or not.
-    Availability(Availability),
-    /// Its application opens the corridor, whatever the plan says.
-    OpenCorridor,
-    /// Its application closes the corridor, whatever the plan says.
-    CloseCorridor,
-    /// Its application commands something out of turn.
-    Command(StationId, TaskType),
-    /// Its application says that all is done.
-    TaskCompleted,
+    /// Its application says this, whatever the plan says.
+    Event(Event),
     /// It changes its pseudonym, if it may.
     ChangeIdentity,
     /// Its process hangs for this many milliseconds. What arrives waits for it.

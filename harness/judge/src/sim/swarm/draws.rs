@@ -1,8 +1,8 @@
 //! The drawing itself: each part of a run by a function of its own.
 
 use crossguard_protocol::{
-    self as protocol, Availability, Config, Heartbeat, Millis, RequestId, Settings, StationId,
-    TaskSet, TaskType, Unavailability, Urgency,
+    self as protocol, Availability, Config, Event, Heartbeat, Millis, RequestId, Settings,
+    StationId, TaskSet, TaskType, Unavailability, Urgency,
 };
 use crossguard_robot::body::Build;
 use crossguard_robot::plan::{Leg, Plan, Stage};
@@ -16,6 +16,11 @@ use super::{Replay, RobotDraw, SECOND_US, Swarm};
 use crate::sim::script::{Deed, Happening};
 
 pub(super) struct Draws(ChaCha8Rng);
+
+/// A robot becomes available or not.
+const fn available(availability: Availability) -> Deed {
+    Deed::Event(Event::AvailabilityChanged(availability))
+}
 
 /// How long leaders try, in milliseconds.
 pub(super) const PATIENCE_MS: u32 = 40_000;
@@ -388,7 +393,7 @@ impl Draws {
         }
         for place in 0..robots.len() {
             // What was broken is repaired in the end.
-            add(heals_us, place, Deed::Availability(Availability::Available));
+            add(heals_us, place, available(Availability::Available));
         }
         script
     }
@@ -403,21 +408,22 @@ impl Draws {
         ];
         match self.0.random_range(0..9) {
             0 => Deed::Fail,
-            1 => Deed::Leave,
+            1 => Deed::Event(Event::LeaveRequested),
             2 => {
                 let reason = *reasons.choose(&mut self.0).expect("there are reasons");
-                Deed::Availability(Availability::Unavailable(reason))
+                available(Availability::Unavailable(reason))
             }
-            3 => Deed::Availability(Availability::Available),
-            4 => Deed::OpenCorridor,
-            5 => Deed::CloseCorridor,
+            3 => available(Availability::Available),
+            4 => Deed::Event(Event::OpenCorridor),
+            5 => Deed::Event(Event::CloseCorridor),
             6 => {
                 let to = robots.choose(&mut self.0).expect("there are robots");
                 let tasks = [TaskType::INITIAL_POS, TaskType::MOVE, TaskType::BLOCK];
                 let task = *tasks.choose(&mut self.0).expect("there are tasks");
-                Deed::Command(to.station, task)
+                let follower = to.station;
+                Deed::Event(Event::CommandManeuver { follower, task })
             }
-            7 => Deed::TaskCompleted,
+            7 => Deed::Event(Event::TaskCompleted),
             _ => Deed::ChangeIdentity,
         }
     }

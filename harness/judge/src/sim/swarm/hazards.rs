@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crossguard_protocol::{Config, Settings};
+use crossguard_protocol::{Availability, Config, Event, Place, Settings};
 use crossguard_robot::transport::Faults;
 use serde::Serialize;
 
@@ -87,7 +87,7 @@ impl Hazard {
             Self::Hang => some_deed(|deed| matches!(deed, Deed::Hang(_))),
             Self::OwnFailure => some_deed(|deed| match deed {
                 Deed::Fail => true,
-                Deed::Availability(it) => *it != crossguard_protocol::Availability::Available,
+                Deed::Event(Event::AvailabilityChanged(it)) => *it != Availability::Available,
                 _ => false,
             }),
             Self::Pseudonym => some_deed(|deed| *deed == Deed::ChangeIdentity),
@@ -120,7 +120,7 @@ impl Hazard {
 }
 
 fn knows_no_place(robot: &RobotDraw) -> bool {
-    robot.plan.site.crossing == crossguard_protocol::Place::UNKNOWN
+    robot.plan.site.crossing == Place::UNKNOWN
 }
 
 fn lets_slow_people_cross(robot: &RobotDraw) -> bool {

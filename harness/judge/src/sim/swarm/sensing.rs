@@ -1,6 +1,6 @@
 //! What is drawn of people, of the sensors that see them, of bodies that are pushed away, and of vehicles.
 
-use crossguard_protocol::{self as protocol, Config, Millis, Settings, TaskSet, TaskType};
+use crossguard_protocol::{self as protocol, Config, Event, Millis, Settings, TaskSet, TaskType};
 use crossguard_robot::plan::{Leg, Plan, Stage, Who};
 use crossguard_robot::site::Place;
 use crossguard_robot::zone::Zone;
@@ -100,9 +100,12 @@ impl Swarm {
         }
         // An application that does as it likes is for the other runs.
         self.script.retain(|it| {
+            let Deed::Event(event) = it.deed else {
+                return true;
+            };
             !matches!(
-                it.deed,
-                Deed::OpenCorridor | Deed::CloseCorridor | Deed::Command(..)
+                event,
+                Event::OpenCorridor | Event::CloseCorridor | Event::CommandManeuver { .. }
             )
         });
         let has_faults = draws.random_bool(0.8);

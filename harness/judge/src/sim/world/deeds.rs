@@ -89,14 +89,9 @@ impl World<'_> {
         Some(match deed {
             Deed::Detect => Event::PedestrianDetected(seat.draw.plan.request()),
             Deed::Fail => machine.finish(false)?,
-            Deed::Leave => Event::LeaveRequested,
-            Deed::Availability(availability) => Event::AvailabilityChanged(availability),
-            Deed::OpenCorridor => Event::OpenCorridor,
-            Deed::CloseCorridor => Event::CloseCorridor,
-            Deed::Command(follower, task) => Event::CommandManeuver { follower, task },
             // Nobody says that who knows of people on the road.
-            Deed::TaskCompleted if !is_clear => return None,
-            Deed::TaskCompleted => Event::TaskCompleted,
+            Deed::Event(Event::TaskCompleted) if !is_clear => return None,
+            Deed::Event(event) => event,
             // An id follows from the ticket, which changes in its own time.
             Deed::ChangeIdentity if self.swarm.is_secured => return None,
             Deed::ChangeIdentity => {

@@ -1,14 +1,12 @@
 //! The insider among the robots: what it says arrives everywhere.
 
 use std::rc::Rc;
-use std::time::Duration;
 
 use crossguard_codec::si::timestamp_its;
 use crossguard_endpoint::Moment;
 use crossguard_endpoint::station::Security;
 use crossguard_protocol::{Phase, StationId};
 
-use super::radio::Arrival;
 use super::{EPOCH_UNIX_MS, Next, World};
 use crate::sim::insider::Insider;
 use crate::sim::security;
@@ -60,21 +58,9 @@ impl World<'_> {
 
     /// A packet of the insider reaches all robots.
     fn spread(&mut self, packet: &Rc<[u8]>) {
-        self.packets += 1;
-        if let Some(watch) = &mut self.watch {
-            let epoch = Duration::from_millis(EPOCH_UNIX_MS.unsigned_abs());
-            watch.packet(epoch + Duration::from_micros(self.now_us), packet);
-        }
+        self.is_on_air(packet);
         for to in 0..self.seats.len() {
-            let arrived_us = self.now_us + WAY_US;
-            let arrival = Arrival {
-                to,
-                from: to,
-                arrived_us,
-                ram_sent_us: None,
-                packet: Rc::clone(packet),
-            };
-            self.at(arrived_us, Next::Arrives(arrival));
+            self.arrives_at(self.now_us + WAY_US, to, to, packet);
         }
     }
 

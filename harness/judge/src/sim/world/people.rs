@@ -232,20 +232,16 @@ impl World<'_> {
         let falls_back = |output: &Output| matches!(output, Output::FallBack(..));
         for notice in outputs.notices() {
             match notice {
-                // No body is gone with it.
-                Notice::FollowerGone(guard, _)
-                | Notice::LeaseExpired(guard)
-                | Notice::ManeuverFailed(guard, ..)
-                | Notice::ManeuverReported(guard, _)
-                | Notice::ManeuverCompleted(guard, _)
-                | Notice::FollowerSafeIdle(guard, _)
-                    if self.is_insider(guard) => {}
                 Notice::FollowerGone(guard, _)
                 | Notice::LeaseExpired(guard)
                 | Notice::ManeuverFailed(guard, ..)
                 | Notice::ManeuverReported(guard, _)
                 | Notice::ManeuverCompleted(guard, _)
                 | Notice::FollowerSafeIdle(guard, _) => {
+                    if self.is_insider(guard) {
+                        // No body is gone with it.
+                        continue;
+                    }
                     let guard = self.names.get(&guard).copied();
                     self.road.tell_gone(now_us, place, guard)?;
                 }

@@ -70,15 +70,35 @@ impl World<'_> {
                 return;
             }
             for to in 0..self.seats.len() {
-                let arrival = Arrival {
-                    to,
-                    from,
-                    arrived_us: at_us,
-                    ram_sent_us: None,
-                    packet: Rc::clone(&packet),
-                };
-                self.at(at_us, Next::Arrives(arrival));
+                self.arrives_at(at_us, to, from, &packet);
             }
+        }
+    }
+
+    /// A packet that is no RAM of this moment arrives then.
+    pub(super) fn arrives_at(
+        &mut self,
+        arrived_us: u64,
+        to: usize,
+        from: usize,
+        packet: &Rc<[u8]>,
+    ) {
+        let arrival = Arrival {
+            to,
+            from,
+            arrived_us,
+            ram_sent_us: None,
+            packet: Rc::clone(packet),
+        };
+        self.at(arrived_us, Next::Arrives(arrival));
+    }
+
+    /// A packet is sent.
+    pub(super) fn is_on_air(&mut self, packet: &[u8]) {
+        self.packets += 1;
+        if let Some(watch) = &mut self.watch {
+            let epoch = Duration::from_millis(EPOCH_UNIX_MS.unsigned_abs());
+            watch.packet(epoch + Duration::from_micros(self.now_us), packet);
         }
     }
 
@@ -92,11 +112,7 @@ impl World<'_> {
     }
 
     pub(super) fn transmit(&mut self, from: usize, packet: &Rc<[u8]>, is_ram: bool) {
-        self.packets += 1;
-        if let Some(watch) = &mut self.watch {
-            let epoch = Duration::from_millis(EPOCH_UNIX_MS.unsigned_abs());
-            watch.packet(epoch + Duration::from_micros(self.now_us), packet);
-        }
+        self.is_on_air(packet);
         if !self.is_healed && !self.swarm.replays.is_empty() {
             self.aired.push((from, Rc::clone(packet)));
         }
