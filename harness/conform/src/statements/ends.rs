@@ -69,18 +69,12 @@ fn completed_frees(trace: &Trace, (at, session, how): (u64, SessionId, Ending)) 
 fn aborted_is_a_duty(trace: &Trace) -> Vec<Met> {
     let aborted = played_ends(trace).into_iter();
     let aborted = aborted.filter(|(.., how)| *how == Ending::Aborted);
-    let mut causes: Vec<(u64, SessionId, &str)> = aborted
-        .map(|(at, session, _)| (at, session, "aborted"))
-        .collect();
-    for (at, played) in trace.played_rams() {
-        if let Some(session) = played.session()
-            && played.leads()
-            && !played.lists(trace.robot)
-            && causes.iter().all(|(_, known, _)| *known != session)
-        {
-            causes.push((at, session, "not listed"));
-        }
-    }
+    let aborted = aborted.map(|(at, session, _)| (at, session, "aborted"));
+    let not_listed = trace.played_rams().filter_map(|(at, played)| {
+        let is_it = played.leads() && !played.lists(trace.robot);
+        Some((at, played.session().filter(|_| is_it)?, "not listed"))
+    });
+    let causes = first_of_each(aborted.chain(not_listed), |(_, session, _)| *session);
     let judge = |(at, session, how): (u64, SessionId, &str)| {
         if trace.state_at(at)?.executes() != Some(session) {
             return None;
@@ -92,7 +86,7 @@ fn aborted_is_a_duty(trace: &Trace) -> Vec<Met> {
         let situation = format!("{}, {how}", met.situation);
         Some(Met { situation, ..met })
     };
-    causes.into_iter().filter_map(judge).collect()
+    causes.filter_map(judge).collect()
 }
 
 fn own_ends_are_named(trace: &Trace, (at, local, state): Told) -> Option<Met> {
@@ -193,27 +187,26 @@ fn farewells_last(trace: &Trace) -> Vec<Met> {
 }
 
 fn stale_is_named(trace: &Trace) -> Vec<Met> {
-    let mut all: Vec<(SessionId, Met)> = Vec::new();
-    for (at, played) in trace.played_rams() {
-        let (Some((claimed, _)), Some(state)) = (played.echo(), trace.state_at(at)) else {
-            continue;
-        };
+    let judge = |(at, played): (u64, &RamSeen)| {
+        let ((claimed, _), state) = (played.echo()?, trace.state_at(at)?);
         let is_own = claimed.leader == trace.robot;
         let is_over = state.session() != Some(claimed);
-        let is_known = all.iter().any(|(known, _)| *known == claimed);
         let names_another =
             |state: &RamSeen| state.ram.farewell.is_some() && !state.names_as_ended(claimed.number);
         // It may have begun to name another one just now.
         let next = trace.rams().find(|(then, _)| *then > at);
         let is_busy = names_another(state) || next.is_some_and(|(_, next)| names_another(next));
-        if !is_own || !is_over || is_known || is_busy || played.ram.station == trace.robot {
-            continue;
+        if !is_own || !is_over || is_busy || played.ram.station == trace.robot {
+            return None;
         }
         let what = "no RAM that names that session as ended";
-        let met = trace.ram_soon(at, what, |state| state.names_as_ended(claimed.number));
-        all.extend(met.map(|met| (claimed, met)));
-    }
-    all.into_iter().map(|(_, met)| met).collect()
+        let met = trace.ram_soon(at, what, |state| state.names_as_ended(claimed.number))?;
+        Some((claimed, met))
+    };
+    let stale = first_of_each(trace.played_rams().filter_map(judge), |(claimed, _)| {
+        *claimed
+    });
+    stale.map(|(_, met)| met).collect()
 }
 
 fn duty_ends(trace: &Trace) -> Vec<Met> {

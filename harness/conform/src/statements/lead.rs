@@ -3,7 +3,8 @@
 use crossguard_protocol::{Command, Farewell, StationId};
 
 use super::select::begun;
-use super::{Breach, Met, Told, Trace, met_when, told};
+use super::{Breach, Met, Told, Trace, first_of_each, met_when, told};
+use crate::exchange::RamSeen;
 use crate::subject::Local;
 
 statements! {
@@ -289,25 +290,19 @@ fn silent_is_dropped(trace: &Trace) -> Vec<Met> {
 }
 
 fn who_leaves_is_dropped_alone(trace: &Trace) -> Vec<Met> {
-    let mut all: Vec<Met> = Vec::new();
-    let mut known: Vec<StationId> = Vec::new();
-    for (at, played) in trace.played_rams() {
-        let (Some(Farewell::Left(session, _)), Some(state)) =
-            (played.ram.farewell, trace.state_at(at))
-        else {
-            continue;
-        };
-        let leaver = played.ram.station;
-        if state.session() != Some(session) || !state.lists(leaver) || known.contains(&leaver) {
-            continue;
-        }
-        known.push(leaver);
+    let leaving = trace.played_rams().filter_map(|(at, played)| {
+        let (state, leaver) = (trace.state_at(at)?, played.ram.station);
+        let of_it = state.session().is_some_and(|it| played.names_as_left(it));
+        (of_it && state.lists(leaver)).then_some((at, leaver, state))
+    });
+    let judge = |(at, leaver, state): (u64, StationId, &RamSeen)| {
         let mut others = state.listed();
         others.retain(|(station, _)| *station != leaver);
         let what = "no RAM that lists the others alone";
-        let met = trace.ram_soon(at, what, |state| state.listed() == others);
+        let met = trace.ram_soon(at, what, |state| state.listed() == others)?;
         let situation = format!("{} followers are left", others.len());
-        all.extend(met.map(|met| Met { situation, ..met }));
-    }
-    all
+        Some(Met { situation, ..met })
+    };
+    let first = first_of_each(leaving, |(_, leaver, _)| *leaver);
+    first.filter_map(judge).collect()
 }

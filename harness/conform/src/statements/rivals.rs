@@ -3,7 +3,7 @@
 use crossguard_protocol::{Coordination, Heartbeat, Place, SessionId, Urgency};
 
 use super::lead::sent;
-use super::{Met, Trace, met_when, news};
+use super::{Met, Trace, first_of_each, met_when, news};
 use crate::exchange::RamSeen;
 
 statements! {
@@ -75,30 +75,25 @@ struct Rivalry {
 }
 
 fn rivalries(trace: &Trace) -> impl Iterator<Item = Rivalry> {
-    let mut all: Vec<Rivalry> = Vec::new();
-    for (at, played) in trace.played_rams() {
-        let (Some(rival), Some(own)) = (claim_of(played), trace.state_at(at).and_then(claim_of))
-        else {
-            continue;
-        };
-        let is_known = all.iter().any(|it| it.rival.session == rival.session);
+    let heard = trace.played_rams().filter_map(move |(at, played)| {
+        let (rival, own) = (claim_of(played)?, claim_of(trace.state_at(at)?)?);
         let is_between_them =
             own.session.leader == trace.robot && played.ram.station != trace.robot;
-        if is_known || !is_between_them || !rival.is_at_the_place_of(own) {
-            continue;
-        }
+        (is_between_them && rival.is_at_the_place_of(own)).then_some((at, rival, own))
+    });
+    let first = first_of_each(heard, |(_, rival, _)| rival.session);
+    first.map(move |(at, rival, own)| {
         let claims = trace.played_rams().filter_map(|(at, played)| {
             let claim = claim_of(played)?;
             (claim.session == rival.session).then_some((at, claim.heartbeat))
         });
-        all.push(Rivalry {
+        Rivalry {
             own,
             rival,
             beats: news(claims).map(|(at, _)| at).collect(),
             first_ms: at,
-        });
-    }
-    all.into_iter()
+        }
+    })
 }
 
 impl Rivalry {

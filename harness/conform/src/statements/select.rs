@@ -54,34 +54,27 @@ fn fits(trace: &Trace, t_safety_ms: u64) -> bool {
 
 fn selects_in_time(trace: &Trace) -> Vec<Met> {
     let limit_ms = trace.ms(|settings| settings.t_select) + trace.soon_ms();
-    let mut all: Vec<(SessionId, Met)> = Vec::new();
-    for (_, state) in trace.rams() {
-        let (Coordination::NeedHelp { request, .. }, Some(session)) =
-            (state.ram.coordination, state.session())
-        else {
-            continue;
+    let judge = |(_, state): (u64, &RamSeen)| {
+        let Coordination::NeedHelp { request, .. } = state.ram.coordination else {
+            return None;
         };
-        if all.iter().any(|(known, _)| *known == session) {
-            continue;
-        }
+        let session = state.session()?;
         let fit = offers(trace, session).filter(|(.., t_safety_ms)| fits(trace, *t_safety_ms));
         let helpers: Vec<_> = first_of_each(fit, |(_, station, ..)| *station).collect();
-        let enough = usize::from(request.followers).checked_sub(1);
-        let Some((at, ..)) = enough.and_then(|last| helpers.get(last)).copied() else {
-            continue;
-        };
+        let (at, ..) = *helpers.get(usize::from(request.followers).checked_sub(1)?)?;
         let led = trace
             .rams()
             .find(|(_, state)| state.leads() && state.session() == Some(session));
         let broken = match led {
             Some((led, _)) if led <= at + limit_ms => None,
-            _ if trace.undisturbed_until(at) < at + limit_ms => continue,
+            _ if trace.undisturbed_until(at) < at + limit_ms => return None,
             _ => Some(format!("within {limit_ms} ms it does not lead")),
         };
         let situation = format!("{} asked for, {} offered", request.followers, helpers.len());
-        all.push((session, met_when(at, situation, broken)));
-    }
-    all.into_iter().map(|(_, met)| met).collect()
+        Some((session, met_when(at, situation, broken)))
+    };
+    let selected = first_of_each(trace.rams().filter_map(judge), |(session, _)| *session);
+    selected.map(|(_, met)| met).collect()
 }
 
 fn leads_chosen_helpers_alone(trace: &Trace) -> Vec<Met> {
@@ -142,25 +135,21 @@ fn nearer_is_chosen(
 
 fn unfit_is_not_taken(trace: &Trace) -> Vec<Met> {
     let limit_ms = trace.ms(|settings| settings.t_select) + trace.soon_ms();
-    let mut all: Vec<(StationId, Met)> = Vec::new();
-    for (_, state) in trace.rams() {
-        let Some(session) = state.session().filter(|it| it.leader == trace.robot) else {
-            continue;
-        };
-        for (at, station, offer, t_safety_ms) in offers(trace, session) {
-            let is_known = all.iter().any(|(known, _)| *known == station);
-            let was_heard = trace.ended_ms >= at + limit_ms;
-            if fits(trace, t_safety_ms) || is_known || !was_heard {
-                continue;
-            }
-            let mut rams = trace.rams();
-            let confirmed = rams.any(|(_, state)| state.listed().contains(&(station, offer)));
-            let broken = confirmed
-                .then(|| format!("it confirms {station}, whose t_safety is {t_safety_ms} ms"));
-            all.push((station, met_when(at, "asking", broken)));
-        }
-    }
-    all.into_iter().map(|(_, met)| met).collect()
+    let sessions = trace.rams().filter_map(|(_, state)| state.session());
+    let own = first_of_each(sessions, |session| *session).filter(|it| it.leader == trace.robot);
+    let unfit = own.flat_map(|session| offers(trace, session));
+    let unfit = unfit.filter(|(at, .., t_safety_ms)| {
+        !fits(trace, *t_safety_ms) && trace.ended_ms >= at + limit_ms
+    });
+    let judge = |(at, station, offer, t_safety_ms): (u64, StationId, OfferNumber, u64)| {
+        let mut rams = trace.rams();
+        let confirmed = rams.any(|(_, state)| state.listed().contains(&(station, offer)));
+        let broken =
+            confirmed.then(|| format!("it confirms {station}, whose t_safety is {t_safety_ms} ms"));
+        met_when(at, "asking", broken)
+    };
+    let first = first_of_each(unfit, |(_, station, ..)| *station);
+    first.map(judge).collect()
 }
 
 fn newest_offer_is_confirmed(trace: &Trace) -> Vec<Met> {
