@@ -10,7 +10,8 @@
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
 
-use crossguard_endpoint::ras::generation::{Cadence, LOW_FREQUENCY_INTERVAL_MS, Limits};
+use crossguard_endpoint::ras::congestion::Reactive;
+use crossguard_endpoint::ras::generation::{Cadence, LOW_FREQUENCY_INTERVAL_MS, Limits, Trigger};
 use crossguard_endpoint::ras::motion::{Change, Motion};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -119,34 +120,7 @@ struct Station<'a> {
     waiting: VecDeque<Frame>,
     sending: Option<Frame>,
     certificate_ms: Option<u64>,
-    congestion: Congestion,
-}
-
-/// The reactive congestion control of TS 102 687 v1.2.1 table A.1.
-#[derive(Clone, Copy, Debug, Default)]
-struct Congestion {
-    state: usize,
-}
-
-impl Congestion {
-    const INTERVALS_MS: [u64; 5] = [100, 200, 400, 500, 1_000];
-
-    /// One step towards the state that a channel busy ratio asks for.
-    fn update(&mut self, cbr: f64) {
-        let wanted = [0.3, 0.4, 0.5, 0.6]
-            .iter()
-            .filter(|limit| cbr >= **limit)
-            .count();
-        match wanted.cmp(&self.state) {
-            std::cmp::Ordering::Greater => self.state += 1,
-            std::cmp::Ordering::Less => self.state -= 1,
-            std::cmp::Ordering::Equal => {}
-        }
-    }
-
-    fn interval_ms(self) -> u64 {
-        Self::INTERVALS_MS[self.state]
-    }
+    congestion: Reactive,
 }
 
 /// The simulation of one run.
@@ -263,7 +237,7 @@ impl<'a> Simulation<'a> {
             waiting: VecDeque::new(),
             sending: None,
             certificate_ms: None,
-            congestion: Congestion::default(),
+            congestion: Reactive::default(),
         };
         let stations: Vec<Station> = vehicles.chain(devices).chain(robots).map(station).collect();
         let mut random = ChaCha8Rng::seed_from_u64(run.seed);
@@ -323,7 +297,9 @@ impl<'a> Simulation<'a> {
                 sums.busy_max_us = sums.busy_max_us.max(busy_us);
             }
             if has_dcc {
-                stations[number].congestion.update(f64::from(busy_us) / 1e5);
+                stations[number]
+                    .congestion
+                    .approach(f64::from(busy_us) / 1e5);
             }
         });
         self.place_all(now_us);
@@ -582,8 +558,7 @@ fn cam_due(
         // Neither motion nor a shorter interval: only time.
         let last = cadence.last_ms();
         let is_due = |last| now_ms.saturating_sub(last) >= interval_ms.max(congestion_ms);
-        last.is_none_or(is_due)
-            .then_some(crossguard_endpoint::ras::generation::Trigger::First)
+        last.is_none_or(is_due).then_some(Trigger::First)
     } else {
         let limits = Limits {
             congestion_ms,

@@ -51,11 +51,15 @@ impl Reactive {
             return None;
         }
         self.evaluated_ms = Some(now_ms);
-        let busy_ratio = self.busy_ratio(now_ms).unwrap_or(0.0);
+        self.approach(self.busy_ratio(now_ms).unwrap_or(0.0));
+        Some(self.interval_ms())
+    }
+
+    /// One step towards the state that a busy ratio asks for, whenever the last one was.
+    pub fn approach(&mut self, busy_ratio: f64) {
         let wanted = TABLE.iter().rposition(|(from, _)| busy_ratio >= *from);
         let wanted = wanted.unwrap_or(0);
         self.state = wanted.clamp(self.state.saturating_sub(1), self.state + 1);
-        Some(self.interval_ms())
     }
 
     /// The interval to be kept, in ms.
