@@ -61,7 +61,7 @@ use serde::Serialize;
 
 use clock::{BrokenAt, ClockEntry, SharedClock};
 pub use crossguard_robot::trace::Log;
-use crossguard_robot::trace::{Entry, Record, Records, Unreadable};
+use crossguard_robot::trace::{Entry, Record, Records};
 use crossing::Crossing;
 use road::Crossings;
 use robot::Follow;
@@ -200,14 +200,8 @@ impl<'a> Cursor<'a> {
     }
 
     fn advance(&mut self) -> Result<(), Invalid> {
-        self.head = self.records.take().map_err(|unreadable| {
-            let fault = match unreadable {
-                Unreadable::Line(cause) => Fault::Unreadable(cause),
-                Unreadable::Empty => Fault::Empty,
-                Unreadable::NotARecord(cause) => Fault::NotARecord(cause),
-            };
-            self.invalid(None, fault)
-        })?;
+        let next = self.records.take();
+        self.head = next.map_err(|why| self.invalid(None, why.into()))?;
         if let Some(record) = &self.head
             && !self.robots.contains(&record.robot)
         {

@@ -5,6 +5,7 @@ use std::io::{self, BufRead, BufReader, Cursor};
 
 use crossguard_judge::validate::{self as harness, Fault, Invalid, Log, Validated};
 use crossguard_robot::lines::LineError;
+use crossguard_robot::trace::Unreadable;
 use pyo3::prelude::*;
 use serde::Serialize;
 
@@ -59,10 +60,10 @@ fn open((name, text): (String, Option<String>)) -> io::Result<Log<'static>> {
 fn misfit(invalid: Invalid) -> PyResult<Misfit> {
     let text = invalid.to_string();
     match *invalid.fault {
-        Fault::Unreadable(LineError::Io(cause)) => Err(io::Error::new(cause.kind(), text).into()),
-        Fault::Unreadable(LineError::TooLong) | Fault::Empty | Fault::NotARecord(_) => {
-            Err(UnreadableLog::new_err(text))
+        Fault::Unreadable(Unreadable::Line(LineError::Io(cause))) => {
+            Err(io::Error::new(cause.kind(), text).into())
         }
+        Fault::Unreadable(_) => Err(UnreadableLog::new_err(text)),
         fault => Ok(Misfit {
             log: invalid.log,
             line: invalid.line,

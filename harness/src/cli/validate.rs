@@ -53,10 +53,7 @@ struct ValidateReport {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let result = validate::all(open_logs(&arguments.logs)?);
     if let Err(invalid) = &result
-        && matches!(
-            *invalid.fault,
-            Fault::Unreadable(_) | Fault::Empty | Fault::NotARecord(_)
-        )
+        && matches!(*invalid.fault, Fault::Unreadable(_))
     {
         // What cannot be read at all is bad input, and not a robot that went wrong.
         return result.map(|_| ()).map_err(Failure::input);

@@ -5,20 +5,14 @@ use crossguard_model_check::properties::PropertyId;
 use crossguard_protocol::{BrokenInequality, StationId};
 
 use crossguard_codec::Unheard;
-use crossguard_robot::lines::LineError;
+use crossguard_robot::trace::Unreadable;
 
 /// What does not fit in a record. Each reads on after the robot's name.
 #[derive(Debug, thiserror::Error)]
 pub enum Fault {
-    /// The log cannot be read.
+    /// The log cannot be read on.
     #[error(transparent)]
-    Unreadable(LineError),
-    /// The log holds nothing.
-    #[error("there is nothing in this log")]
-    Empty,
-    /// The line is no record.
-    #[error("is not a record: {0}")]
-    NotARecord(serde_json::Error),
+    Unreadable(#[from] Unreadable),
     /// The robot runs with settings that break an inequality.
     #[error("was started although {0}")]
     Settings(BrokenInequality),
