@@ -18,8 +18,8 @@ pub use team::TeamSummary;
 use std::collections::BTreeMap;
 
 use crossguard_protocol::{
-    Command, Event, Input, ManeuverId, Notice, Output, ReleaseReason, Rmcm, StationId, StopReason,
-    TaskType,
+    Command, Event, Input, ManeuverId, Notice, Output, ReleaseReason, Rmcm, SessionId, StationId,
+    StopReason, TaskType,
 };
 use serde::Serialize;
 
@@ -38,15 +38,8 @@ pub struct Timing {
     speeds: BTreeMap<String, f64>,
 }
 
-/// A maneuver in an order that has no meaning but is one. A leader counts its requests for each follower
-/// by itself, so it takes the follower as well.
-type Key = (u32, u32, u32, u8);
-
-fn key(follower: StationId, id: ManeuverId) -> Key {
-    let session = id.session;
-    let number = session.number.0.to_u32();
-    (session.leader.0, number, follower.0, id.request.0)
-}
+/// A maneuver: its session, follower and request. A leader counts its requests for each follower by itself.
+type Key = (SessionId, StationId, u8);
 
 const fn id_of(command: &Command) -> ManeuverId {
     ManeuverId {
@@ -209,7 +202,8 @@ impl Timing {
     }
 
     fn times(&mut self, follower: StationId, id: ManeuverId) -> &mut ManeuverTimes {
-        self.maneuvers.entry(key(follower, id)).or_default()
+        let key = (id.session, follower, id.request.0);
+        self.maneuvers.entry(key).or_default()
     }
 
     /// The times by kind of maneuver, of completed ones between robots whose clocks can be compared. The robots'
@@ -234,10 +228,9 @@ impl Timing {
     /// The times by size of the team, smallest first.
     #[must_use]
     pub fn teams(&self) -> Vec<TeamSummary> {
-        let answered = self.maneuvers.iter().filter_map(|(&key, times)| {
-            let (leader, number, ..) = key;
+        let answered = self.maneuvers.iter().filter_map(|(&(session, ..), times)| {
             let asked = (times.commanded?, times.acknowledged);
-            Some(((leader, number), times.task?, asked))
+            Some((session, times.task?, asked))
         });
         self.teams.summaries(answered)
     }
@@ -254,8 +247,8 @@ impl Timing {
     }
 
     /// The logs of the leader and the follower of a maneuver.
-    fn logs(&self, (leader, _, follower, _): Key) -> Option<(usize, usize)> {
-        self.clocks.logs((StationId(leader), StationId(follower)))
+    fn logs(&self, (session, follower, _): Key) -> Option<(usize, usize)> {
+        self.clocks.logs((session.leader, follower))
     }
 }
 

@@ -17,25 +17,17 @@ pub struct PropertyVerdict {
     pub statement: &'static str,
 }
 
-/// The property that a step broke.
-fn broken(verdict: Result<&Validated, &Invalid>) -> Option<String> {
-    match verdict {
-        Err(Invalid { fault, .. }) => match &**fault {
-            Fault::Broken(broken) => Some(broken.name().to_owned()),
-            _ => None,
-        },
-        Ok(_) => None,
-    }
-}
-
 /// What became of each property that had something to say; empty where the logs could not be judged by them.
 #[must_use]
 pub fn properties(verdict: Result<&Validated, &Invalid>) -> Vec<PropertyVerdict> {
-    let broken = broken(verdict);
+    let broken = verdict.err().and_then(|invalid| match *invalid.fault {
+        Fault::Broken(broken) => Some(broken),
+        _ => None,
+    });
     let kept: &[String] = verdict.map_or(&[], |valid| &valid.properties);
     let verdict_of = |id: PropertyId| {
         let name = id.to_string();
-        let is_broken = broken.as_deref() == Some(&name);
+        let is_broken = broken == Some(id);
         (is_broken || kept.contains(&name)).then(|| PropertyVerdict {
             id: name,
             is_broken,

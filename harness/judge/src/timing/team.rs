@@ -3,17 +3,14 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use crossguard_protocol::{Phase, Robot, TaskType};
+use crossguard_protocol::{Phase, Robot, SessionId, TaskType};
 use serde::Serialize;
 
 use super::{Statistic, seconds};
 
-/// A session: its leader and its number.
-pub(super) type Session = (u32, u32);
-
 /// When the teams of a run came about, by the clocks of their leaders.
 #[derive(Debug, Default)]
-pub(super) struct Teams(BTreeMap<Session, Formation>);
+pub(super) struct Teams(BTreeMap<SessionId, Formation>);
 
 /// How a team came about, in microseconds.
 #[derive(Clone, Copy, Debug)]
@@ -59,17 +56,17 @@ impl fmt::Display for TeamSummary {
 impl Teams {
     /// Takes note of a robot's state after a step.
     pub(super) fn step(&mut self, at_us: u64, robot: &Robot) {
-        let session = |number: u32| (robot.station().0, number);
+        let Some(session) = robot.session() else {
+            return;
+        };
         match robot.phase() {
-            Phase::Requesting(requesting) => {
-                let session = session(requesting.number.0.to_u32());
+            Phase::Requesting(_) => {
                 self.0.entry(session).or_insert(Formation {
                     requested_us: at_us,
                     formed: None,
                 });
             }
             Phase::Leading(leading) => {
-                let session = session(leading.number.0.to_u32());
                 if let Some(team) = self.0.get_mut(&session) {
                     let first = (at_us, leading.members.len());
                     team.formed = team.formed.or(Some(first));
@@ -82,9 +79,9 @@ impl Teams {
     /// The times by size; with the maneuvers of all sessions, when each was commanded and acknowledged.
     pub(super) fn summaries(
         &self,
-        maneuvers: impl Iterator<Item = (Session, TaskType, (u64, Option<u64>))>,
+        maneuvers: impl Iterator<Item = (SessionId, TaskType, (u64, Option<u64>))>,
     ) -> Vec<TeamSummary> {
-        let mut stages: BTreeMap<(Session, TaskType), (u64, Option<u64>)> = BTreeMap::new();
+        let mut stages: BTreeMap<(SessionId, TaskType), (u64, Option<u64>)> = BTreeMap::new();
         for (session, task, (commanded, acknowledged)) in maneuvers {
             let stage = stages
                 .entry((session, task))
