@@ -37,6 +37,7 @@ const RECORDS_MAX: u64 = 3_000_000;
 const ROBOTS_MAX: usize = 32;
 
 /// A run.
+#[derive(Default)]
 pub struct Playback {
     /// The first and the last record, in µs since 1970.
     from_us: u64,
@@ -83,23 +84,6 @@ impl Playback {
     }
 }
 
-impl Default for Playback {
-    fn default() -> Self {
-        Self {
-            from_us: u64::MAX,
-            to_us: 0,
-            site: Site::default(),
-            street: None,
-            robots: Vec::new(),
-            messages: Messages::default(),
-            timing: Timing::default(),
-            troubles: Vec::new(),
-            records: 0,
-            left_out: 0,
-        }
-    }
-}
-
 /// When a line of a log was written, in µs since 1970; where it is no record, when the record before it was. `None`
 /// where there is none before it.
 #[must_use]
@@ -133,6 +117,9 @@ impl Reading {
         if self.run.records >= RECORDS_MAX {
             self.run.left_out += 1;
             return;
+        }
+        if self.run.records == 0 {
+            self.run.from_us = *at_us;
         }
         self.run.records += 1;
         self.run.from_us = self.run.from_us.min(*at_us);
@@ -199,7 +186,6 @@ impl Reading {
     /// The run, after its last record.
     pub(crate) fn finish(mut self, street: Option<SiteFile>) -> Playback {
         let run = &mut self.run;
-        run.from_us = run.from_us.min(run.to_us);
         let mut robots: HashMap<StationId, u16> = HashMap::new();
         for (place, track) in (0..).zip(&run.robots) {
             robots.extend(track.stations.iter().map(|station| (*station, place)));

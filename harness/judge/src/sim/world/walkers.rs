@@ -72,13 +72,12 @@ impl Walker {
     fn is_gone(&self, now_us: u64) -> bool {
         !self.waits && self.way.last().is_none_or(|(at_us, _)| *at_us <= now_us)
     }
+}
 
-    /// Walks on to a place at a speed.
-    fn walk(&mut self, to: Place, speed_mps: f64) {
-        if let Some((at_us, from)) = self.way.last().copied() {
-            self.way
-                .push((at_us + time_us(from.distance(to) / speed_mps), to));
-        }
+/// Walks on to a place at a speed.
+fn walk(way: &mut Vec<(u64, Place)>, to: Place, speed_mps: f64) {
+    if let Some((at_us, from)) = way.last().copied() {
+        way.push((at_us + time_us(from.distance(to) / speed_mps), to));
     }
 }
 
@@ -164,7 +163,7 @@ impl World<'_> {
                 way: vec![(now_us, Place::new(east, COMES_FROM))],
             };
             let speed_mps = scale * self.draws.random_range(0.8..1.8);
-            walker.walk(Place::new(east, WAITS_AT), speed_mps);
+            walk(&mut walker.way, Place::new(east, WAITS_AT), speed_mps);
             walker.since_us = walker.way[1].0;
             if !self.is_healed && self.draws.random_bool(0.15) {
                 let waits_us = self.draws.random_range(SECOND_US..20 * SECOND_US);
@@ -211,7 +210,7 @@ impl World<'_> {
         let Place { east, .. } = walker.place(self.now_us);
         walker.way = vec![(self.now_us, walker.place(self.now_us))];
         walker.waits = false;
-        walker.walk(Place::new(east, COMES_FROM), 1.0);
+        walk(&mut walker.way, Place::new(east, COMES_FROM), 1.0);
         self.waits[usize::from(walker.is_after_healing)].left += 1;
     }
 
@@ -272,15 +271,7 @@ fn cross(
     scale: f64,
     most_us: u64,
 ) -> Vec<(u64, Place)> {
-    let mut walker = Walker {
-        id: 0,
-        since_us: 0,
-        patient_until_us: 0,
-        is_after_healing: false,
-        waits: false,
-        session: None,
-        way: vec![(now_us, from)],
-    };
+    let mut way = vec![(now_us, from)];
     let speed_mps = scale * draws.random_range(0.8..1.8);
     let middle = draws.random_range(1.0..6.0);
     let mut east = from.east;
@@ -290,40 +281,43 @@ fn cross(
         0 | 1 => {}
         // With a pause.
         2 => {
-            walker.walk(Place::new(east, middle), speed_mps);
-            if let Some((at_us, place)) = walker.way.last().copied() {
+            walk(&mut way, Place::new(east, middle), speed_mps);
+            if let Some((at_us, place)) = way.last().copied() {
                 let pause_us = draws.random_range(SECOND_US / 2..8 * SECOND_US);
-                walker.way.push((at_us + pause_us, place));
+                way.push((at_us + pause_us, place));
             }
         }
         // Back again.
         3 => {
-            walker.walk(Place::new(east, middle), speed_mps);
+            walk(&mut way, Place::new(east, middle), speed_mps);
             ends = [KERBS[0] - 0.1, COMES_FROM];
         }
         // Along the road.
         4 => {
-            walker.walk(Place::new(east, middle), speed_mps);
+            walk(&mut way, Place::new(east, middle), speed_mps);
             east += draws.random_range(-6.0..6.0);
-            walker.walk(Place::new(east, middle), speed_mps);
+            walk(&mut way, Place::new(east, middle), speed_mps);
         }
         // Running.
         _ => {
-            walker.walk(Place::new(east, middle), scale * 3.5);
+            walk(&mut way, Place::new(east, middle), scale * 3.5);
             east += draws.random_range(-2.0..2.0);
-            walker.walk(Place::new(east, draws.random_range(1.0..6.0)), scale * 3.5);
+            walk(
+                &mut way,
+                Place::new(east, draws.random_range(1.0..6.0)),
+                scale * 3.5,
+            );
         }
     }
-    walker.walk(Place::new(east, ends[0]), speed_mps);
-    if walker
-        .way
+    walk(&mut way, Place::new(east, ends[0]), speed_mps);
+    if way
         .last()
         .is_some_and(|(at_us, _)| at_us - now_us > most_us)
     {
-        walker.way.truncate(1);
+        way.truncate(1);
         (east, ends) = (from.east, [KERBS[1] + 0.1, GOES_TO]);
-        walker.walk(Place::new(east, ends[0]), scale * 1.2);
+        walk(&mut way, Place::new(east, ends[0]), scale * 1.2);
     }
-    walker.walk(Place::new(east, ends[1]), speed_mps);
-    walker.way
+    walk(&mut way, Place::new(east, ends[1]), speed_mps);
+    way
 }
