@@ -7,27 +7,11 @@ use crossguard_conform::case::Table;
 use crossguard_conform::in_process::InProcess;
 use crossguard_conform::rules::{RULES, Rule};
 use crossguard_conform::subject::Subject as _;
+use crossguard_judge::sim::Ruled;
 use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_protocol::*;
 use crossguard_testkit::rules::*;
 use crossguard_testkit::weakenings;
-
-/// A robot under rules.
-#[derive(Debug)]
-struct Ruled {
-    robot: Robot,
-    rules: &'static dyn Rules,
-}
-
-impl StateMachine for Ruled {
-    fn robot(&self) -> &Robot {
-        &self.robot
-    }
-
-    fn step(&mut self, config: &Config, input: Input) -> Outputs {
-        self.rules.step(&mut self.robot, config, input)
-    }
-}
 
 /// The rules that a robot under `rules` breaks, with all cases or those about one rule.
 fn broken(rules: &'static dyn Rules, about: &[&'static str]) -> Vec<&'static str> {

@@ -187,7 +187,7 @@ pub enum VamTrigger {
 
 /// Whether a device announces itself.
 #[derive(Clone, PartialEq, Debug)]
-pub enum State {
+enum State {
     /// It sends VAM (`VRU-ACTIVE-STANDALONE`).
     Standalone,
     /// It sends VAM that announce that it joins.
@@ -207,21 +207,21 @@ pub enum State {
 
 /// The cluster that a device is in or joins.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Membership {
+struct Membership {
     /// Station id of its head.
-    pub head: u32,
+    head: u32,
     /// Its id, if it says one.
-    pub id: Option<u8>,
+    id: Option<u8>,
     /// Since when it is in this state, in ms.
-    pub since_ms: u64,
+    since_ms: u64,
     /// When the device heard the last time that it is covered, in ms.
-    pub covered_ms: u64,
+    covered_ms: u64,
     /// When it heard its head the last time, in ms.
-    pub heard_ms: u64,
+    heard_ms: u64,
     /// What bounded the cluster then.
-    pub area: Area,
+    area: Area,
     /// The velocity of the cluster then, if it said one.
-    pub velocity_mps: Option<[f64; 2]>,
+    velocity_mps: Option<[f64; 2]>,
 }
 
 /// The station of a VRU.
@@ -257,12 +257,6 @@ impl VruStation {
             last_low_frequency_ms: None,
             pending: None,
         }
-    }
-
-    /// Whether it announces itself.
-    #[must_use]
-    pub const fn state(&self) -> &State {
-        &self.state
     }
 
     /// Whether it leaves its announcement to a robot.

@@ -31,6 +31,7 @@ mod world;
 
 pub use fuzz::{Failure, Fuzz, Planned, Totals};
 pub use report::{Files, write_failure};
+pub use ruled::Ruled;
 pub use script::{Deed, Happening};
 pub use swarm::{CarDraw, Hazard, Ids, InsiderDraw, Replay, RobotDraw, Sensing, SourceDraw, Swarm};
 pub use times::{Longest, Measure, Worst};

@@ -126,7 +126,7 @@ pub(super) struct Road {
     /// Whether endpoints are told of time in time: W3's time, W6 and W8 need that.
     is_in_time: bool,
     /// Whether an insider lies, which can keep two leaders from hearing each other twice: W3's time is left open.
-    has_insider: bool,
+    pub(super) has_insider: bool,
     worst: Worst,
 }
 
@@ -148,12 +148,6 @@ impl Road {
             has_insider: false,
             worst: Worst::default(),
         }
-    }
-
-    /// The same road, beside an insider that lies or not.
-    pub(super) const fn beside(mut self, has_insider: bool) -> Self {
-        self.has_insider = has_insider;
-        self
     }
 
     pub(super) const fn worst(&self) -> Worst {

@@ -5,9 +5,11 @@ use crossguard_protocol::{Config, Input, Outputs, Robot, StateMachine};
 
 /// A robot under rules.
 #[derive(Debug)]
-pub(super) struct Ruled {
-    pub(super) robot: Robot,
-    pub(super) rules: &'static dyn Rules,
+pub struct Ruled {
+    /// The robot.
+    pub robot: Robot,
+    /// What it does in place of a step of the protocol.
+    pub rules: &'static dyn Rules,
 }
 
 impl StateMachine for Ruled {

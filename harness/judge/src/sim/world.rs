@@ -323,10 +323,12 @@ impl<'a> World<'a> {
         let ways = swarm.ways.iter();
         let ways = ways.map(|faults| Channel::new(faults.clone(), draws.random()));
         let limits = limits(swarm);
+        let posts = posts(swarm, &limits);
+        let mut road = Road::new(posts, swarm.delay_max(), swarm.is_in_time());
+        road.has_insider = swarm.insider.is_some();
         let mut world = Self {
             ways: ways.collect(),
-            road: Road::new(posts(swarm, &limits), swarm.delay_max(), swarm.is_in_time())
-                .beside(swarm.insider.is_some()),
+            road,
             times: Times::new(limits, judged(swarm)),
             corners: people::corners(swarm),
             people: Vec::new(),
