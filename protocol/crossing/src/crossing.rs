@@ -166,7 +166,10 @@ impl<const N: usize> Crossing<N> {
         let mut out = Outputs::EMPTY;
         match input {
             Input::Elapsed(time) => self.elapse(setup, time, &mut out),
-            Input::Frame(frame) => self.frame(setup, &frame, &mut out),
+            Input::Frame(frame) => {
+                self.frame(setup, &frame, &mut out);
+                self.watch_people(setup, &mut out);
+            }
             Input::BadFrame => {
                 self.occupancy.start_anew();
                 out.put(Output::Dropped(FrameDrop::Malformed));
@@ -306,6 +309,7 @@ impl<const N: usize> Crossing<N> {
         }
         self.has_crossed |= self.has_opened && self.occupancy.was_seen();
         self.guard_corridor(setup, out);
+        self.watch_people(setup, out);
         self.watch_task(setup, out);
         self.watch_road(setup, out);
         self.watch_zone(setup, out);
@@ -443,16 +447,21 @@ impl<const N: usize> Crossing<N> {
         });
     }
 
-    /// Tells the protocol how the maneuver of the body goes, and the body to wait for its person.
-    fn watch_task(&mut self, setup: &Setup, out: &mut Outputs) {
-        let sees_somebody = self.sees_somebody(setup);
+    /// Tells the protocol whether a follower itself sees somebody on the road: at once, for its leader may end the session.
+    fn watch_people(&self, setup: &Setup, out: &mut Outputs) {
         if self.standing == Standing::Following && self.occupancy.has_sources() {
             if self.occupancy.owes() && !self.is_person_told {
                 out.tell(Event::PersonOnRoad);
-            } else if self.is_person_told && !sees_somebody && self.obligation.is_none() {
+            } else if self.is_person_told && !self.sees_somebody(setup) && self.obligation.is_none()
+            {
                 out.tell(Event::RoadClear);
             }
         }
+    }
+
+    /// Tells the protocol how the maneuver of the body goes, and the body to wait for its person.
+    fn watch_task(&mut self, setup: &Setup, out: &mut Outputs) {
+        let sees_somebody = self.sees_somebody(setup);
         if let Some(waits) = self.kerbward {
             let is_apart = self.is_person_apart(setup);
             self.kerbward = Some(is_apart);

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! A track is a chain of observations that one body could have walked. An id of a source only helps to choose between
-//! tracks that are within reach; an id that jumps is somebody else. Tracks decide who waits. Whether the road is clear is decided
+//! tracks that are within reach; an id that jumps is somebody else. Another id continues the track of somebody who stands there,
+//! for trackers rename people; elsewhere it is somebody else, for one of two who stand beside each other may be missed. Tracks decide who waits. Whether the road is clear is decided
 //! by [`occupancy`](crate::occupancy) alone: tracks may delay that, and never bring it about.
 //!
 //! A false call costs a few robots a moment. A missed person stands alone at the road, which costs more. A road user waits
@@ -28,7 +29,7 @@ use crossguard_protocol::{Millis, Urgency};
 
 use crate::ground::{Point, Way};
 use crate::input::{RoadUser, Sighting};
-use crate::setup::Setup;
+use crate::setup::{Setup, WaitingRules};
 
 /// For how long an observation holds.
 pub const FRESH: Millis = Millis(1_000);
@@ -161,6 +162,12 @@ impl Track {
             .saturating_add(error(sighting.error_cm))
     }
 
+    /// Whether the same source calls them something else than a sighting.
+    fn has_another_id(&self, source: u8, sighting: &Sighting) -> bool {
+        let is_known = self.id.is_some() && sighting.id.is_some();
+        is_known && self.source == source && self.id != sighting.id
+    }
+
     /// Takes in one more observation, made `age` ago.
     fn update(&mut self, setup: &Setup, source: u8, sighting: &Sighting, age: Millis) {
         // A source that lags says nothing new of somebody whom another has seen since.
@@ -200,9 +207,8 @@ impl Track {
     fn intend(&mut self, setup: &Setup, sighting: &Sighting) {
         let rules = &setup.waiting;
         let velocity = sighting.velocity.unwrap_or_default();
-        let pace = u32::from(rules.speed_max_cmps);
-        let sway = u32::from(setup.sensors.error_cm) + pace.saturating_mul(rules.dwell.0) / 1_000;
-        let stands = velocity.length_cm() <= pace && self.stood.distance_cm(self.at) <= sway;
+        let stands = velocity.length_cm() <= u32::from(rules.speed_max_cmps)
+            && self.stood.distance_cm(self.at) <= sway_cm(setup);
         if !stands {
             self.stood = self.at;
         }
@@ -224,6 +230,16 @@ impl Track {
             self.waits &= !self.is_on_road();
         }
     }
+}
+
+/// How far somebody who stands may be from where they have stood.
+fn sway_cm(setup: &Setup) -> u32 {
+    let WaitingRules {
+        speed_max_cmps: pace,
+        dwell,
+        ..
+    } = setup.waiting;
+    u32::from(setup.sensors.error_cm) + u32::from(pace).saturating_mul(dwell.0) / 1_000
 }
 
 /// Whether somebody at a place who goes on like this is on the road soon.
@@ -374,7 +390,10 @@ impl<const N: usize> Tracks<N> {
         let free = free.filter(|(_, track)| (track.source == OTHERS) == (source == OTHERS));
         let near = free.filter_map(|(place, track)| {
             let distance = track.at.distance_cm(sighting.at);
-            (distance <= track.reach_cm(setup, sighting, age)).then_some((distance, place))
+            let is_renamed = track.has_another_id(source, sighting);
+            let sway = if is_renamed { sway_cm(setup) } else { u32::MAX };
+            let reach = track.reach_cm(setup, sighting, age).min(sway);
+            (distance <= reach).then_some((distance, place))
         });
         near.min().map(|(_, place)| place)
     }

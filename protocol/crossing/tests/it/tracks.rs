@@ -215,6 +215,28 @@ fn swapped_ids_of_people_out_of_reach_of_each_other_swap_nobody() {
 }
 
 /// Hazard D: the tracker restarts and numbers from 1 again.
+/// A sensor that has one of them or the other took the two for somebody who walks to and fro.
+#[test]
+fn two_people_of_whom_one_is_hidden_in_turn_both_wait() {
+    let mut scene = watch();
+    let people = [person(1, 100, -100), person(2, 220, -100)];
+    for frame in 0..14 {
+        scene.look(100, &people[frame % 2..=frame % 2]);
+    }
+    assert_eq!(scene.conducts(), [Conduct::Waiting; 2]);
+}
+
+/// Who comes to the kerb while somebody steps off it unseen has not crossed.
+#[test]
+fn who_comes_where_somebody_left_for_the_road_is_somebody_else() {
+    let mut scene = watch();
+    let mut walker = walking(person(1, 100, 0), 0, 120);
+    scene.sees(&mut walker, 2_500);
+    let mut comer = person(2, 100, -10);
+    assert_eq!(scene.sees(&mut comer, 1_500), Some(Urgency::Medium));
+    assert_eq!(scene.conducts(), [Conduct::OnRoad, Conduct::Waiting]);
+}
+
 #[test]
 fn an_id_that_jumps_is_somebody_else() {
     let mut setup = street();
