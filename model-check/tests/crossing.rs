@@ -29,6 +29,11 @@ const DRIFTING: Street = Street {
     drifts: 1,
     ..PERSON
 };
+const GUARD: Street = Street {
+    watch: Watch::Guard,
+    words: 5,
+    ..PERSON
+};
 const WITH_VEHICLE: Street = Street {
     vehicle: true,
     ..PERSON
@@ -57,6 +62,7 @@ fn never_ends(setup: &mut Setup) {
 #[rustfmt::skip]
 const WEAKENINGS: &[Weakening] = &[
     (PERSON, trusts_one_frame, Rule::P1),
+    (GUARD, trusts_one_frame, Rule::P1),
     // A guard is in position wherever it is.
     (DRIFTING, |setup| setup.position.tolerance_cm = 10_000, Rule::P2),
     // It is for a minute after its last position.

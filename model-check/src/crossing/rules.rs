@@ -6,8 +6,8 @@ use crossguard_crossing::{
 };
 use crossguard_protocol::{Config, HelpRequest, List, Millis, Settings, TaskSet, TaskType};
 
-use super::MISS_MAX;
 use super::street::{Guard, TICK};
+use super::{MISS_MAX, Watch};
 
 /// Where the guard stands.
 pub(super) const POST: Point = Point::new(-200, 200);
@@ -27,16 +27,21 @@ pub(super) fn pose(guard: Guard, at: Point) -> Option<Pose> {
 /// What both robots are set up with.
 #[derive(Clone, Debug)]
 pub(super) struct Rules {
+    pub(super) watch: Watch,
     pub(super) setups: [Setup; 2],
     pub(super) config: Config,
 }
 
 impl Rules {
-    pub(super) fn new(change: fn(&mut Setup)) -> Self {
+    pub(super) fn new(watch: Watch, change: fn(&mut Setup)) -> Self {
         let config = config();
-        let mut setups = setups(&config);
+        let mut setups = setups(watch, &config);
         setups.iter_mut().for_each(change);
-        Self { setups, config }
+        Self {
+            watch,
+            setups,
+            config,
+        }
     }
 }
 
@@ -62,8 +67,8 @@ fn rectangle(west: i32, south: i32, east: i32, north: i32) -> Option<Shape> {
     Shape::new(&corners.map(|(east, north)| Point::new(east, north)))
 }
 
-/// The settings of the leader's machine and of the follower's, which has no sensors.
-fn setups(config: &Config) -> [Setup; 2] {
+/// The settings of the leader's machine and of the follower's.
+fn setups(watch: Watch, config: &Config) -> [Setup; 2] {
     let ground = Ground {
         road: rectangle(-3_000, 0, 3_000, 700),
         crossing: rectangle(-300, 0, 300, 700),
@@ -113,7 +118,7 @@ fn setups(config: &Config) -> [Setup; 2] {
         ..leader.request
     };
     let follower = Setup {
-        watches: false,
+        watches: watch != Watch::Leader,
         calls: false,
         plan: None,
         ..leader.clone()

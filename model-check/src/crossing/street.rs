@@ -3,15 +3,15 @@
 use std::fmt;
 
 use crossguard_crossing::{Coverage, Frame, Input, Point, RoadUser, Sighting, Vehicle, Way};
-use crossguard_protocol::Millis;
+use crossguard_protocol::{Event, HelpRequest, Millis, Place, TaskSet, TaskType, Urgency};
 use stateright::Property;
 
 use crate::exploration::Stop;
 
-use super::Street;
 use super::rules::Rules;
-use super::team::Team;
+use super::team::{FOLLOWING, Team};
 use super::truth::{ADRIFT_MAX, DETECT_MAX, END_MAX, Rule};
+use super::{Street, Watch};
 
 /// A tick.
 pub(super) const TICK: Millis = Millis(500);
@@ -76,8 +76,8 @@ pub(super) struct Person {
     id: u8,
     /// Whether they have been on the road.
     has_walked: bool,
-    /// Whether a frame that the leader took in at once had them there.
-    was_seen_there: bool,
+    /// Whether a frame that was taken in at once, by a guard that is on its own while it guarded, had them there.
+    pub(super) was_seen_there: bool,
     /// For how many ticks they have been on the road, at most 2.
     on_road: u8,
 }
@@ -120,26 +120,41 @@ pub(super) struct Sensed<'a> {
     /// Frames with their ages in ticks.
     frames: &'a [(u8, Seen)],
     vehicle: Option<Vehicle>,
+    /// The frame of this tick, for a follower that sees.
+    now: Option<Seen>,
+    /// What the leader's application says, if that may say anything.
+    pub(super) word: Option<Event>,
 }
 
 impl Sensed<'_> {
-    /// Calls `tell` with everything, in order.
+    /// Calls `tell` with everything that the leader takes in, in order.
     pub(super) fn each(&self, mut tell: impl FnMut(Input<'_>)) {
         for (age, seen) in self.frames {
-            let people = seen.iter().enumerate();
-            let people = people.filter_map(|(number, it)| Some(sighting(number, (*it)?)));
-            let sightings: Vec<_> = people.collect();
-            tell(Input::Frame(Frame {
-                source: 0,
-                age: Millis(u32::from(*age) * TICK.0),
-                covers: Coverage::ALL,
-                sightings: &sightings,
-            }));
+            tell_frame(*age, seen, &mut tell);
         }
         if let Some(vehicle) = self.vehicle {
             tell(Input::Vehicle(vehicle, Millis::ZERO));
         }
     }
+
+    /// Calls `tell` with what the follower sees.
+    pub(super) fn now(&self, mut tell: impl FnMut(Input<'_>)) {
+        if let Some(seen) = &self.now {
+            tell_frame(0, seen, &mut tell);
+        }
+    }
+}
+
+fn tell_frame(age: u8, seen: &Seen, tell: &mut impl FnMut(Input<'_>)) {
+    let people = seen.iter().enumerate();
+    let people = people.filter_map(|(number, it)| Some(sighting(number, (*it)?)));
+    let sightings: Vec<_> = people.collect();
+    tell(Input::Frame(Frame {
+        source: 0,
+        age: Millis(u32::from(age) * TICK.0),
+        covers: Coverage::ALL,
+        sightings: &sightings,
+    }));
 }
 
 /// One state.
@@ -174,6 +189,8 @@ pub(super) struct Tick {
     /// Who is missed.
     missed: [bool; PEOPLE_MAX],
     fault: Fault,
+    /// What the leader's application says, if that may say anything.
+    word: Option<Event>,
 }
 
 /// What goes wrong, or comes along: one thing in a tick.
@@ -227,8 +244,10 @@ impl World {
     fn faults(state: &State) -> Vec<Fault> {
         let left = &state.left;
         let may_drift = left.drifts > 0 && state.team.guards() && state.guard.adrift == 0;
+        // What leads without a machine is silent for as long as it can be.
+        let is_silent = left.watch == Watch::Guard && state.hangs > 0 && left.hang > 0;
         let possible = [
-            (Fault::None, true),
+            (Fault::None, !is_silent),
             (Fault::ChangesIds, left.id_changes > 0),
             (Fault::Blind, left.blind > 0),
             (Fault::Hangs, left.hang > 0),
@@ -257,6 +276,8 @@ impl State {
             person.has_walked |= person.at.is_road();
             let since = (person.on_road + 1).min(2);
             person.on_road = if person.at.is_road() { since } else { 0 };
+            // A guard that is on its own has to see anew who steps on the road again.
+            person.was_seen_there &= person.at.is_road() || self.left.watch != Watch::Guard;
         }
         self.sign.left = self.sign.left.saturating_sub(TICK.0);
         self.car = self.car.and_then(|metres| metres.checked_sub(14));
@@ -266,6 +287,7 @@ impl State {
         }
         self.team.walk();
         let left = &mut self.left;
+        left.words -= u8::from(tick.word.is_some());
         match tick.fault {
             Fault::None => {}
             Fault::ChangesIds => {
@@ -295,7 +317,11 @@ impl State {
             }
             if !is_missed && person.at != Cell::Away {
                 seen[number] = Some((person.at, person.id));
-                let is_taken_in = !matches!(tick.fault, Fault::Blind | Fault::Hangs);
+                let is_taken_in = match (self.left.watch, tick.fault) {
+                    (_, Fault::Blind) => false,
+                    (Watch::Guard, _) => !self.guard.has_left,
+                    (Watch::Leader | Watch::Both, fault) => fault != Fault::Hangs,
+                };
                 person.was_seen_there |= is_taken_in && person.at.is_road();
             }
         }
@@ -316,6 +342,8 @@ impl State {
             passed,
             frames: &frames,
             vehicle: self.car.map(vehicle),
+            now: (tick.fault != Fault::Blind).then_some(seen),
+            word: tick.word,
         };
         let is_road_empty = !self.people.iter().any(|it| it.at.is_road());
         self.team
@@ -334,7 +362,9 @@ impl State {
             0
         };
         self.is_free = self.team.is_idle();
-        let is_disturbed = self.hangs > 0 || fault == Fault::Blind;
+        // Where an application may say anything, nobody need be detected, and no session need end.
+        let is_disturbed =
+            self.hangs > 0 || fault == Fault::Blind || self.left.watch == Watch::Guard;
         let is_new = |it: &Person| it.at == Cell::Near && !it.has_walked;
         let waits = self.people.iter().any(is_new);
         self.undetected = if waits && self.is_free && !is_disturbed {
@@ -354,6 +384,26 @@ impl State {
         self.team.canonicalize();
     }
 }
+
+/// What an application may say that leads, and need not be true.
+const WORDS: [Option<Event>; 8] = [
+    None,
+    Some(Event::PedestrianDetected(HelpRequest {
+        urgency: Urgency::Medium,
+        followers: 1,
+        tasks: TaskSet::of(&[TaskType::BLOCK]),
+        place: Place::UNKNOWN,
+    })),
+    Some(Event::CommandManeuver {
+        follower: FOLLOWING,
+        task: TaskType::BLOCK,
+    }),
+    Some(Event::OpenCorridor),
+    Some(Event::CloseCorridor),
+    Some(Event::RoadClear),
+    Some(Event::TaskCompleted),
+    Some(Event::LeaveRequested),
+];
 
 fn vehicle(metres: u8) -> Vehicle {
     Vehicle {
@@ -412,13 +462,20 @@ impl stateright::Model for World {
         if self.drain.is_requested() {
             return;
         }
-        let faults = Self::faults(state);
+        let words = if state.left.words > 0 {
+            &WORDS[..]
+        } else {
+            &[None]
+        };
         for (moves, missed) in self.moves(state) {
-            ticks.extend(faults.iter().map(|&fault| Tick {
-                moves,
-                missed,
-                fault,
-            }));
+            for fault in Self::faults(state) {
+                ticks.extend(words.iter().map(|&word| Tick {
+                    moves,
+                    missed,
+                    fault,
+                    word,
+                }));
+            }
         }
     }
 

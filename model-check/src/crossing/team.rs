@@ -9,6 +9,7 @@ use crossguard_protocol::{
     Robot, SessionId, StationId, Timer, UniqueNumber,
 };
 
+use super::Watch;
 use super::rules::{Machine, POST, Rules, pose};
 use super::street::{Guard, Sensed, Sign, TICK};
 
@@ -17,6 +18,9 @@ const FOLLOWER: usize = 1;
 
 /// The leader's station.
 const LEADING: StationId = StationId(1);
+
+/// The follower's station.
+pub(super) const FOLLOWING: StationId = StationId(2);
 
 /// A robot with its machine.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
@@ -58,11 +62,11 @@ struct Turn<'a> {
 impl Team {
     pub(super) fn new() -> Self {
         let member = |station| Member {
-            robot: Robot::new(StationId(station), 1),
+            robot: Robot::new(station, 1),
             crossing: Machine::default(),
         };
         Self {
-            members: [member(1), member(2)],
+            members: [LEADING, FOLLOWING].map(member),
             body: Body::default(),
         }
     }
@@ -97,21 +101,38 @@ impl Team {
             guard,
             is_leader_deaf: sensed.passed == 0,
         };
-        if sensed.passed > 0 {
-            let passed = Millis(u32::from(sensed.passed) * TICK.0);
-            self.pass(LEADER, passed, &mut turn);
-            sensed.each(|input| self.tell(LEADER, input, &mut turn));
-            self.settle(&mut turn);
+        // A guard that is on its own sees people before it hears of an end that came at the same time.
+        if rules.watch == Watch::Guard {
+            self.follow(sensed, &mut turn);
+            self.lead(sensed, &mut turn);
+            return;
         }
+        self.lead(sensed, &mut turn);
         let is_leader_idle = matches!(self.members[LEADER].robot.phase(), Phase::Idle);
-        if is_leader_idle && is_road_empty && !turn.sign.shows_go() {
+        let is_told = rules.watch == Watch::Leader && is_leader_idle;
+        if is_told && is_road_empty && !turn.sign.shows_go() {
             self.tell(FOLLOWER, Input::SaidClear, &mut turn);
         }
-        self.follow(&mut turn);
+        self.follow(sensed, &mut turn);
     }
 
-    fn follow(&mut self, turn: &mut Turn<'_>) {
+    fn lead(&mut self, sensed: &Sensed<'_>, turn: &mut Turn<'_>) {
+        if sensed.passed == 0 {
+            return;
+        }
+        let passed = Millis(u32::from(sensed.passed) * TICK.0);
+        self.pass(LEADER, passed, turn);
+        sensed.each(|input| self.tell(LEADER, input, turn));
+        let word = sensed.word.map(protocol::Input::Local);
+        turn.queue.extend(word.map(|word| (LEADER, word)));
+        self.settle(turn);
+    }
+
+    fn follow(&mut self, sensed: &Sensed<'_>, turn: &mut Turn<'_>) {
         self.pass(FOLLOWER, TICK, turn);
+        if turn.rules.watch != Watch::Leader {
+            sensed.now(|input| self.tell(FOLLOWER, input, turn));
+        }
         if let Some(pose) = pose(turn.guard, self.body.at) {
             self.tell(FOLLOWER, Input::Pose(Some(pose), Millis::ZERO), turn);
         }
@@ -134,6 +155,10 @@ impl Team {
     }
 
     fn tell(&mut self, member: usize, input: Input<'_>, turn: &mut Turn<'_>) {
+        // An application that says anything has no machine.
+        if member == LEADER && turn.rules.watch == Watch::Guard {
+            return;
+        }
         let setup = &turn.rules.setups[member];
         let out = self.members[member].crossing.step(setup, input);
         self.carry_out(member, &out, turn);
@@ -196,10 +221,19 @@ impl Team {
                     self.body.leave_task(true);
                     self.tell(member, Input::FellBack(maneuver, policy), turn);
                 }
+                // The sign of a leader whose application says anything shows what the protocol says.
+                Said::CorridorOpened(left) | Said::CorridorExtended(left)
+                    if turn.rules.watch == Watch::Guard =>
+                {
+                    turn.sign.left = left.0;
+                }
                 Said::CorridorOpened(left) | Said::CorridorExtended(left) => {
                     self.tell(member, Input::CorridorOpen(left), turn);
                 }
-                Said::CorridorClosed(_) => self.tell(member, Input::CorridorClosed, turn),
+                Said::CorridorClosed(_) => {
+                    turn.sign.left = 0;
+                    self.tell(member, Input::CorridorClosed, turn);
+                }
                 Said::Notify(notice) => self.tell(member, Input::Notice(notice), turn),
                 _ => {}
             }
@@ -207,6 +241,9 @@ impl Team {
         let is_call = matches!(input, protocol::Input::Local(Event::PedestrianDetected(_)));
         if is_call && out.ignored().is_some() {
             self.tell(member, Input::CallIgnored, turn);
+        }
+        if member == LEADER && turn.rules.watch == Watch::Guard {
+            return;
         }
         let Member { robot, crossing } = &mut self.members[member];
         let out = crossing.learn(&turn.rules.setups[member], robot);

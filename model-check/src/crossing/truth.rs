@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 
+use super::Watch;
 use super::street::{Cell, State};
 
 /// The team is free at most so many ticks after everybody was off the road for good: the leader's patience, which ends a session
@@ -112,8 +113,12 @@ impl Rule {
     }
 }
 
+/// Whether somebody is on the road. Where one machine is alone beside an application that says anything, only people count
+/// that this machine saw there while it guarded.
 fn is_on_road(state: &State) -> bool {
-    state.people.iter().any(|person| person.at.is_road())
+    let is_alone = state.left.watch == Watch::Guard;
+    let mut people = state.people.iter();
+    people.any(|it| it.at.is_road() && (it.was_seen_there || !is_alone))
 }
 
 fn cannot_stop(state: &State) -> bool {
