@@ -77,7 +77,7 @@ def test_scenarios_are_listed() -> None:
     # Larger ones are for workers, which the package does not have.
     in_reach = {name for name, states in sizes.items() if states < 100_000_000}
     streets = {name for name in names if name.startswith("street-")}
-    assert len(streets) == 6
+    assert len(streets) == 10
     assert in_reach == set(names) - {"paper-literal"} - streets
     assert in_reach < set(sizes)
 
