@@ -53,18 +53,38 @@ fn a_leader_hangs_just_after_go_and_reads_old_frames_when_it_wakes() {
     }
 }
 
+/// Hazard A. The old application took frames for as young as it read them: by those, nobody came back.
+#[test]
+fn frames_that_wait_in_a_pipe_show_the_kerb_of_before() {
+    for (mut scene, _) in both() {
+        scene.comes_to_go();
+        let usual_ms = std::mem::replace(&mut scene.latency_ms, 2_000);
+        scene.person.way_mps = [0.0, -2.0];
+        scene.pass(1_000);
+        // They step on the road before those frames have even shown that they left.
+        scene.person.way_mps = [0.0, 2.0];
+        scene.pass(1_500);
+        scene.person.way_mps = [0.0, 1.2];
+        scene.pass(3_500);
+        scene.latency_ms = usual_ms;
+        scene.walks_across(1.2);
+        scene.comes_to_rest(60_000);
+    }
+}
+
 /// Hazard B. The old application took one occlusion of a person who waits under go for a crossing, and released the guards.
 #[test]
-fn a_person_who_waits_under_go_is_out_of_sight_for_a_second() {
-    for guard_watches in [false, true] {
+fn a_person_who_waits_under_go_is_out_of_sight_for_a_second_or_two() {
+    for (guard_watches, hidden_ms) in [(false, 1_000), (true, 1_000), (false, 2_000), (true, 2_000)]
+    {
         for (mut scene, speed) in both() {
             scene.comes_to_go();
             let now_ms = scene.now_ms;
-            scene.sensors = sees_else([now_ms, now_ms + 1_000], sees_nobody());
+            scene.sensors = sees_else([now_ms, now_ms + hidden_ms], sees_nobody());
             if guard_watches {
                 scene.watchers.push(GUARD);
             }
-            scene.pass(900);
+            scene.pass(hidden_ms - 100);
             scene.walks_across(speed);
             scene.comes_to_rest(60_000);
         }
@@ -126,12 +146,14 @@ fn a_tracker_that_restarts_gives_the_persons_number_to_a_bystander() {
 fn two_sources_number_from_one() {
     for (mut scene, speed) in both() {
         scene.sensors = Box::new(|_, person| {
-            let has = |source: u8, of: &Person| SensorFrame {
+            let has = |source, people: &[_]| SensorFrame {
                 source,
-                ..SensorFrame::of(&[of.seen_as(1)])
+                ..SensorFrame::of(people)
             };
-            // The second camera stands behind a tree, and has the bystander alone.
-            vec![Some(has(0, person)), Some(has(1, &BYSTANDER))]
+            // The second camera stands behind a tree, and has the bystander alone, who comes along then.
+            let bystander = person.is_on_road().then(|| BYSTANDER.seen_as(1));
+            let second = has(1, bystander.as_slice());
+            vec![Some(has(0, &[person.seen_as(1)])), Some(second)]
         });
         scene.comes_to_go();
         scene.walks_to(4.0, speed);

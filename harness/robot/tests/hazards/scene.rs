@@ -33,7 +33,7 @@ use crossguard_robot::zone::Zone;
 const TICK_MS: u32 = 10;
 const FRAME_PERIOD_MS: u32 = 100;
 
-/// How old a frame is when a robot that is awake receives it.
+/// How old a frame is when a robot that is awake receives it, usually.
 const LATENCY_MS: u32 = 40;
 
 const STARTS_ITS: u64 = 694_694_401_000;
@@ -169,6 +169,8 @@ pub(crate) struct Scene {
     pub(crate) sensors: Sensors,
     /// Which robots have the sensors.
     pub(crate) watchers: Vec<usize>,
+    /// How old a frame is when a robot that is awake receives it.
+    pub(crate) latency_ms: u32,
     pub(crate) is_cut: bool,
     pub(crate) now_ms: u32,
     pub(crate) calls: usize,
@@ -294,6 +296,7 @@ impl Scene {
             cars: Vec::new(),
             sensors: sees(7),
             watchers: vec![LEADER],
+            latency_ms: LATENCY_MS,
             is_cut: false,
             now_ms: 0,
             calls: 0,
@@ -388,7 +391,8 @@ impl Scene {
 
     fn wake(&mut self, to: usize) {
         let now_ms = self.now_ms;
-        let is_due = |(taken_ms, _): &(u32, _)| *taken_ms + LATENCY_MS <= now_ms;
+        let latency_ms = self.latency_ms;
+        let is_due = |(taken_ms, _): &(u32, _)| *taken_ms + latency_ms <= now_ms;
         while self.robots[to].frames.front().is_some_and(is_due)
             && let Some((taken_ms, frame)) = self.robots[to].frames.pop_front()
         {
