@@ -19,6 +19,8 @@ const ZONE: &str = "\n[zone]\npavement_m = 2.5\n";
 /// Somebody in front of ARI, and the street.
 struct Person {
     pipe: File,
+    /// Of Go2, whose sensors have no frames.
+    of_guard: File,
     street: Street,
 }
 
@@ -57,36 +59,50 @@ impl Person {
     }
 }
 
-/// A person comes to the kerb, waits for the sign, crosses, and walks away. The records of ARI, none where the crossing
-/// was not completed.
-fn crossing() -> Vec<Value> {
+/// A person comes to the kerb, waits for the sign, crosses while this happens, and walks away. The records of both robots,
+/// none where the crossing was not completed.
+fn crossing(happens: fn(&mut Person)) -> Option<[Vec<Value>; 2]> {
     let mut street = Street::new(&[("speed = 40.0", "speed = 5.0")]);
     let [ari, go2] = &street.configs;
     fs::write(ari, fs::read_to_string(ari).unwrap() + ZONE).unwrap();
-    let pipe = street.path("pipe");
-    assert!(
-        Command::new("mkfifo")
-            .arg(&pipe)
-            .status()
-            .unwrap()
-            .success()
-    );
-    street.robots = vec![
-        Killed(start_with(ari, &["--perceived", &pipe])),
-        Killed(start(go2)),
-    ];
-    let pipe = File::create(&pipe).unwrap();
-    let mut person = Person { pipe, street };
+    let pipes = ["pipe", "of_guard"].map(|name| street.path(name));
+    let made = Command::new("mkfifo").args(&pipes).status().unwrap();
+    assert!(made.success());
+    let robots = [ari, go2].into_iter().zip(&pipes);
+    let robots = robots.map(|(config, pipe)| start_with(config, &["--perceived", pipe]));
+    street.robots = robots.map(Killed).collect();
+    let [pipe, of_guard] = pipes.map(|pipe| File::create(pipe).unwrap());
+    let mut person = Person {
+        pipe,
+        of_guard,
+        street,
+    };
     person.walk([1.0, -6.0], [1.0, -0.8]);
     person.stand([1.0, -0.8], "corridorOpened");
-    person.walk([1.0, -0.8], [1.0, 8.0]);
+    happens(&mut person);
+    person.walk([1.0, 1.0], [1.0, 8.0]);
     person.stand([1.0, 8.0], "sessionEnded");
     person.walk([1.0, 8.0], [9.0, 8.0]);
-    let [log, _] = person.street.end();
-    let is_completed = log
-        .iter()
-        .any(|it| it.to_string().contains("\"taskCompleted\""));
-    if is_completed { log } else { Vec::new() }
+    let logs = person.street.end();
+    let mut records = logs[ARI].iter();
+    let is_completed = records.any(|it| it.to_string().contains("\"taskCompleted\""));
+    is_completed.then_some(logs)
+}
+
+/// The same, once it was completed.
+fn completed(happens: fn(&mut Person)) -> [Vec<Value>; 2] {
+    let mut tries = (0..ATTEMPTS).filter_map(|_| crossing(happens));
+    tries.next().expect("no crossing was completed")
+}
+
+fn steps_on_the_road(person: &mut Person) {
+    person.walk([1.0, -0.8], [1.0, 1.0]);
+}
+
+/// How many frames a robot dropped for this reason.
+fn dropped(log: &[Value], why: &str) -> u64 {
+    let counters = &log.last().unwrap()["counters"]["perception"];
+    counters[why].as_u64().unwrap_or_default()
 }
 
 /// How often robots begin anew where the machine was so slow that they lost each other: then a session ends in order,
@@ -95,10 +111,7 @@ const ATTEMPTS: usize = 3;
 
 #[test]
 fn a_person_at_the_kerb_is_helped_across_and_nobody_types() {
-    let mut tries = (0..ATTEMPTS).map(|_| crossing());
-    let log = tries
-        .find(|log| !log.is_empty())
-        .expect("no crossing was completed");
+    let [log, _] = completed(steps_on_the_road);
     let detected = log
         .iter()
         .filter(|it| it["input"]["local"].get("pedestrianDetected").is_some());
@@ -114,4 +127,28 @@ fn a_person_at_the_kerb_is_helped_across_and_nobody_types() {
     }
     // What tracks a person stays in the robot.
     assert!(!people.contains("\"id\""));
+}
+
+/// Hazard A: what its sensors saw meanwhile is old when the leader reads it.
+#[test]
+fn a_leader_that_hangs_under_go_takes_no_frame_of_before_for_a_fresh_one() {
+    let [log, _] = completed(|person| {
+        person.street.signal(ARI, "-STOP");
+        steps_on_the_road(person);
+        person.street.signal(ARI, "-CONT");
+    });
+    assert!(dropped(&log, "stale") > 0);
+}
+
+/// Hazard F: a line that is no frame ended the process, also that of a guard on the road.
+#[test]
+fn lines_that_are_no_frames_end_neither_the_leader_nor_its_guard() {
+    const LINES: &str =
+        "{\"unix_s\": 1, \"people\": [{\"id\": -1, \"position_m\": [NaN, 2]}]}\nnull\n";
+    let logs = completed(|person| {
+        write!(person.pipe, "{LINES}").unwrap();
+        write!(person.of_guard, "{LINES}").unwrap();
+        steps_on_the_road(person);
+    });
+    assert_eq!(logs.map(|log| dropped(&log, "malformed")), [2, 2]);
 }
