@@ -209,13 +209,15 @@ impl Crossing {
         said.expect("each property is mentioned")
     }
 
+    /// Refused by the line of a record, whose robot is said to have broken this.
     #[track_caller]
     fn is_refused(&self, id: &str) {
         let refusal = self.judged().expect_err("the log is refused");
-        assert!(
-            refusal.starts_with("line ") && refusal.contains(&format!("broke {id}")),
-            "{refusal}"
-        );
+        let (line, why) = refusal.split_once(": ").unwrap();
+        let line: usize = line.strip_prefix("line ").unwrap().parse().unwrap();
+        let Record { robot, .. } = &self.0[line - 1];
+        let expected = format!("{robot} broke {id}");
+        assert!(why.starts_with(&expected), "{refusal}");
     }
 }
 
