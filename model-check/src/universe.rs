@@ -9,10 +9,10 @@
 use std::collections::HashSet;
 
 use crossguard_protocol::{
-    Answer, Availability, Command, Config, Confirmation, Coordination, Decimetres, Ending, Event,
-    EventKind, Failure, Farewell, Followers, Heartbeat, HelpRequest, Input, Millis, OfferNumber,
-    Phase, Progress, Ram, Rejection, Report, RequestId, Rmcm, Robot, SessionId, SessionNumber,
-    Settings, StationId, TaskSet, TaskType, Timer, Unavailability, UniqueNumber, Urgency, Verdict,
+    Answer, Availability, Config, Coordination, Decimetres, Event, EventKind, Farewell, Heartbeat,
+    HelpRequest, Input, Millis, OfferNumber, Phase, Place, Ram, RequestId, Rmcm, Robot, SessionId,
+    SessionNumber, Settings, StationId, TaskSet, TaskType, Timer, Unavailability, UniqueNumber,
+    Urgency, Verdict,
 };
 
 use crate::canonical::{Names, Ranks, Renamable};
@@ -21,11 +21,15 @@ use crate::network::concerns;
 use crate::node::{Node, Protocol};
 use crate::road::{Body, Heard};
 use crate::transitions::Transitions;
+use crate::utterances;
 
 /// The robot, its two peers, and a station that is none of them.
 const ME: StationId = StationId(2);
 const PEERS: [StationId; 2] = [StationId(1), StationId(3)];
 const STRANGER: StationId = StationId(9);
+
+/// An offer that nobody remembers.
+const OLD_OFFER: OfferNumber = OfferNumber(number(0, 5));
 
 /// What was found out about one robot among any others.
 #[derive(Clone, Debug, Default)]
@@ -187,28 +191,46 @@ impl Universe {
 
 // Representatives of all inputs.
 
-fn number(boot: u16, count: u16) -> UniqueNumber {
+const fn number(boot: u16, count: u16) -> UniqueNumber {
     UniqueNumber { boot, count }
 }
 
 fn inputs(robot: &Robot) -> Vec<Input> {
-    let mut inputs = Vec::new();
-    inputs.extend(
-        robot
-            .timers()
-            .iter()
-            .map(|(timer, _)| Input::Expired(*timer)),
-    );
+    let timers = robot.timers();
+    let timers = timers.iter().map(|(timer, _)| Input::Expired(*timer));
+    let mut inputs: Vec<_> = timers.collect();
     inputs.extend(events(robot).into_iter().map(Input::Local));
+    let (sessions, requests, heartbeats) = (sessions(robot), requests(robot), heartbeats(robot));
     for station in [ME, PEERS[0], PEERS[1]] {
-        for coordination in coordinations(robot, station) {
-            inputs.push(ram(station, coordination, None));
-        }
-        for farewell in farewells(robot, station) {
+        let (own, others): (Vec<SessionId>, Vec<SessionId>) = sessions
+            .iter()
+            .copied()
+            .partition(|session| session.leader == station);
+        let numbers: Vec<_> = own.iter().map(|session| session.number).collect();
+        let with_beats = numbers.iter();
+        let with_beats =
+            with_beats.flat_map(|&number| heartbeats.iter().map(move |&it| (number, it)));
+        let with_beats: Vec<_> = with_beats.collect();
+        let mut offers = vec![OLD_OFFER];
+        offers.extend(utterances::standing_offer(robot).filter(|_| station == ME));
+        let lists = utterances::follower_lists(robot, Some(OLD_OFFER));
+        let urgencies = [Urgency::Low, Urgency::Medium, Urgency::High];
+        let safety_timers = [Millis(2_000), Millis(1)];
+        let move_alone = TaskSet::of(&[TaskType::MOVE]);
+        let parts = [
+            vec![Coordination::None],
+            utterances::asking(&with_beats, &urgencies, request(1, Urgency::Low)),
+            utterances::leading(&with_beats, &lists, Place::default()),
+            utterances::offering(&others, &offers, &heartbeats, &safety_timers, move_alone),
+            utterances::following(&others, &heartbeats, &requests),
+        ];
+        let parts = parts.into_iter().flatten();
+        inputs.extend(parts.map(|coordination| ram(station, coordination, None)));
+        let around = [(0, 5), (2, 5)].map(|(boot, count)| OfferNumber(number(boot, count)));
+        for farewell in utterances::ended(&numbers).chain(utterances::left(&others, &around)) {
             // A farewell alone, and together with the request for the next session.
-            let number = SessionNumber(number(1, 8));
             let next = Coordination::NeedHelp {
-                number,
+                number: SessionNumber(number(1, 8)),
                 heartbeat: Heartbeat(0),
                 request: request(1, Urgency::High),
             };
@@ -217,16 +239,13 @@ fn inputs(robot: &Robot) -> Vec<Input> {
             }
         }
     }
-    inputs.extend(
-        commands(robot)
-            .into_iter()
-            .map(|c| Input::Rmcm(Rmcm::Command(c))),
-    );
-    inputs.extend(
-        answers(robot)
-            .into_iter()
-            .map(|a| Input::Rmcm(Rmcm::Answer(a))),
-    );
+    let tasks = [TaskType::MOVE, TaskType::new(9).unwrap_or(TaskType::BLOCK)];
+    let commands = utterances::commands(&sessions, &[ME, STRANGER], &requests, &tasks);
+    let stations = [ME, PEERS[0], PEERS[1], STRANGER];
+    let answers = utterances::answers(&stations, &sessions, &requests);
+    let commands = commands.into_iter().map(Rmcm::Command);
+    let rmcms = commands.chain(answers.into_iter().map(Rmcm::Answer));
+    inputs.extend(rmcms.map(Input::Rmcm));
     inputs
 }
 
@@ -247,7 +266,7 @@ fn request(followers: u8, urgency: Urgency) -> HelpRequest {
         urgency,
         followers,
         tasks: TaskSet::of(&[TaskType::MOVE]),
-        place: crossguard_protocol::Place::default(),
+        place: Place::default(),
     }
 }
 
@@ -304,18 +323,6 @@ fn sessions(robot: &Robot) -> Vec<SessionId> {
     sessions
 }
 
-/// Offer numbers of `station`: the one that the robot knows of, and another.
-fn offers(robot: &Robot, station: StationId) -> Vec<OfferNumber> {
-    let known = match robot.phase() {
-        Phase::Offering(offering) if station == ME => Some(offering.number),
-        Phase::Following(following) if station == ME => Some(following.offer),
-        _ => None,
-    };
-    let mut offers = vec![OfferNumber(number(0, 5))];
-    offers.extend(known);
-    offers
-}
-
 /// Heartbeats around the newest that the robot knows of.
 fn heartbeats(robot: &Robot) -> Vec<Heartbeat> {
     let newest = match robot.phase() {
@@ -352,143 +359,6 @@ fn requests(robot: &Robot) -> Vec<RequestId> {
     };
     let older = newest.0.checked_sub(1).map(RequestId);
     [older, Some(newest), newer].into_iter().flatten().collect()
-}
-
-fn coordinations(robot: &Robot, station: StationId) -> Vec<Coordination> {
-    let mut all = vec![Coordination::None];
-    let numbers = sessions(robot)
-        .into_iter()
-        .filter(|s| s.leader == station)
-        .map(|s| s.number);
-    for number in numbers {
-        for urgency in [Urgency::Low, Urgency::Medium, Urgency::High] {
-            for heartbeat in heartbeats(robot) {
-                all.push(Coordination::NeedHelp {
-                    number,
-                    heartbeat,
-                    request: request(1, urgency),
-                });
-            }
-        }
-        let lists = offers(robot, ME)
-            .into_iter()
-            .map(|offer| [Confirmation { station: ME, offer }].into_iter().collect())
-            .chain([Followers::EMPTY]);
-        for followers in lists {
-            for heartbeat in heartbeats(robot) {
-                for (urgency, yields) in [
-                    (Urgency::Low, false),
-                    (Urgency::High, false),
-                    (Urgency::High, true),
-                ] {
-                    all.push(Coordination::Leader {
-                        number,
-                        heartbeat,
-                        followers,
-                        urgency,
-                        place: crossguard_protocol::Place::default(),
-                        yields,
-                    });
-                }
-            }
-        }
-    }
-    for session in sessions(robot)
-        .into_iter()
-        .filter(|session| session.leader != station)
-    {
-        let capabilities = TaskSet::of(&[TaskType::MOVE]);
-        for offer in offers(robot, station) {
-            for echo in heartbeats(robot) {
-                for t_safety in [Millis(2_000), Millis(1)] {
-                    all.push(Coordination::OfferHelp {
-                        session,
-                        offer,
-                        capabilities,
-                        echo,
-                        t_safety,
-                    });
-                }
-            }
-        }
-        for echo in heartbeats(robot) {
-            all.push(Coordination::Follower {
-                session,
-                echo,
-                last: None,
-            });
-            for request in requests(robot) {
-                for progress in [
-                    Progress::Executing,
-                    Progress::InPosition,
-                    Progress::Completed,
-                    Progress::Failed(Failure::Maneuver),
-                    Progress::SafeIdle,
-                ] {
-                    let last = Some(Report { request, progress });
-                    all.push(Coordination::Follower {
-                        session,
-                        echo,
-                        last,
-                    });
-                }
-            }
-        }
-    }
-    all
-}
-
-fn farewells(robot: &Robot, station: StationId) -> Vec<Farewell> {
-    sessions(robot)
-        .into_iter()
-        .flat_map(|session| {
-            if session.leader == station {
-                [Ending::Completed, Ending::Aborted].map(|e| Farewell::Ended(session.number, e))
-            } else {
-                let [older, newer] = [(0, 5), (2, 5)].map(|(b, c)| OfferNumber(number(b, c)));
-                [older, newer].map(|offer| Farewell::Left(session, offer))
-            }
-        })
-        .collect()
-}
-
-fn commands(robot: &Robot) -> Vec<Command> {
-    let mut commands = Vec::new();
-    for session in sessions(robot) {
-        for to in [ME, STRANGER] {
-            for request in requests(robot) {
-                for task in [TaskType::MOVE, TaskType::new(9).unwrap_or(TaskType::BLOCK)] {
-                    commands.push(Command {
-                        session,
-                        to,
-                        request,
-                        task,
-                    });
-                }
-            }
-        }
-    }
-    commands
-}
-
-fn answers(robot: &Robot) -> Vec<Answer> {
-    let mut answers = Vec::new();
-    for session in sessions(robot) {
-        for from in [ME, PEERS[0], PEERS[1], STRANGER] {
-            for request in requests(robot) {
-                let rejected = Verdict::Rejected(Rejection::UnsupportedTask);
-                for verdict in [Verdict::Accepted, rejected] {
-                    answers.push(Answer {
-                        from,
-                        session,
-                        request,
-                        verdict,
-                    });
-                }
-            }
-        }
-    }
-    answers
 }
 
 #[cfg(test)]

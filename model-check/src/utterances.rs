@@ -16,8 +16,9 @@
 
 use crossguard_protocol::{
     Answer, Command, Confirmation, Coordination, Ending, Failure, Farewell, Followers, Heartbeat,
-    HelpRequest, Millis, OfferNumber, Phase, Progress, Ram, Rejection, Report, RequestId, Rmcm,
-    Robot, SessionId, SessionNumber, StationId, UniqueNumber, Urgency, Verdict,
+    HelpRequest, Millis, OfferNumber, Phase, Place, Progress, Ram, Rejection, Report, RequestId,
+    Rmcm, Robot, SessionId, SessionNumber, StationId, TaskSet, TaskType, UniqueNumber, Urgency,
+    Verdict,
 };
 
 use crate::network::Message;
@@ -49,17 +50,41 @@ impl Utterances<'_> {
     /// All of it.
     #[must_use]
     pub fn all(&self) -> Vec<Message> {
-        let mut all = Vec::new();
-        let parts = [self.leading(), self.asking(), self.offering()];
-        let parts = parts.into_iter().flatten().chain(self.following());
-        all.extend(parts.map(|coordination| self.ram(coordination, None)));
-        let farewells = self.farewells().into_iter();
-        all.extend(farewells.map(|farewell| self.ram(Coordination::None, Some(farewell))));
-        let commands = self.commands().into_iter();
-        all.extend(commands.map(|it| Message::Rmcm(Rmcm::Command(it))));
-        let answers = self.answers().into_iter();
-        all.extend(answers.map(|it| Message::Rmcm(Rmcm::Answer(it))));
-        all
+        let to = self.hearer.station();
+        let (tasks, place) = (self.request.tasks, self.request.place);
+        let lists = follower_lists(self.hearer, self.old.map(OfferNumber));
+        let mut numbers: Vec<_> = self.sessions.iter().map(|(number, _)| *number).collect();
+        numbers.dedup();
+        let own: Vec<_> = numbers
+            .iter()
+            .map(|&number| led_by(self.liar, number))
+            .collect();
+        let of_hearer = self.sessions_of_hearer();
+        let offering = offering(
+            &of_hearer,
+            &self.offers,
+            &self.echoes,
+            &[self.t_safety],
+            tasks,
+        );
+        let parts = [
+            leading(&self.sessions, &lists, place),
+            asking(&self.sessions, &[Urgency::Low, Urgency::High], self.request),
+            offering,
+            following(&of_hearer, &self.echoes, &self.requests),
+        ];
+        let parts = parts.into_iter().flatten();
+        let parts = parts.map(|part| self.ram(part, None));
+        let farewells = ended(&numbers).chain(left(&of_hearer, &self.offers));
+        let farewells = farewells.map(|farewell| self.ram(Coordination::None, Some(farewell)));
+        let tasks: Vec<_> = tasks.iter().collect();
+        let commands = commands(&own, &[to], &self.requests, &tasks).into_iter();
+        let answers = answers(&[self.liar], &of_hearer, &self.requests).into_iter();
+        let rmcms = commands.map(Rmcm::Command).chain(answers.map(Rmcm::Answer));
+        parts
+            .chain(farewells)
+            .chain(rmcms.map(Message::Rmcm))
+            .collect()
     }
 
     const fn ram(&self, coordination: Coordination, farewell: Option<Farewell>) -> Message {
@@ -71,147 +96,171 @@ impl Utterances<'_> {
         })
     }
 
-    fn session_numbers(&self) -> Vec<SessionNumber> {
-        let mut numbers: Vec<_> = self
-            .sessions
-            .iter()
-            .copied()
-            .map(|(number, _)| number)
-            .collect();
-        numbers.dedup();
-        numbers
-    }
-
     /// The session of the hearer's own, and one from before its boot.
     fn sessions_of_hearer(&self) -> Vec<SessionId> {
         let leader = self.hearer.station();
-        let stale = self.old.map(|number| SessionId {
-            leader,
-            number: SessionNumber(number),
-        });
-        let own = self
-            .hearer
-            .session()
-            .filter(|session| session.leader == leader);
-        [stale, own].into_iter().flatten().collect()
+        let stale = self.old.map(|number| led_by(leader, SessionNumber(number)));
+        let own = self.hearer.session();
+        let own = own.filter(|session| session.leader == leader);
+        stale.into_iter().chain(own).collect()
     }
+}
 
-    fn asking(&self) -> Vec<Coordination> {
-        let urgencies = [Urgency::Low, Urgency::High];
-        let sessions = self.sessions.iter().copied();
-        let asked = sessions.flat_map(|session| urgencies.map(|urgency| (session, urgency)));
-        let request = self.request;
-        asked
-            .map(|((number, heartbeat), urgency)| Coordination::NeedHelp {
+const fn led_by(leader: StationId, number: SessionNumber) -> SessionId {
+    SessionId { leader, number }
+}
+
+/// The offer of a robot that stands.
+pub(crate) fn standing_offer(robot: &Robot) -> Option<OfferNumber> {
+    match robot.phase() {
+        Phase::Offering(offering) => Some(offering.number),
+        Phase::Following(following) => Some(following.offer),
+        Phase::Idle | Phase::Requesting(_) | Phase::Leading(_) => None,
+    }
+}
+
+/// The hearer alone, for an old offer or the one that stands, or nobody.
+pub(crate) fn follower_lists(hearer: &Robot, old: Option<OfferNumber>) -> Vec<Followers> {
+    let station = hearer.station();
+    let listed = old.into_iter().chain(standing_offer(hearer));
+    let listed = listed.map(|offer| [Confirmation { station, offer }].into_iter().collect());
+    listed.chain([Followers::EMPTY]).collect()
+}
+
+/// To ask for help in sessions of one's own.
+pub(crate) fn asking(
+    sessions: &[(SessionNumber, Heartbeat)],
+    urgencies: &[Urgency],
+    request: HelpRequest,
+) -> Vec<Coordination> {
+    let asked = sessions.iter().flat_map(|&(number, heartbeat)| {
+        let urgencies = urgencies.iter().copied();
+        urgencies.map(move |urgency| Coordination::NeedHelp {
+            number,
+            heartbeat,
+            request: HelpRequest { urgency, ..request },
+        })
+    });
+    asked.collect()
+}
+
+/// To lead sessions of one's own, with each of these lists of followers.
+pub(crate) fn leading(
+    sessions: &[(SessionNumber, Heartbeat)],
+    lists: &[Followers],
+    place: Place,
+) -> Vec<Coordination> {
+    let claims = [
+        (Urgency::Low, false),
+        (Urgency::High, false),
+        (Urgency::High, true),
+    ];
+    let mut all = Vec::new();
+    for &(number, heartbeat) in sessions {
+        for &followers in lists {
+            all.extend(claims.map(|(urgency, yields)| Coordination::Leader {
                 number,
                 heartbeat,
-                request: HelpRequest { urgency, ..request },
-            })
-            .collect()
-    }
-
-    /// With the hearer among its followers, for the offer that stands or for an old one, or without.
-    fn leading(&self) -> Vec<Coordination> {
-        let standing = match self.hearer.phase() {
-            Phase::Offering(offering) => Some(offering.number),
-            Phase::Following(following) => Some(following.offer),
-            Phase::Idle | Phase::Requesting(_) | Phase::Leading(_) => None,
-        };
-        let old = self.old.map(OfferNumber);
-        let station = self.hearer.station();
-        let listed = [old, standing].into_iter().flatten();
-        let listed = listed.map(|offer| [Confirmation { station, offer }].into_iter().collect());
-        let lists: Vec<Followers> = listed.chain([Followers::EMPTY]).collect();
-        let claims = [
-            (Urgency::Low, false),
-            (Urgency::High, false),
-            (Urgency::High, true),
-        ];
-        let mut all = Vec::new();
-        for (number, heartbeat) in self.sessions.iter().copied() {
-            for followers in &lists {
-                all.extend(claims.map(|(urgency, yields)| Coordination::Leader {
-                    number,
-                    heartbeat,
-                    followers: *followers,
-                    urgency,
-                    place: self.request.place,
-                    yields,
-                }));
-            }
+                followers,
+                urgency,
+                place,
+                yields,
+            }));
         }
-        all
     }
+    all
+}
 
-    fn offering(&self) -> Vec<Coordination> {
-        let mut all = Vec::new();
-        for session in self.sessions_of_hearer() {
-            for offer in self.offers.iter().copied() {
+/// To offer help in the sessions of others.
+pub(crate) fn offering(
+    sessions: &[SessionId],
+    offers: &[OfferNumber],
+    echoes: &[Heartbeat],
+    safety_timers: &[Millis],
+    capabilities: TaskSet,
+) -> Vec<Coordination> {
+    let mut all = Vec::new();
+    for &session in sessions {
+        for &offer in offers {
+            for &echo in echoes {
                 all.extend(
-                    self.echoes
+                    safety_timers
                         .iter()
-                        .copied()
-                        .map(|echo| Coordination::OfferHelp {
+                        .map(|&t_safety| Coordination::OfferHelp {
                             session,
                             offer,
-                            capabilities: self.request.tasks,
+                            capabilities,
                             echo,
-                            t_safety: self.t_safety,
+                            t_safety,
                         }),
                 );
             }
         }
-        all
     }
+    all
+}
 
-    fn following(&self) -> Vec<Coordination> {
-        let progress = [
-            Progress::Executing,
-            Progress::InPosition,
-            Progress::Completed,
-            Progress::Failed(Failure::Maneuver),
-            Progress::SafeIdle,
-        ];
-        let requests = self.requests.iter().copied();
-        let reports =
-            requests.flat_map(|request| progress.map(|progress| Report { request, progress }));
-        let reports: Vec<_> = reports.map(Some).chain([None]).collect();
-        let mut all = Vec::new();
-        for session in self.sessions_of_hearer() {
-            for echo in self.echoes.iter().copied() {
-                let reports = reports.iter().copied();
-                all.extend(reports.map(|last| Coordination::Follower {
-                    session,
-                    echo,
-                    last,
-                }));
-            }
+/// To follow in the sessions of others, with any progress of these requests.
+pub(crate) fn following(
+    sessions: &[SessionId],
+    echoes: &[Heartbeat],
+    requests: &[RequestId],
+) -> Vec<Coordination> {
+    let progress = [
+        Progress::Executing,
+        Progress::InPosition,
+        Progress::Completed,
+        Progress::Failed(Failure::Maneuver),
+        Progress::SafeIdle,
+    ];
+    let reports = (requests.iter())
+        .flat_map(|&request| progress.map(|progress| Some(Report { request, progress })));
+    let reports: Vec<_> = reports.chain([None]).collect();
+    let mut all = Vec::new();
+    for &session in sessions {
+        for &echo in echoes {
+            all.extend(reports.iter().map(|&last| Coordination::Follower {
+                session,
+                echo,
+                last,
+            }));
         }
-        all
     }
+    all
+}
 
-    fn farewells(&self) -> Vec<Farewell> {
-        let ends = [Ending::Completed, Ending::Aborted];
-        let sessions = self.session_numbers().into_iter();
-        let ended = sessions.flat_map(|number| ends.map(|ending| Farewell::Ended(number, ending)));
-        let sessions = self.sessions_of_hearer().into_iter();
-        let left = sessions.flat_map(|session| {
-            let offers = self.offers.iter().copied();
-            offers.map(move |offer| Farewell::Left(session, offer))
-        });
-        ended.chain(left).collect()
-    }
+/// To end sessions of one's own.
+pub(crate) fn ended(numbers: &[SessionNumber]) -> impl Iterator<Item = Farewell> {
+    let ends = [Ending::Completed, Ending::Aborted];
+    let numbers = numbers.iter();
+    numbers.flat_map(move |&number| ends.map(|ending| Farewell::Ended(number, ending)))
+}
 
-    fn commands(&self) -> Vec<Command> {
-        let to = self.hearer.station();
-        let mut all = Vec::new();
-        for number in self.session_numbers() {
-            let session = SessionId {
-                leader: self.liar,
-                number,
-            };
-            for request in self.requests.iter().copied() {
-                all.extend(self.request.tasks.iter().map(|task| Command {
+/// To leave the sessions of others.
+pub(crate) fn left(
+    sessions: &[SessionId],
+    offers: &[OfferNumber],
+) -> impl Iterator<Item = Farewell> {
+    let left = |&session| {
+        offers
+            .iter()
+            .map(move |&offer| Farewell::Left(session, offer))
+    };
+    sessions.iter().flat_map(left)
+}
+
+/// To command in these sessions.
+pub(crate) fn commands(
+    sessions: &[SessionId],
+    followers: &[StationId],
+    requests: &[RequestId],
+    tasks: &[TaskType],
+) -> Vec<Command> {
+    let mut all = Vec::new();
+    for &session in sessions {
+        for &to in followers {
+            for &request in requests {
+                all.extend(tasks.iter().map(|&task| Command {
                     session,
                     to,
                     request,
@@ -219,25 +268,29 @@ impl Utterances<'_> {
                 }));
             }
         }
-        all
     }
+    all
+}
 
-    fn answers(&self) -> Vec<Answer> {
-        let verdicts = [
-            Verdict::Accepted,
-            Verdict::Rejected(Rejection::UnsupportedTask),
-        ];
-        let mut all = Vec::new();
-        for session in self.sessions_of_hearer() {
-            for request in self.requests.iter().copied() {
-                all.extend(verdicts.map(|verdict| Answer {
-                    from: self.liar,
+/// To answer commands of these sessions.
+pub(crate) fn answers(
+    followers: &[StationId],
+    sessions: &[SessionId],
+    requests: &[RequestId],
+) -> Vec<Answer> {
+    let rejected = Verdict::Rejected(Rejection::UnsupportedTask);
+    let mut all = Vec::new();
+    for &session in sessions {
+        for &from in followers {
+            for &request in requests {
+                all.extend([Verdict::Accepted, rejected].map(|verdict| Answer {
+                    from,
                     session,
                     request,
                     verdict,
                 }));
             }
         }
-        all
     }
+    all
 }
