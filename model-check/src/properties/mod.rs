@@ -245,11 +245,17 @@ impl PropertyId {
     }
 
     pub(crate) fn state_rule(self) -> Option<StateRule> {
-        self.untimed()?.state_rule()
+        match self.untimed()?.rule {
+            Rule::State(rule) | Rule::StateAndStep(rule, _) => Some(rule),
+            _ => None,
+        }
     }
 
     pub(crate) fn step_rule(self) -> Option<StepRule> {
-        self.untimed()?.step_rule()
+        match self.untimed()?.rule {
+            Rule::Step(rule) | Rule::StateAndStep(_, rule) => Some(rule),
+            _ => None,
+        }
     }
 
     /// Judges whether every guard is in place when a pedestrian steps on the road at the sign of this session, whose
@@ -274,11 +280,17 @@ impl PropertyId {
     }
 
     pub(crate) fn liveness_rule(self) -> Option<LivenessRule> {
-        self.untimed()?.liveness_rule()
+        match self.untimed()?.rule {
+            Rule::Live(rule) => Some(rule),
+            _ => None,
+        }
     }
 
     pub(crate) fn timed_rule(self) -> Option<TimedRule> {
-        self.timed()?.timed_rule()
+        match self.timed()?.rule {
+            Rule::Timed(rule) => Some(rule),
+            _ => None,
+        }
     }
 
     /// One bit for each property that is claimed of the model without time; 0 for the others.
@@ -320,15 +332,9 @@ mod tests {
     fn each_claim_has_a_rule_of_its_model() {
         for id in PropertyId::ALL {
             assert!(id.untimed().is_some() || id.timed().is_some(), "{id}");
-            assert!(
-                id.untimed()
-                    .is_none_or(|claim| claim.timed_rule().is_none()),
-                "{id}"
-            );
-            assert!(
-                id.timed().is_none_or(|claim| claim.timed_rule().is_some()),
-                "{id}"
-            );
+            let is_timed = |claim: &Claim| matches!(claim.rule, Rule::Timed(_));
+            assert!(!id.untimed().is_some_and(is_timed), "{id}");
+            assert!(id.timed().is_none_or(is_timed), "{id}");
         }
     }
 

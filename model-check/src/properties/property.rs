@@ -164,34 +164,6 @@ pub(crate) enum TimedPremise {
 }
 
 impl Claim {
-    pub(crate) const fn state_rule(&self) -> Option<StateRule> {
-        match self.rule {
-            Rule::State(rule) | Rule::StateAndStep(rule, _) => Some(rule),
-            _ => None,
-        }
-    }
-
-    pub(crate) const fn step_rule(&self) -> Option<StepRule> {
-        match self.rule {
-            Rule::Step(rule) | Rule::StateAndStep(_, rule) => Some(rule),
-            _ => None,
-        }
-    }
-
-    pub(crate) const fn liveness_rule(&self) -> Option<LivenessRule> {
-        match self.rule {
-            Rule::Live(rule) => Some(rule),
-            _ => None,
-        }
-    }
-
-    pub(crate) const fn timed_rule(&self) -> Option<TimedRule> {
-        match self.rule {
-            Rule::Timed(rule) => Some(rule),
-            _ => None,
-        }
-    }
-
     /// Whether a broken one is shown by one run, and not by all that may follow from a state.
     pub(crate) const fn is_shown_by_run(&self) -> bool {
         !matches!(self.rule, Rule::Reset)
