@@ -9,8 +9,8 @@ use crossguard_protocol::{Config, Millis};
 use serde::Serialize;
 
 use super::limits::Limits;
-use super::measure::Measure;
-use crate::properties::{PropertyId, listed};
+use super::measure::{MEASURES, MeasureClaim};
+use crate::properties::PropertyId;
 
 /// The longest time that a message is taken to need where nothing else is said.
 pub const USUAL_DELAY: Millis = Millis(50);
@@ -51,33 +51,15 @@ pub fn bounds(config: &Config, delay: Millis) -> Vec<Bound> {
         ms: limits.commands.0,
         derivation: "(n_ack + 1) * longest(t_ack)",
     };
-    let mut bounds: Vec<_> = Measure::ALL
-        .map(|measure| Bound {
-            properties: listed(measure.properties().iter().copied()),
-            name: measure.name(),
-            ms: measure.bound(&limits).0,
-            derivation: derivation(measure),
-        })
-        .into();
+    let bound = |claim: &MeasureClaim| Bound {
+        properties: claim.ids(),
+        name: claim.name,
+        ms: (claim.bound)(&limits).0,
+        derivation: claim.derivation,
+    };
+    let mut bounds: Vec<_> = MEASURES.iter().map(bound).collect();
     bounds.insert(1, commands);
     bounds
-}
-
-const fn derivation(measure: Measure) -> &'static str {
-    match measure {
-        Measure::Roles => "longest(t_help)",
-        Measure::Stopped => "delay + longest(t_safety)",
-        Measure::Left => "delay + longest(t_safety) + longest(t_leave)",
-        Measure::CorridorClosed
-        | Measure::LeaderHung
-        | Measure::FollowerHung
-        | Measure::Unaware => "longest(t_lease)",
-        Measure::Unguarded => "0: the lease ends before the follower falls back",
-        Measure::BothGo => "longest(2 * ram_period) + delay",
-        Measure::Waiting => {
-            "longest(t_help) + longest(t_lost) + (n_ack + 1) * longest(t_ack) + longest(t_lease)"
-        }
-    }
 }
 
 #[cfg(test)]
@@ -151,7 +133,7 @@ mod tests {
             let config = Config::new(settings).unwrap();
             let t_lost = config.t_lost().0;
             let bounds = bounds(&config, Millis(41));
-            assert_eq!(bounds.len(), Measure::ALL.len() + 1);
+            assert_eq!(bounds.len(), MEASURES.len() + 1);
             for bound in bounds {
                 let by_words = evaluate(bound.derivation, config.settings(), t_lost, 41);
                 assert_eq!(bound.ms, by_words, "{bound}");

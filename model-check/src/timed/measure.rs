@@ -36,20 +36,61 @@ pub(super) enum Measure {
     Waiting,
 }
 
-impl Measure {
-    pub(super) const ALL: [Self; 10] = [
-        Self::Roles,
-        Self::Stopped,
-        Self::Left,
-        Self::CorridorClosed,
-        Self::LeaderHung,
-        Self::FollowerHung,
-        Self::Unguarded,
-        Self::BothGo,
-        Self::Unaware,
-        Self::Waiting,
-    ];
+/// What there is to say about a measure.
+pub(super) struct MeasureClaim {
+    measure: Measure,
+    /// The properties that the figure is about.
+    pub(super) properties: &'static [PropertyId],
+    pub(super) name: &'static str,
+    /// The longest time by calculation, and how that follows from the settings.
+    pub(super) bound: fn(&Limits) -> Millis,
+    pub(super) derivation: &'static str,
+}
 
+const fn claim(
+    measure: Measure,
+    properties: &'static [PropertyId],
+    name: &'static str,
+    bound: fn(&Limits) -> Millis,
+    derivation: &'static str,
+) -> MeasureClaim {
+    MeasureClaim {
+        measure,
+        properties,
+        name,
+        bound,
+        derivation,
+    }
+}
+
+/// In the order of [`Measure`].
+#[rustfmt::skip]
+pub(super) const MEASURES: [MeasureClaim; 10] = {
+    use PropertyId::{I11, L1, L5, W1, W3, W5, W6, W8};
+    [
+        claim(Measure::Roles, &[L1], "from a request to roles or to giving up", |it| it.roles, "longest(t_help)"),
+        claim(Measure::Stopped, &[L5], "from the leader's crash to the follower stopped", |it| it.stopped,
+            "delay + longest(t_safety)"),
+        claim(Measure::Left, &[L5], "from the leader's crash to the follower idle", |it| it.left,
+            "delay + longest(t_safety) + longest(t_leave)"),
+        claim(Measure::CorridorClosed, &[I11, W1], "from a follower's own failure to the corridor closed",
+            |it| it.corridor_closed, "longest(t_lease)"),
+        claim(Measure::LeaderHung, &[W5], "from a hang of the leader to its sign at stop", |it| it.corridor_closed,
+            "longest(t_lease)"),
+        claim(Measure::FollowerHung, &[W5, W1], "from a hang of a follower to the leader's sign at stop",
+            |it| it.corridor_closed, "longest(t_lease)"),
+        claim(Measure::Unguarded, &[W1], "from a follower's fallback to the leader's sign at stop", |it| it.unguarded,
+            "0: the lease ends before the follower falls back"),
+        claim(Measure::BothGo, &[W3], "from two leaders' first hearing to one sign at stop", |it| it.both_go,
+            "longest(2 * ram_period) + delay"),
+        claim(Measure::Unaware, &[W6], "from a guard gone to the leader's application informed", |it| it.unaware,
+            "longest(t_lease)"),
+        claim(Measure::Waiting, &[W8], "from a detection to go or a reason given", |it| it.waiting,
+            "longest(t_help) + longest(t_lost) + (n_ack + 1) * longest(t_ack) + longest(t_lease)"),
+    ]
+};
+
+impl Measure {
     /// What is measured of a hang of the leader, or of a follower.
     pub(super) const fn of_hang(leader: bool) -> Self {
         if leader {
@@ -58,56 +99,18 @@ impl Measure {
             Self::FollowerHung
         }
     }
+}
 
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::Roles => "from a request to roles or to giving up",
-            Self::Stopped => "from the leader's crash to the follower stopped",
-            Self::Left => "from the leader's crash to the follower idle",
-            Self::CorridorClosed => "from a follower's own failure to the corridor closed",
-            Self::LeaderHung => "from a hang of the leader to its sign at stop",
-            Self::FollowerHung => "from a hang of a follower to the leader's sign at stop",
-            Self::Unguarded => "from a follower's fallback to the leader's sign at stop",
-            Self::BothGo => "from two leaders' first hearing to one sign at stop",
-            Self::Unaware => "from a guard gone to the leader's application informed",
-            Self::Waiting => "from a detection to go or a reason given",
-        }
-    }
-
-    /// The properties that the figure is about.
-    pub(super) const fn properties(self) -> &'static [PropertyId] {
-        use PropertyId as P;
-        match self {
-            Self::Roles => &[P::L1],
-            Self::Stopped | Self::Left => &[P::L5],
-            Self::CorridorClosed => &[P::I11, P::W1],
-            Self::LeaderHung => &[P::W5],
-            Self::FollowerHung => &[P::W5, P::W1],
-            Self::Unguarded => &[P::W1],
-            Self::BothGo => &[P::W3],
-            Self::Unaware => &[P::W6],
-            Self::Waiting => &[P::W8],
-        }
-    }
-
-    /// The longest time by calculation.
-    pub(super) const fn bound(self, limits: &Limits) -> Millis {
-        match self {
-            Self::Roles => limits.roles,
-            Self::Stopped => limits.stopped,
-            Self::Left => limits.left,
-            Self::CorridorClosed | Self::LeaderHung | Self::FollowerHung => limits.corridor_closed,
-            Self::Unguarded => limits.unguarded,
-            Self::BothGo => limits.both_go,
-            Self::Unaware => limits.unaware,
-            Self::Waiting => limits.waiting,
-        }
+impl MeasureClaim {
+    /// The ids of its properties.
+    pub(super) fn ids(&self) -> String {
+        listed(self.properties.iter().copied())
     }
 }
 
 /// The longest times found so far, in ticks.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Longest([Option<u8>; Measure::ALL.len()]);
+pub(super) struct Longest([Option<u8>; MEASURES.len()]);
 
 impl Longest {
     pub(super) fn note(&mut self, measure: Measure, ticks: u8) {
@@ -124,20 +127,25 @@ impl Longest {
 
     /// The figures in milliseconds, with their bounds: those of the first property that each is about.
     pub(super) fn figures(self, timed: &Timed, limits: &Limits) -> Vec<Figure> {
-        let figure = |measure: Measure| Figure {
-            id: ids(measure),
-            name: measure.name().to_owned(),
-            ms: self.0[measure as usize].map(|ticks| timed.clock.millis(ticks).0),
-            bound_ms: measure.bound(limits).0,
+        let is_asked = |claim: &&MeasureClaim| timed.claims(claim.properties[0]);
+        let figure = |claim: &MeasureClaim| Figure {
+            id: claim.ids(),
+            name: claim.name.to_owned(),
+            ms: self.0[claim.measure as usize].map(|ticks| timed.clock.millis(ticks).0),
+            bound_ms: (claim.bound)(limits).0,
         };
-        let asked = Measure::ALL.into_iter().filter(|measure| {
-            let first = measure.properties().first();
-            first.is_some_and(|property| timed.claims(*property))
-        });
-        asked.map(figure).collect()
+        MEASURES.iter().filter(is_asked).map(figure).collect()
     }
 }
 
-fn ids(measure: Measure) -> String {
-    listed(measure.properties().iter().copied())
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_measure_stands_in_its_place() {
+        for (place, claim) in MEASURES.iter().enumerate() {
+            assert_eq!(claim.measure as usize, place, "{}", claim.name);
+        }
+    }
 }
