@@ -110,8 +110,7 @@ pub(crate) type GivenOut = SmallVec<[(UniqueNumber, u16); 6]>;
 /// up once; a state finds its own by the numbers of the sets in its parts.
 pub(crate) struct Renamings {
     rank: fn(&mut Ranks) -> bool,
-    sets: boxcar::Vec<Names>,
-    numbers: Memo<Names, u32>,
+    sets: Memo<Names, ()>,
     of_sets: Memo<NameSets, Option<u32>>,
     ranks: boxcar::Vec<Ranks>,
 }
@@ -136,8 +135,7 @@ impl Renamings {
     pub(crate) fn new(rank: fn(&mut Ranks) -> bool) -> Self {
         let renamings = Self {
             rank,
-            sets: boxcar::Vec::new(),
-            numbers: Memo::default(),
+            sets: Memo::default(),
             of_sets: Memo::default(),
             ranks: boxcar::Vec::new(),
         };
@@ -148,19 +146,15 @@ impl Renamings {
 
     /// The number of a set of names.
     pub(crate) fn set(&self, names: Names) -> u32 {
-        if let Some(known) = self.numbers.get(&names) {
-            return *known;
-        }
-        let set = self.sets.push(names.clone());
-        let set = u32::try_from(set).expect("fewer than 2^32 sets of names");
-        *self.numbers.keep(names, set)
+        let known = self.sets.find(&names);
+        known.unwrap_or_else(|| self.sets.add(names, ()))
     }
 
     /// The number of the set of all names in these sets.
     pub(crate) fn union(&self, sets: impl Iterator<Item = u32>) -> u32 {
         let mut names = Names::default();
         for set in sets {
-            names.0.extend_from_slice(&self.sets[set as usize].0);
+            names.0.extend_from_slice(&self.sets.at(set).0.0);
         }
         names.0.sort_unstable();
         names.0.dedup();
@@ -170,16 +164,15 @@ impl Renamings {
     /// The number of the renaming of a state in which these sets of names occur; `None` if no name
     /// changes.
     pub(crate) fn of(&self, sets: NameSets) -> Option<u32> {
-        if let Some(known) = self.of_sets.get(&sets) {
-            return *known;
-        }
-        let mut ranks = Ranks::default();
-        for &set in &sets.0 {
-            ranks.add(&self.sets[set as usize]);
-        }
-        let number = |index| u32::try_from(index).expect("fewer than 2^32 renamings");
-        let renaming = (self.rank)(&mut ranks).then(|| number(self.ranks.push(ranks)));
-        *self.of_sets.keep(sets, renaming)
+        let renaming = self.of_sets.get_or_compute(sets, |sets| {
+            let mut ranks = Ranks::default();
+            for &set in &sets.0 {
+                ranks.add(&self.sets.at(set).0);
+            }
+            let number = |index| u32::try_from(index).expect("fewer than 2^32 renamings");
+            (self.rank)(&mut ranks).then(|| number(self.ranks.push(ranks)))
+        });
+        *renaming
     }
 
     /// The numbers that `station` gave out, of the names in these sets, in order, each with how many heartbeats
@@ -191,7 +184,7 @@ impl Renamings {
     ) -> GivenOut {
         let mut names: SmallVec<[Name; 16]> = SmallVec::new();
         for set in sets {
-            let own = self.sets[set as usize].0.iter();
+            let own = self.sets.at(set).0.0.iter();
             names.extend(own.copied().filter(|name| name.station() == station));
         }
         names.sort_unstable();

@@ -5,20 +5,15 @@
 //! cheap. Numbers are given in the order of first use, so they may differ between runs with several
 //! threads; the states they make up do not.
 
-use std::hash::{BuildHasher, Hash};
+use std::hash::Hash;
 use std::sync::Arc;
 
-use rustc_hash::FxBuildHasher;
-
 use crate::canonical::{Names, Renamable, Renamings};
-use crate::lookup::Lookup;
 use crate::memo::Memo;
 
 /// A growing set of values, each with a number and the set of names that occur in it.
 pub(crate) struct Interner<T> {
-    values: boxcar::Vec<(T, u32)>,
-    /// By what the values are.
-    lookup: Lookup,
+    values: Memo<T, u32>,
     renamings: Arc<Renamings>,
     /// What renamings have made of values.
     renamed: Memo<(u32, u32), u32>,
@@ -33,26 +28,19 @@ impl<T: Renamable + Clone + Eq + Hash> Interner<T> {
         self.number_with(value, |value| self.renamings.set(Names::of(value)))
     }
 
-    /// The number of a value after the renaming of this number. Few renamings ever meet one value, so
-    /// each is carried out once.
+    /// The number of a value after the renaming of this number.
     pub(crate) fn renamed(&self, number: u32, renaming: u32) -> u32 {
-        if self.names(number) == Renamings::EMPTY {
-            return number;
-        }
-        if let Some(known) = self.renamed.get(&(number, renaming)) {
-            return *known;
-        }
-        let mut ranks = self.renamings.ranks(renaming);
-        let renamed = self.number(self.value(number).renamed(&mut ranks));
-        *self.renamed.keep((number, renaming), renamed)
+        self.renamed_by(number, renaming, || {
+            let mut ranks = self.renamings.ranks(renaming);
+            self.number(self.value(number).renamed(&mut ranks))
+        })
     }
 }
 
 impl<T: Clone + Eq + Hash> Interner<T> {
     pub(crate) fn new(renamings: &Arc<Renamings>) -> Self {
         Self {
-            values: boxcar::Vec::new(),
-            lookup: Lookup::default(),
+            values: Memo::default(),
             renamings: Arc::clone(renamings),
             renamed: Memo::default(),
         }
@@ -63,26 +51,39 @@ impl<T: Clone + Eq + Hash> Interner<T> {
         self.number_with(value, |_| Renamings::EMPTY)
     }
 
+    /// The number of a value after the renaming of this number, which `rename` carries out. Few renamings ever meet one
+    /// value, so each is carried out once.
+    pub(crate) fn renamed_by(
+        &self,
+        number: u32,
+        renaming: u32,
+        rename: impl FnOnce() -> u32,
+    ) -> u32 {
+        if self.names(number) == Renamings::EMPTY {
+            return number;
+        }
+        let renamed = self
+            .renamed
+            .get_or_compute((number, renaming), |_| rename());
+        *renamed
+    }
+
     /// The set of names that occur in a value.
     pub(crate) fn names(&self, number: u32) -> u32 {
-        self.values[number as usize].1
+        self.values.at(number).1
     }
 
     /// The number of a value in which the set of names of this number occurs.
     pub(crate) fn number_with(&self, value: T, names: impl FnOnce(&T) -> u32) -> u32 {
-        let hashed = FxBuildHasher.hash_one(&value);
-        let is_it = |number: u32| self.values[number as usize].0 == value;
-        if let Some(number) = self.lookup.find(hashed, is_it) {
+        if let Some(number) = self.values.find(&value) {
             return number;
         }
         let names = names(&value);
-        let locked = self.lookup.lock(hashed);
-        let known = locked.find(is_it);
-        known.unwrap_or_else(|| locked.add(self.values.push((value, names))))
+        self.values.add(value, names)
     }
 
     /// The value of a number that [`Interner::number`] gave out.
     pub(crate) fn value(&self, number: u32) -> &T {
-        &self.values[number as usize].0
+        &self.values.at(number).0
     }
 }

@@ -23,24 +23,44 @@ impl<K, V> Default for Memo<K, V> {
 }
 
 impl<K: Eq + Hash, V> Memo<K, V> {
-    /// The result, where it is known.
-    pub(crate) fn get(&self, of: &K) -> Option<&V> {
-        let is_it = |number: u32| self.results[number as usize].0 == *of;
-        let number = self.lookup.find(FxBuildHasher.hash_one(of), is_it)?;
-        Some(&self.results[number as usize].1)
+    /// The number under which a result is kept, where it is known.
+    pub(crate) fn find(&self, of: &K) -> Option<u32> {
+        let is_it = |number: u32| self.at(number).0 == *of;
+        self.lookup.find(FxBuildHasher.hash_one(of), is_it)
     }
 
-    /// Keeps a result, and returns the one that is kept: another thread may have come first.
+    /// Keeps a result, and returns the number of the one that is kept: another thread may have come first.
     ///
     /// # Panics
     /// When 2^32 results are exceeded, far beyond what fits in memory.
-    pub(crate) fn keep(&self, of: K, result: V) -> &V {
+    pub(crate) fn add(&self, of: K, result: V) -> u32 {
         let locked = self.lookup.lock(FxBuildHasher.hash_one(&of));
-        let is_it = |number: u32| self.results[number as usize].0 == of;
-        let number = locked
-            .find(is_it)
-            .unwrap_or_else(|| locked.add(self.results.push((of, result))));
-        &self.results[number as usize].1
+        let known = locked.find(|number| self.at(number).0 == of);
+        known.unwrap_or_else(|| locked.add(self.results.push((of, result))))
+    }
+
+    /// What was kept under a number that was given out, and of what it is the result.
+    pub(crate) fn at(&self, number: u32) -> &(K, V) {
+        &self.results[number as usize]
+    }
+
+    /// The result, where it is known.
+    pub(crate) fn get(&self, of: &K) -> Option<&V> {
+        Some(&self.at(self.find(of)?).1)
+    }
+
+    /// The result, which `compute` computes where it is not known yet.
+    pub(crate) fn get_or_compute(&self, of: K, compute: impl FnOnce(&K) -> V) -> &V {
+        let number = self.find(&of).unwrap_or_else(|| {
+            let result = compute(&of);
+            self.add(of, result)
+        });
+        &self.at(number).1
+    }
+
+    /// Keeps a result, and returns the one that is kept.
+    pub(crate) fn keep(&self, of: K, result: V) -> &V {
+        &self.at(self.add(of, result)).1
     }
 }
 

@@ -43,7 +43,6 @@ pub(crate) struct Sets {
     known: Interner<Set>,
     /// What a set and one more message make.
     with: Memo<(u32, PackedTransmission), u32>,
-    renamed: Memo<(u32, u32), u32>,
 }
 
 impl Sets {
@@ -57,7 +56,6 @@ impl Sets {
         Self {
             known: sets,
             with: Memo::default(),
-            renamed: Memo::default(),
         }
     }
 
@@ -86,13 +84,12 @@ impl Sets {
         let Err(at) = slots.binary_search(&message) else {
             return set;
         };
-        if let Some(known) = self.with.get(&(set, message)) {
-            return *known;
-        }
-        let mut slots = slots.to_vec();
-        slots.insert(at, message);
-        let with = self.number(slots.into(), robots);
-        *self.with.keep((set, message), with)
+        let with = self.with.get_or_compute((set, message), |_| {
+            let mut slots = slots.to_vec();
+            slots.insert(at, message);
+            self.number(slots.into(), robots)
+        });
+        *with
     }
 
     /// A set without the messages to one receiver.
@@ -110,17 +107,12 @@ impl Sets {
         message: impl Fn(u16) -> u16,
         robots: &Robots,
     ) -> u32 {
-        if self.names(set) == Renamings::EMPTY {
-            return set;
-        }
-        if let Some(known) = self.renamed.get(&(set, renaming)) {
-            return *known;
-        }
-        let renamed = self.map(set, robots, |sent| Transmission {
-            message: message(sent.message),
-            ..sent
-        });
-        *self.renamed.keep((set, renaming), renamed)
+        self.known.renamed_by(set, renaming, || {
+            self.map(set, robots, |sent| Transmission {
+                message: message(sent.message),
+                ..sent
+            })
+        })
     }
 
     /// A set with every message replaced.

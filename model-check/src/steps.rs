@@ -122,8 +122,7 @@ impl Steps {
     }
 
     fn shared(&self, outputs: &Outputs) -> Arc<Outputs> {
-        let known = self.outputs.get(outputs);
-        let shared = known.unwrap_or_else(|| self.outputs.keep(*outputs, Arc::new(*outputs)));
+        let shared = self.outputs.get_or_compute(*outputs, |it| Arc::new(*it));
         Arc::clone(shared)
     }
 }

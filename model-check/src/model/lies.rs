@@ -103,11 +103,8 @@ impl Model {
         given_out: &GivenOut,
     ) -> &[u16] {
         let key = (from, node, given_out.clone());
-        if let Some(known) = self.0.lies.0.get(&key) {
-            return known;
-        }
-        let lies = self.compute(liar, node, given_out).into();
-        self.0.lies.0.keep(key, lies)
+        let lies = || self.compute(liar, node, given_out).into();
+        self.0.lies.0.get_or_compute(key, |_| lies())
     }
 
     /// The numbers of the messages that change something.
