@@ -1,20 +1,21 @@
-//! What a run of the paper's wording has come to: which hazard is there, which property of the road is broken.
+//! What a run of the paper's wording has come to: which hazard is there.
 
 use crossguard_protocol::State as Stage;
 
 use super::hazards::Hazard;
-use super::road::RoadProperty;
+use super::road::Road;
 use super::robot::{
     HelpStatus, PaperCommand, PaperInput, PaperRmcm, PaperRobot, Progression, RobotIndex,
 };
 use super::world::PaperWorld;
 
 /// P0: a follower was made to start what its leader did not command.
-pub(super) const HOLDS_BIT: u16 = 1 << Hazard::ALL.len();
+pub(super) const HOLDS_BIT: u32 = 1 << Hazard::ALL.len();
 
 impl Hazard {
     /// Whether it is there.
     pub(super) fn is_in(self, world: &PaperWorld) -> bool {
+        let on_road = |is_so: &dyn Fn(&Road) -> bool| world.road.as_ref().is_some_and(is_so);
         match self {
             Self::P5 => world.is_stuck() && asking(world) > 1,
             Self::P7 => world
@@ -39,20 +40,9 @@ impl Hazard {
             Self::P1 | Self::P2 | Self::P3 | Self::P4 | Self::P6 | Self::P11 | Self::P14 => {
                 world.memory.brought_about & self.bit() != 0
             }
-        }
-    }
-}
-
-impl RoadProperty {
-    /// Whether it is broken.
-    pub(super) fn is_broken(self, world: &PaperWorld) -> bool {
-        let Some(road) = &world.road else {
-            return false;
-        };
-        match self {
-            Self::W1 | Self::W2 | Self::W4 => road.is_broken(self),
-            Self::W3 => road.is_heard_twice() && world.inviting().count() > 1,
-            Self::W7 => road.is_waited_at() && waits_for_ever(world),
+            Self::W1 | Self::W2 | Self::W4 => on_road(&|road| road.is_broken(self)),
+            Self::W3 => on_road(&Road::is_heard_twice) && world.inviting().count() > 1,
+            Self::W7 => on_road(&Road::is_waited_at) && waits_for_ever(world),
         }
     }
 }
@@ -117,7 +107,7 @@ pub(super) fn brought_about(
     place: RobotIndex,
     input: PaperInput,
     after: &PaperRobot,
-) -> u16 {
+) -> u32 {
     let Some(robot) = before.robot(place) else {
         return 0;
     };

@@ -1,6 +1,5 @@
-//! What the paper's text lets happen, P1 to P9 and P11 to P14, each with where it comes from and the rule that
-//! closes it; P10, which the text closes itself; and P0, which holds, so that the model is not taken for one
-//! in which anything can happen.
+//! What the paper's text lets happen, each with where it comes from and the rule that closes it: P1 to P9 and P11 to P14, and
+//! on the road W1 to W4 and W7.
 
 use serde::Serialize;
 
@@ -21,6 +20,11 @@ pub enum Hazard {
     P12,
     P13,
     P14,
+    W1,
+    W2,
+    W3,
+    W4,
+    W7,
 }
 
 /// What the text says about a hazard.
@@ -60,7 +64,7 @@ impl HazardKind {
 
 impl Hazard {
     /// All hazards, in order.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 18] = [
         Self::P1,
         Self::P2,
         Self::P3,
@@ -74,15 +78,26 @@ impl Hazard {
         Self::P12,
         Self::P13,
         Self::P14,
+        Self::W1,
+        Self::W2,
+        Self::W3,
+        Self::W4,
+        Self::W7,
     ];
 
     /// Whether it is that somebody waits for ever, and nothing happens any more.
     pub(super) const fn is_without_end(self) -> bool {
-        matches!(self, Self::P5 | Self::P8 | Self::P9 | Self::P12 | Self::P13)
+        use Hazard::{P5, P8, P9, P12, P13, W7};
+        matches!(self, P5 | P8 | P9 | P12 | P13 | W7)
+    }
+
+    /// Whether it is about the road, and a property that the kit's own scenarios keep.
+    pub(super) const fn is_on_road(self) -> bool {
+        matches!(self, Self::W1 | Self::W2 | Self::W3 | Self::W4 | Self::W7)
     }
 
     /// One bit for each.
-    pub(super) const fn bit(self) -> u16 {
-        1 << self as u16
+    pub(super) const fn bit(self) -> u32 {
+        1 << self as u32
     }
 }

@@ -34,13 +34,12 @@ pub use hazards::{Hazard, HazardKind, Passage};
 pub use page::page;
 pub use readings::{OtherReading, Reading};
 pub use shown::{PaperRobotFrame, PaperRun, runs};
-pub use texts::{Text, on_the_road};
+pub use texts::Text;
 
 use crate::exploration::steps;
 use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
 use crate::scenario::Size;
 use model::{Cast, Inquiry, PaperAction, Question};
-use road::RoadProperty;
 use robot::PaperTask;
 use world::PaperWorld;
 
@@ -101,6 +100,14 @@ const ESCORTED: Cast = Cast {
     ..PAIR
 };
 
+/// Two robots see somebody, and none breaks down.
+const ESCORTED_TWICE: Cast = Cast {
+    detecting: 2,
+    detections: 2,
+    crashes: 0,
+    ..ESCORTED
+};
+
 /// Two teams of two at one crossing, on a good day.
 const TEAMS: Cast = Cast {
     names: &["ARI", "Go2", "NAO", "Spot"],
@@ -113,11 +120,12 @@ const TEAMS: Cast = Cast {
     delay: false,
 };
 
-/// A run that brings a hazard about, or breaks a property of the road.
+/// A run that brings a hazard about.
 struct Counterexample {
     text: Text,
     /// Somebody waits for ever: after the last step nothing happens any more.
     is_without_end: bool,
+    is_on_road: bool,
     cast: Cast,
     /// Each action with the world before and after it.
     steps: Vec<Transition>,
@@ -146,7 +154,7 @@ struct Exploration {
 pub fn check() -> ScenarioReport {
     let start = Instant::now();
     let explored = [explore(PAIR), explore(CURRENT), explore(TRIO)];
-    let (found, on_road) = (counterexamples(), broken_on_road());
+    let found = counterexamples();
     let is_found = |what: fn(&Exploration) -> bool| explored.iter().any(what);
     let is_p0_broken = is_found(|e| e.is_p0_broken);
     let is_wait_endless = is_found(|e| e.is_wait_endless);
@@ -177,14 +185,7 @@ pub fn check() -> ScenarioReport {
             "no leader waits for ever for a follower that is there and follows it",
         ),
     ];
-    properties.extend(Hazard::ALL.map(|hazard| {
-        let kind = if hazard.is_without_end() { "L" } else { "S" };
-        must_fail_report(hazard.text(), kind, &found)
-    }));
-    properties.extend(road::RoadProperty::ALL.map(|property| {
-        let kind = if property.is_without_end() { "L" } else { "S" };
-        must_fail_report(property.text(), kind, &on_road)
-    }));
+    properties.extend(Hazard::ALL.map(|hazard| must_fail_report(hazard, &found)));
     // Every cast is a beginning of this one.
     let robots = TEAMS.names.iter().map(|&name| name.to_owned()).collect();
     let size = Size {
@@ -209,20 +210,19 @@ pub fn made(report: &ScenarioReport) -> bool {
     report.verdict(model::HOLDS).is_some()
 }
 
-/// Whether exactly the hazards and the properties of the road are violated in a report of [`check`], as they
-/// must be.
+/// Whether exactly the hazards are violated in a report of [`check`], as they must be.
 #[must_use]
 pub fn fails_as_it_must(report: &ScenarioReport) -> bool {
     let verdicts = [model::HOLDS, model::CLOSED, model::PREMISE].map(|id| report.verdict(id));
     let holds = Some(CheckVerdict::Holds);
     let fine = verdicts == [holds, holds, Some(CheckVerdict::Reachable)];
-    let hazards = Hazard::ALL.map(|hazard| hazard.text().id);
-    let on_road = road::RoadProperty::ALL.map(|property| property.text().id);
-    let must_fail = hazards.into_iter().chain(on_road);
+    let must_fail = Hazard::ALL.map(|hazard| hazard.text().id);
     report.exhaustive && fine && report.violated().eq(must_fail)
 }
 
-fn must_fail_report(text: Text, kind: &str, found: &[Counterexample]) -> PropertyReport {
+fn must_fail_report(hazard: Hazard, found: &[Counterexample]) -> PropertyReport {
+    let text = hazard.text();
+    let kind = if hazard.is_without_end() { "L" } else { "S" };
     let counterexample = found.iter().find(|found| found.text.id == text.id);
     let verdict = CheckVerdict::of_property(counterexample.is_some(), None);
     PropertyReport {
@@ -264,18 +264,13 @@ fn assumptions() -> Vec<String> {
     assumptions
 }
 
-/// A question about the text as it stands.
-const fn literally(cast: Cast, about: Inquiry) -> Question {
-    let reading = Reading::Literal;
-    Question {
-        cast,
-        reading,
-        about,
-    }
-}
-
 fn explore(cast: Cast) -> Exploration {
-    let checker = literally(cast, Inquiry::Rest).checker().spawn_bfs().join();
+    let question = Question {
+        cast,
+        reading: Reading::Literal,
+        about: Inquiry::Rest,
+    };
+    let checker = question.checker().spawn_bfs().join();
     Exploration {
         unique_states: checker.unique_state_count(),
         // stateright counts the initial state.
@@ -287,28 +282,43 @@ fn explore(cast: Cast) -> Exploration {
     }
 }
 
-/// The shortest counterexample of each hazard that can be brought about, in order.
+/// The shortest counterexample of each hazard that can be brought about, in order; of W1 by either kind of guard.
 fn counterexamples() -> Vec<Counterexample> {
-    let literal = |hazard| find(hazard, Reading::Literal);
-    Hazard::ALL.into_iter().filter_map(literal).collect()
+    let in_casts = |hazard| {
+        let casts = casts(hazard).iter();
+        casts.filter_map(move |cast| find(hazard, *cast, Reading::Literal))
+    };
+    Hazard::ALL.into_iter().flat_map(in_casts).collect()
+}
+
+/// Who can bring a hazard about.
+const fn casts(hazard: Hazard) -> &'static [Cast] {
+    use Hazard::{P3, P4, P5, P6, P7, P11, W1, W2, W3, W4, W7};
+    match hazard {
+        P3 | P4 | P5 | P6 => &[SHORT],
+        P7 => &[TRIO],
+        P11 => &[CURRENT],
+        W1 => &[ESCORTED, PAIR],
+        W2 => &[ESCORTED],
+        W3 => &[TEAMS],
+        W4 | W7 => &[ESCORTED_TWICE],
+        _ => &[PAIR],
+    }
 }
 
 /// The shortest run that brings a hazard about in a reading.
-fn find(hazard: Hazard, reading: Reading) -> Option<Counterexample> {
-    let cast = match hazard {
-        Hazard::P7 => TRIO,
-        Hazard::P11 => CURRENT,
-        Hazard::P3 | Hazard::P4 | Hazard::P5 | Hazard::P6 => SHORT,
-        _ => PAIR,
-    };
+fn find(hazard: Hazard, cast: Cast, reading: Reading) -> Option<Counterexample> {
+    let text = hazard.text_beside(cast.plan.contains(&PaperTask::Move));
+    let about = Inquiry::Hazard(hazard);
     let question = Question {
+        cast,
         reading,
-        ..literally(cast, Inquiry::Hazard(hazard))
+        about,
     };
-    let text = hazard.text();
     Some(Counterexample {
         text,
         is_without_end: hazard.is_without_end(),
+        is_on_road: hazard.is_on_road(),
         cast,
         steps: shortest(question, text.id)?,
     })
@@ -317,38 +327,8 @@ fn find(hazard: Hazard, reading: Reading) -> Option<Counterexample> {
 /// Whether the checker finds a hazard in a reading of the text.
 #[must_use]
 pub fn is_found_in(hazard: Hazard, reading: Reading) -> bool {
-    find(hazard, reading).is_some()
-}
-
-/// The shortest run that breaks each property of the road, in order; W1 by either kind of guard.
-fn broken_on_road() -> Vec<Counterexample> {
-    use RoadProperty::{W1, W2, W3, W4, W7};
-    let twice = Cast {
-        detecting: 2,
-        detections: 2,
-        crashes: 0,
-        ..ESCORTED
-    };
-    let casts = [
-        (W1, ESCORTED),
-        (W1, PAIR),
-        (W2, ESCORTED),
-        (W3, TEAMS),
-        (W4, twice),
-        (W7, twice),
-    ];
-    let found = casts.map(|(property, cast)| find_on_road(property, cast));
-    found.into_iter().flatten().collect()
-}
-
-fn find_on_road(property: RoadProperty, cast: Cast) -> Option<Counterexample> {
-    let is_escorted = cast.plan.contains(&PaperTask::Move);
-    Some(Counterexample {
-        text: texts::on_road(property, is_escorted),
-        is_without_end: property.is_without_end(),
-        cast,
-        steps: shortest(literally(cast, Inquiry::Road(property)), model::ON_ROAD)?,
-    })
+    let mut casts = casts(hazard).iter();
+    casts.any(|cast| find(hazard, *cast, reading).is_some())
 }
 
 /// The shortest run that breaks what is asked for.

@@ -10,7 +10,7 @@ use stateright::Property;
 use super::found::{self, HOLDS_BIT, is_closed, is_crossed};
 use super::hazards::Hazard;
 use super::readings::Reading;
-use super::road::{Move, Road, RoadProperty};
+use super::road::{Move, Road};
 use super::robot::{PaperCommand, PaperInput, PaperRmcm, PaperRobot, PaperTask, RobotIndex};
 use super::world::{Content, FlightKind, Memory, PaperFlight, PaperWorld};
 
@@ -20,8 +20,6 @@ pub(super) const HOLDS: &str = "P0";
 pub(super) const PREMISE: &str = "P0-premise";
 /// P10: what the text closes itself.
 pub(super) const CLOSED: &str = "P10";
-/// What is asked about the road.
-pub(super) const ON_ROAD: &str = "W";
 
 /// Robots, and how often what may happen to them in one run.
 #[derive(Clone, Copy, Debug)]
@@ -59,8 +57,6 @@ pub(super) enum Inquiry {
     Rest,
     /// The hazard to find.
     Hazard(Hazard),
-    /// The property of the road to break.
-    Road(RoadProperty),
 }
 
 /// What happens.
@@ -252,10 +248,12 @@ fn successor(world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
 /// One hazard at a time: with several, stateright goes on after the first, shortest counterexample and
 /// keeps the last.
 fn properties(question: &Question) -> Vec<Property<Question>> {
-    let is_absent = |question: &Question, world: &PaperWorld| !is_found(question, world);
+    let is_absent = |question: &Question, world: &PaperWorld| match question.about {
+        Inquiry::Hazard(hazard) => !hazard.is_in(world),
+        Inquiry::Rest => true,
+    };
     match question.about {
         Inquiry::Hazard(hazard) => vec![Property::always(hazard.text().id, is_absent)],
-        Inquiry::Road(_) => vec![Property::always(ON_ROAD, is_absent)],
         Inquiry::Rest => vec![
             Property::always(HOLDS, |_, world: &PaperWorld| {
                 world.memory.brought_about & HOLDS_BIT == 0
@@ -266,21 +264,12 @@ fn properties(question: &Question) -> Vec<Property<Question>> {
     }
 }
 
-/// Whether this is what a question asks for.
-fn is_found(question: &Question, world: &PaperWorld) -> bool {
-    match question.about {
-        Inquiry::Hazard(hazard) => hazard.is_in(world),
-        Inquiry::Road(property) => property.is_broken(world),
-        Inquiry::Rest => false,
-    }
-}
-
 impl stateright::Model for Question {
     type State = PaperWorld;
     type Action = PaperAction;
 
     fn init_states(&self) -> Vec<PaperWorld> {
-        let has_road = matches!(self.about, Inquiry::Road(_));
+        let has_road = matches!(self.about, Inquiry::Hazard(hazard) if hazard.is_on_road());
         let guard = self.cast.plan.last().filter(|_| has_road);
         vec![PaperWorld {
             reading: self.reading,

@@ -9,7 +9,7 @@ use super::model::PaperAction;
 use super::road::Move;
 use super::robot::{self, HelpStatus, PaperInput, PaperRmcm, PaperRobot, PaperTask, Progression};
 use super::world::{Content, FlightKind, PaperFlight, PaperWorld};
-use super::{Counterexample, Transition, broken_on_road, counterexamples};
+use super::{Counterexample, Transition, counterexamples};
 use crate::sequence::{Chart, ChartPlace, ChartStep, Fate};
 
 const INTRODUCTION: &str = "\
@@ -82,22 +82,23 @@ is one crossing, so that W3 is about every two leaders.
 /// it.
 #[must_use]
 pub fn page() -> String {
-    let (found, on_road) = (counterexamples(), broken_on_road());
+    let all = counterexamples();
+    let (on_road, found): (Vec<_>, Vec<_>) = all.iter().partition(|found| found.is_on_road);
     let mut page = INTRODUCTION.to_owned();
     page.push_str("| hazard | kind | section | paragraph |\n|---|---|---|---|\n");
-    for text in found.iter().chain(&on_road).map(|found| found.text) {
+    for text in all.iter().map(|found| found.text) {
         let Passage {
             section, paragraph, ..
         } = text.passage;
         let (id, title, kind) = (text.id, text.title, text.kind.name());
         let _ = writeln!(page, "| {id}: {title} | {kind} | {section} | {paragraph} |");
     }
-    for found in &found {
+    for found in found {
         page.push_str(&section("##", found, "Closed by"));
     }
     page.push_str(CLOSED);
     page.push_str(ON_ROAD);
-    for found in &on_road {
+    for found in on_road {
         page.push_str(&section("###", found, "Kept by"));
     }
     page

@@ -13,20 +13,11 @@
 
 use crossguard_protocol::State as Stage;
 
+use super::hazards::Hazard;
 use super::robot::{
     HelpStatus, PaperInput, PaperRam, PaperRmcm, PaperRobot, PaperTask, Progression, RobotIndex,
     Whereabouts,
 };
-
-/// A property of the road.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub(super) enum RoadProperty {
-    W1,
-    W2,
-    W3,
-    W4,
-    W7,
-}
 
 /// What a body does, and by which command of which leader.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -79,21 +70,7 @@ pub(super) struct Road {
     /// How often a leader has heard a RAM of a leader that goes before it, up to two.
     heard: u8,
     /// Properties that the newest step broke, as bits.
-    broken: u8,
-}
-
-impl RoadProperty {
-    pub(super) const ALL: [Self; 5] = [Self::W1, Self::W2, Self::W3, Self::W4, Self::W7];
-
-    /// One bit for each.
-    pub(super) const fn bit(self) -> u8 {
-        1 << self as u8
-    }
-
-    /// Whether it is that somebody waits for ever.
-    pub(super) const fn is_without_end(self) -> bool {
-        matches!(self, Self::W7)
-    }
+    broken: u32,
 }
 
 /// Whether the robot lets people cross the road that its follower blocks.
@@ -154,7 +131,7 @@ impl Road {
                 let stops_traffic = self.guard != PaperTask::Move
                     || robots[leader].is_some_and(|robot| robot.follower().is_some());
                 if !is_guarded || !stops_traffic {
-                    self.broken |= RoadProperty::W1.bit();
+                    self.broken |= Hazard::W1.bit();
                 }
                 self.pedestrian = PaperPedestrian::OnRoad(leader);
             }
@@ -220,7 +197,7 @@ impl Road {
         let falls_back = matches!(body, PaperBody::FallingBack(_));
         let takes_part = |robot: &PaperRobot| robot.status != HelpStatus::None;
         if falls_back && takes_part(after) && !takes_part(before) {
-            self.broken |= RoadProperty::W4.bit();
+            self.broken |= Hazard::W4.bit();
         }
         match (input, before.executing(), after.executing()) {
             (PaperInput::Rmcm(leader, PaperRmcm::Command(command)), _, Some(executed))
@@ -264,7 +241,7 @@ impl Road {
     /// A body is told to leave what it guards.
     fn leave(&mut self, body: PaperBody) {
         if self.needs(body) {
-            self.broken |= RoadProperty::W2.bit();
+            self.broken |= Hazard::W2.bit();
         }
     }
 
@@ -287,7 +264,7 @@ impl Road {
     }
 
     /// Whether the newest step broke a property.
-    pub(super) const fn is_broken(&self, property: RoadProperty) -> bool {
+    pub(super) const fn is_broken(&self, property: Hazard) -> bool {
         self.broken & property.bit() != 0
     }
 

@@ -5,7 +5,6 @@ use serde::Serialize;
 use super::hazards::HazardKind::{Ambiguous, Silent, Stated};
 use super::hazards::{Hazard, HazardKind, Passage};
 use super::readings::{OtherReading, Reading};
-use super::road::RoadProperty;
 
 /// What there is to say about a hazard.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -235,6 +234,11 @@ const TEXTS: [Text; Hazard::ALL.len()] = [
             "a reissued command has a new requestID",
         )),
     },
+    W1_ESCORTED,
+    W2,
+    W3,
+    W4,
+    W7,
 ];
 
 const W1_STATEMENT: &str = "who steps on the road finds the guards there, or a guard has fallen back, finished or lost power and its leader has not been told";
@@ -315,35 +319,18 @@ const W7: Text = Text {
     other_reading: None,
 };
 
-/// What there is to say about a run that breaks a property of the road, beside an escort or a blocker.
-pub(super) const fn on_road(property: RoadProperty, is_escorted: bool) -> Text {
-    match (property, is_escorted) {
-        (RoadProperty::W1, true) => W1_ESCORTED,
-        (RoadProperty::W1, false) => W1_BLOCKED,
-        (RoadProperty::W2, _) => W2,
-        (RoadProperty::W3, _) => W3,
-        (RoadProperty::W4, _) => W4,
-        (RoadProperty::W7, _) => W7,
-    }
-}
-
-impl RoadProperty {
-    /// What there is to say about it.
-    pub(super) const fn text(self) -> Text {
-        on_road(self, true)
-    }
-}
-
 impl Hazard {
     /// What there is to say about it.
     #[must_use]
     pub const fn text(self) -> Text {
         TEXTS[self as usize]
     }
-}
 
-/// What there is to say about each run that breaks a property of the road, in the order of the page.
-#[must_use]
-pub fn on_the_road() -> Vec<Text> {
-    vec![W1_ESCORTED, W1_BLOCKED, W2, W3, W4, W7]
+    /// What there is to say about a run that brings it about, beside an escort or not.
+    pub(super) const fn text_beside(self, is_escorted: bool) -> Text {
+        match self {
+            Self::W1 if !is_escorted => W1_BLOCKED,
+            _ => self.text(),
+        }
+    }
 }

@@ -56,7 +56,7 @@ pub(super) struct Memory {
     pub(super) fallen_back: u8,
     pub(super) finished: u8,
     /// Hazards that the newest step has brought about, by their place in the list.
-    pub(super) brought_about: u16,
+    pub(super) brought_about: u32,
 }
 
 impl PaperWorld {
