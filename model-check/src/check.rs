@@ -6,8 +6,8 @@
 
 use stateright::{Checker, Expectation, HasDiscoveries, Model as _, Property};
 
-pub use crate::exploration::{CheckProgress, Options, Stop};
-use crate::exploration::{ExplorationLimits, by_stateright};
+use crate::exploration::by_stateright;
+pub use crate::exploration::{CheckProgress, ExplorationLimits, Options, Stop};
 use crate::fair::{LeadsTo, leads_to};
 use crate::fairness::Classifier;
 use crate::graph::{Graph, Keep};

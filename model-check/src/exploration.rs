@@ -71,18 +71,13 @@ impl Default for Options {
 impl Options {
     /// The limits on states and time; time runs from now.
     pub(crate) fn limits(&self) -> ExplorationLimits {
-        ExplorationLimits {
-            states_max: self.states_max,
-            time_max: self.time_max,
-            start: Instant::now(),
-            stop: self.stop.clone(),
-        }
+        ExplorationLimits::new(self.states_max, self.time_max, &self.stop)
     }
 }
 
 /// When an exploration has to stop.
 #[derive(Clone, Debug)]
-pub(crate) struct ExplorationLimits {
+pub struct ExplorationLimits {
     states_max: Option<usize>,
     time_max: Option<Duration>,
     start: Instant,
@@ -90,18 +85,32 @@ pub(crate) struct ExplorationLimits {
 }
 
 impl ExplorationLimits {
+    /// These limits on states and time; time runs from now.
+    #[must_use]
+    pub fn new(states_max: Option<usize>, time_max: Option<Duration>, stop: &Stop) -> Self {
+        Self {
+            states_max,
+            time_max,
+            start: Instant::now(),
+            stop: stop.clone(),
+        }
+    }
+
     /// How long the exploration has taken until now.
-    pub(crate) fn elapsed(&self) -> Duration {
+    #[must_use]
+    pub fn elapsed(&self) -> Duration {
         self.start.elapsed()
     }
 
     /// Whether there are as many states as there may be.
-    pub(crate) fn states_reached(&self, states: usize) -> bool {
+    #[must_use]
+    pub fn states_reached(&self, states: usize) -> bool {
         self.states_max.is_some_and(|max| states >= max)
     }
 
     /// Why an exploration has to stop that has taken until now, if it has.
-    pub(crate) fn time_reached(&self) -> Option<CutOff> {
+    #[must_use]
+    pub fn time_reached(&self) -> Option<CutOff> {
         let reached = self.time_max.is_some_and(|max| self.start.elapsed() >= max);
         let stopped = self.stop.is_requested().then_some(CutOff::Stopped);
         stopped.or(reached.then_some(CutOff::TimeLimit))

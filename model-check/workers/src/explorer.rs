@@ -3,15 +3,17 @@
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
-use std::time::{Duration, Instant};
 
-use crossguard_model_check::check::Stop;
-use crossguard_model_check::model::portable::{Fingerprints, PackedState, Packer, Part, Unpacker};
+use crossguard_model_check::check::ExplorationLimits;
+use crossguard_model_check::model::portable::{
+    Class, Fingerprints, PackedState, Packer, Part, Unpacker,
+};
 use crossguard_model_check::model::{Action, Model, ModelState};
 use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::report::CutOff;
 use serde::{Deserialize, Serialize};
 
+use crate::report::whole;
 use crate::table::{Fingerprint, Hint, Table};
 use crate::waiting::Queue;
 
@@ -30,6 +32,17 @@ struct Sighting {
     from: Hint,
     /// How many states it stands for.
     class: u16,
+}
+
+impl Sighting {
+    /// Of a class that was found from the state that this hint means.
+    fn of(class: &Class, from: Hint) -> Self {
+        Self {
+            fingerprint: Fingerprint::of(class.fingerprint),
+            from,
+            class: class.size,
+        }
+    }
 }
 
 impl Found {
@@ -55,15 +68,9 @@ pub(crate) struct Common {
     /// Properties that states and steps can be judged by.
     pub(crate) judged: Vec<PropertyId>,
     pub(crate) workers: usize,
-    pub(crate) limits: Limits,
+    /// When the workers of this process give up.
+    pub(crate) limits: ExplorationLimits,
     pub(crate) counters: Counters,
-}
-
-/// When the workers of this process give up.
-pub(crate) struct Limits {
-    pub(crate) states_max: Option<u64>,
-    pub(crate) until: Option<Instant>,
-    pub(crate) stop: Stop,
 }
 
 /// How far the workers of a process are.
@@ -100,13 +107,6 @@ pub(crate) const BITE: usize = 2_000;
 /// Of how many states the successors are looked up together.
 const TOGETHER: usize = 20;
 
-/// A state that comes after another one.
-struct Successor {
-    state: ModelState,
-    sighting: Sighting,
-    owner: usize,
-}
-
 pub(crate) struct Explorer {
     common: Arc<Common>,
     index: usize,
@@ -122,7 +122,8 @@ pub(crate) struct Explorer {
     /// How many of its states all threads know of.
     counted: u64,
     actions: Vec<Action>,
-    successors: Vec<Successor>,
+    /// States that come after others.
+    successors: Vec<(ModelState, Sighting)>,
 }
 
 impl Explorer {
@@ -153,28 +154,20 @@ impl Explorer {
     pub(crate) fn begin(&mut self) {
         let model = &self.common.model;
         let class = self.fingerprints.class(model, model.initial());
-        let fingerprint = Fingerprint::of(class.fingerprint);
-        let sighting = Sighting {
-            fingerprint,
-            from: fingerprint.hint(),
-            class: class.size,
-        };
-        if self.owner(fingerprint) == self.index {
+        let from = Fingerprint::of(class.fingerprint).hint();
+        let sighting = Sighting::of(&class, from);
+        if self.owner(sighting) == self.index {
             self.add(class.state, sighting, 0);
         }
     }
 
     /// As timely routes it.
-    fn owner(&self, fingerprint: Fingerprint) -> usize {
-        usize::try_from(fingerprint.share() % self.peers as u64).expect("less than the peers")
+    fn owner(&self, sighting: Sighting) -> usize {
+        usize::try_from(sighting.fingerprint.share() % self.peers as u64)
+            .expect("less than the peers")
     }
 
-    fn on_its_way(&mut self, next: Successor) -> Found {
-        let Successor {
-            state,
-            sighting,
-            owner,
-        } = next;
+    fn on_its_way(&mut self, state: ModelState, sighting: Sighting, owner: usize) -> Found {
         let is_here = owner / self.common.workers == self.index / self.common.workers;
         let cargo = if is_here {
             Cargo::Here(state)
@@ -295,18 +288,10 @@ impl Explorer {
         let begin = self.successors.len();
         for &action in &actions {
             if let Some(class) = self.fingerprints.successor(model, state, action) {
-                let fingerprint = Fingerprint::of(class.fingerprint);
+                let sighting = Sighting::of(&class, from);
                 let mut found = self.successors[begin..].iter();
-                if found.all(|known| known.sighting.fingerprint != fingerprint) {
-                    self.successors.push(Successor {
-                        state: class.state,
-                        sighting: Sighting {
-                            fingerprint,
-                            from,
-                            class: class.size,
-                        },
-                        owner: self.owner(fingerprint),
-                    });
+                if found.all(|(_, known)| known.fingerprint != sighting.fingerprint) {
+                    self.successors.push((class.state, sighting));
                 }
             }
         }
@@ -317,14 +302,15 @@ impl Explorer {
     /// Adds the successors that were found, or sends them to their owners.
     fn pass_on_successors(&mut self, level: u32, send: &mut dyn FnMut(Found)) {
         let mut successors = std::mem::take(&mut self.successors);
-        let index = self.index;
-        let own = successors.iter().filter(|next| next.owner == index);
-        self.table.fetch(own.map(|next| next.sighting.fingerprint));
-        for next in successors.drain(..) {
-            if next.owner == index {
-                self.add(next.state, next.sighting, level);
-            } else if !self.was_just_sent(next.sighting.fingerprint) {
-                send(self.on_its_way(next));
+        let sightings = successors.iter().map(|(_, sighting)| *sighting);
+        let own = sightings.filter(|sighting| self.owner(*sighting) == self.index);
+        self.table.fetch(own.map(|sighting| sighting.fingerprint));
+        for (state, sighting) in successors.drain(..) {
+            let owner = self.owner(sighting);
+            if owner == self.index {
+                self.add(state, sighting, level);
+            } else if !self.was_just_sent(sighting.fingerprint) {
+                send(self.on_its_way(state, sighting, owner));
             }
         }
         self.successors = successors;
@@ -339,14 +325,9 @@ impl Explorer {
 
     fn give_up_where_asked(&mut self) {
         let (limits, counters) = (&self.common.limits, &self.common.counters);
-        let states = counters.states.load(Ordering::Relaxed);
-        let cut_off = if let Some(cut_off) = limits.given_up() {
-            Some(cut_off)
-        } else if limits.states_max.is_some_and(|max| states >= max) {
-            Some(CutOff::StateLimit)
-        } else {
-            None
-        };
+        let states = whole(counters.states.load(Ordering::Relaxed));
+        let is_full = limits.states_reached(states);
+        let cut_off = (limits.time_reached()).or(is_full.then_some(CutOff::StateLimit));
         if cut_off.is_some() {
             self.told.cut_off = self.told.cut_off.or(cut_off);
             self.waiting.clear();
@@ -364,32 +345,6 @@ impl Explorer {
                 .collect(),
             table_bytes: self.table.bytes() as u64,
             ..self.told.clone()
-        }
-    }
-}
-
-impl Limits {
-    /// The limits of one of this number of processes; time runs from now.
-    pub(crate) fn new(
-        states_max: Option<usize>,
-        time_max: Option<Duration>,
-        stop: &Stop,
-        processes: usize,
-    ) -> Self {
-        Self {
-            states_max: states_max.map(|states| states.div_ceil(processes) as u64),
-            until: time_max.map(|time| Instant::now() + time),
-            stop: stop.clone(),
-        }
-    }
-    /// Why the workers give up, whatever they have found.
-    pub(crate) fn given_up(&self) -> Option<CutOff> {
-        if self.stop.is_requested() {
-            Some(CutOff::Stopped)
-        } else if self.until.is_some_and(|until| Instant::now() >= until) {
-            Some(CutOff::TimeLimit)
-        } else {
-            None
         }
     }
 }

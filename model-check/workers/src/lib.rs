@@ -42,15 +42,15 @@ mod waiting;
 
 use std::num::NonZeroUsize;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use crossguard_model_check::check::Stop;
+use crossguard_model_check::check::{ExplorationLimits, Stop};
 use crossguard_model_check::model::Model;
 use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::scenario::Scenario;
 
 pub use connect::ConnectError;
-use explorer::{Common, Counters, Limits};
+use explorer::{Common, Counters};
 pub use hosts::{Cluster, Hosts, HostsError};
 pub use report::{Progress, WorkersReport};
 pub use table::FINGERPRINT_BITS;
@@ -142,14 +142,10 @@ pub fn check(
     watch: &mut dyn FnMut(Progress),
 ) -> Result<WorkersReport, WorkersError> {
     let judged = judged(model.scenario())?;
-    let begin = Instant::now();
     let processes = options.cluster.as_ref().map_or(1, Cluster::processes);
-    let limits = Limits::new(
-        options.states_max,
-        options.time_max,
-        &options.stop,
-        processes,
-    );
+    // Each process may own its share of the states.
+    let states_max = options.states_max.map(|max| max.div_ceil(processes));
+    let limits = ExplorationLimits::new(states_max, options.time_max, &options.stop);
     let common = Arc::new(Common {
         model: model.clone(),
         judged,
@@ -157,8 +153,8 @@ pub fn check(
         limits,
         counters: Counters::default(),
     });
-    let outcome = processes::run(&common, options, begin, watch)?;
-    Ok(report::of(&common, &outcome, processes, begin))
+    let outcome = processes::run(&common, options, watch)?;
+    Ok(report::of(&common, &outcome, processes))
 }
 
 /// The properties of the scenario that states and steps show.

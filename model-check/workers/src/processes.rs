@@ -44,7 +44,6 @@ static LAST_WORDS: Mutex<Option<String>> = Mutex::new(None);
 pub(crate) fn run(
     common: &Arc<Common>,
     options: &Options,
-    begin: Instant,
     watch: &mut dyn FnMut(Progress),
 ) -> Result<Outcome, WorkersError> {
     keep_last_words();
@@ -88,10 +87,10 @@ pub(crate) fn run(
         match told.recv_timeout(Duration::from_millis(500)) {
             Ok(Some(outcome)) => return Ok(outcome),
             Ok(None) | Err(RecvTimeoutError::Disconnected) => break lost_because(),
-            Err(RecvTimeoutError::Timeout) => watch(Progress::of(common, begin)),
+            Err(RecvTimeoutError::Timeout) => watch(Progress::of(common)),
         }
         let is_alone = streams.is_empty();
-        if !is_alone && common.limits.given_up().is_some() {
+        if !is_alone && common.limits.time_reached().is_some() {
             let since: &mut Instant = given_up.get_or_insert_with(Instant::now);
             if since.elapsed() > GRACE {
                 break WorkersError::Lost("another process says nothing any more".to_owned());

@@ -1,7 +1,7 @@
 //! What the workers found, in the form of every other check.
 
 use std::sync::atomic::Ordering;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crossguard_model_check::check::{assumptions, collision_probability};
 use crossguard_model_check::model::portable::charted;
@@ -29,13 +29,13 @@ pub struct Progress {
 }
 
 impl Progress {
-    pub(crate) fn of(common: &Common, begin: Instant) -> Self {
+    pub(crate) fn of(common: &Common) -> Self {
         let counters = &common.counters;
         Self {
             level: counters.level.load(Ordering::Relaxed),
             states: counters.states.load(Ordering::Relaxed),
             table_bytes: counters.table_bytes.load(Ordering::Relaxed),
-            elapsed: begin.elapsed(),
+            elapsed: common.limits.elapsed(),
         }
     }
 }
@@ -65,12 +65,7 @@ pub struct WorkersReport {
     pub not_judged: Vec<String>,
 }
 
-pub(crate) fn of(
-    common: &Common,
-    outcome: &Outcome,
-    processes: usize,
-    begin: Instant,
-) -> WorkersReport {
+pub(crate) fn of(common: &Common, outcome: &Outcome, processes: usize) -> WorkersReport {
     let (model, told) = (&common.model, &outcome.told);
     let scenario = model.scenario();
     let states: u64 = told.iter().map(|told| told.states).sum();
@@ -98,7 +93,7 @@ pub(crate) fn of(
     WorkersReport {
         scenario: ScenarioReport {
             transitions: whole(transitions),
-            seconds: begin.elapsed().as_secs_f64(),
+            seconds: common.limits.elapsed().as_secs_f64(),
             engines: vec!["crossguard-workers"],
             properties: judged.flatten().collect(),
             assumptions: assumptions(scenario, compared),
@@ -114,7 +109,7 @@ pub(crate) fn of(
     }
 }
 
-fn whole(number: u64) -> usize {
+pub(crate) fn whole(number: u64) -> usize {
     usize::try_from(number).unwrap_or(usize::MAX)
 }
 
