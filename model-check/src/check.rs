@@ -8,15 +8,14 @@ use stateright::{Checker, Expectation, HasDiscoveries, Model as _, Property};
 
 use crate::exploration::by_stateright;
 pub use crate::exploration::{CheckProgress, ExplorationLimits, Options, Stop};
+use crate::explore::{Graph, Keep, RunOf, explore};
 use crate::fair::{LeadsTo, leads_to};
 use crate::fairness::Classifier;
-use crate::graph::{Graph, Keep};
 use crate::model::{Action, Delivery, Model, ModelState};
 use crate::network::Transmission;
 use crate::parallel::map_chunks;
 use crate::properties::{Claim, LivenessRule, PropertyId, Rule, View, for_each_property};
 use crate::report::{CutOff, PropertyReport, ScenarioReport};
-use crate::runs::Runs;
 use crate::scenario::{LyingPart, RobotSetup, Scenario, Size};
 use crate::sequence::{ChartPlace, ChartStep, Fate};
 
@@ -47,20 +46,16 @@ pub fn check(
             });
         })
     });
-    let graph = Graph::build(
-        model,
-        keep(scenario, options),
-        options,
-        &limits,
-        &mut |reached| {
-            let second = second.as_ref();
-            watch(CheckProgress {
-                checked: second.map_or(reached.checked, |second| second.unique_states),
-                expected: progress.expected,
-                ..reached
-            });
-        },
-    );
+    let mut tell = |reached: CheckProgress| {
+        let second = second.as_ref();
+        watch(CheckProgress {
+            checked: second.map_or(reached.checked, |second| second.unique_states),
+            expected: progress.expected,
+            ..reached
+        });
+    };
+    let keep = keep(scenario, options);
+    let (graph, ()) = explore(model, keep, options, &limits, &mut tell);
     let size = Size {
         unique_states: graph.states(),
         depth: graph.depth(),
@@ -175,7 +170,7 @@ impl SecondOpinion {
     ///
     /// Premises are not compared: what a liar can say to a robot is worked out once for both explorations, and that
     /// a premise is met is noted then.
-    fn difference(&self, model: &Model, graph: &Graph) -> Option<CutOff> {
+    fn difference(&self, model: &Model, graph: &Graph<'_, Model>) -> Option<CutOff> {
         let (self_is_whole, graph_is_whole) = (self.cut_off.is_none(), graph.cut_off().is_none());
         let properties = model.scenario().properties.iter();
         for (&id, counterexample) in properties.zip(&self.counterexamples) {
@@ -195,7 +190,7 @@ impl SecondOpinion {
 struct Findings<'a> {
     model: &'a Model,
     second: Option<&'a SecondOpinion>,
-    graph: &'a Graph,
+    graph: &'a Graph<'a, Model>,
     cut_off: Option<CutOff>,
     options: &'a Options,
 }
@@ -227,7 +222,7 @@ impl Findings<'_> {
         claim: &Claim,
     ) -> (Option<Vec<ChartStep>>, Option<usize>) {
         match claim.rule {
-            Rule::Reset => (self.stuck(), None),
+            Rule::Reset => (self.graph.stuck().map(|stuck| self.run_into(stuck)), None),
             Rule::Live(rule) => self.lasso(id, rule).unzip(),
             _ => (self.broken(i, id), None),
         }
@@ -238,16 +233,12 @@ impl Findings<'_> {
         let Some(broken) = self.graph.broken(id) else {
             return self.second?.counterexamples[i].clone();
         };
-        let run = self.runs().stem(&self.graph.run_to(self.model, broken));
-        Some(chart(self.model, self.model.real_run(run)))
+        Some(self.run_into(broken))
     }
 
-    /// A run into a state from which the robots cannot all get idle any more.
-    fn stuck(&self) -> Option<Vec<ChartStep>> {
-        let runs = self.runs();
-        let stem = self.graph.run_to(self.model, self.graph.stuck()?);
-        let run = self.model.real_run(runs.stem(&stem));
-        Some(chart(self.model, run))
+    fn run_into(&self, state: u32) -> Vec<ChartStep> {
+        let run = self.graph.run_into(state);
+        chart(self.model, self.model.real_run(run))
     }
 
     /// A fair run that breaks a liveness property, and how many steps of it come before its cycle.
@@ -256,7 +247,6 @@ impl Findings<'_> {
         if self.cut_off.is_some() {
             return None;
         }
-        let runs = self.runs();
         let fairness = Classifier(self.model).fairness();
         for subject in rule.subjects.among(self.model.scenario().robots.len()) {
             let from = |number| {
@@ -269,28 +259,21 @@ impl Findings<'_> {
                 // What comes after a broken step property was not explored.
                 self.model.look(&state, is_reached) || state.is_broken()
             };
-            match leads_to(&runs, fairness, from, to) {
+            match leads_to(self.graph, fairness, from, to) {
                 LeadsTo::Vacuous => {}
                 LeadsTo::Holds => self.model.note_premise(id),
                 LeadsTo::Broken(lasso) => {
                     self.model.note_premise(id);
-                    let run = runs.lasso(&lasso);
+                    let run = self.graph.lasso(&lasso);
                     return Some((chart(self.model, run), lasso.stem.len() - 1));
                 }
             }
         }
         None
     }
-
-    const fn runs(&self) -> Runs<'_> {
-        Runs {
-            model: self.model,
-            graph: self.graph,
-        }
-    }
 }
 
-pub(crate) fn chart(model: &Model, path: Vec<(ModelState, Option<Action>)>) -> Vec<ChartStep> {
+pub(crate) fn chart(model: &Model, path: RunOf<Model>) -> Vec<ChartStep> {
     path.into_iter()
         .filter_map(|(state, action)| Some(chart_step(model, &state, action?)?.1))
         .collect()
@@ -477,8 +460,7 @@ fn receivers(scenario: &Scenario) -> String {
 
 /// Whether a state keeps the property of this number. stateright wants a plain function for each.
 fn holds<const N: usize>(model: &Model, state: &ModelState) -> bool {
-    let id = PropertyId::ALL[N];
-    !Model::breaks(state, id) && model.state_rule_holds(state, id)
+    model.keeps(state, PropertyId::ALL[N])
 }
 
 const HOLDS: [fn(&Model, &ModelState) -> bool; PropertyId::ALL.len()] = for_each_property!(holds);

@@ -4,7 +4,7 @@
 //!   scenarios/*.toml ──► scenario ──► model ◄── crossguard_protocol::Robot::step
 //!                                       │
 //!                        ┌──────────────┴──────────────┐
-//!                      graph ──► fair             stateright
+//!                     explore ──► fair            stateright
 //!              properties of states, steps      second opinion on states
 //!              and, under fairness, of runs        and single steps
 //!                        └──────────────┬──────────────┘
@@ -49,11 +49,10 @@ mod canonical;
 pub mod check;
 pub mod crossing;
 mod exploration;
-mod explorer;
+mod explore;
 pub mod fair;
 mod fairness;
 pub mod fsm;
-mod graph;
 mod held;
 pub mod history;
 mod intern;

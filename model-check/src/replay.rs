@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::check::{chart, chart_step, placed};
+use crate::check::{chart_step, placed};
 use crate::model::{Action, Model, ModelState};
 use crate::properties::{Claim, PropertyId};
 use crate::report::{PropertyReport, ScenarioReport};
@@ -39,26 +39,6 @@ pub enum Followed {
 }
 
 impl Replay {
-    /// A run of a model along some actions, which breaks nothing in particular.
-    #[must_use]
-    pub fn along(model: &Model, actions: &[Action]) -> Self {
-        let mut state = model.initial();
-        let mut run = Vec::new();
-        for &action in actions {
-            let Some((next, _)) = model.successor(&state, action) else {
-                break;
-            };
-            run.push((std::mem::replace(&mut state, next), Some(action)));
-        }
-        Self {
-            scenario: model.scenario().name.clone(),
-            text: None,
-            property: String::new(),
-            steps: chart(model, run),
-            repeats_after: None,
-        }
-    }
-
     /// The counterexample of a property; `None` where it has none, or where that is not one run: L7
     /// speaks about all that may follow. A run of a timed scenario is followed by its chart only.
     #[must_use]
@@ -102,28 +82,37 @@ impl Replay {
     #[must_use]
     pub fn follow(&self, model: &Model) -> Followed {
         let mut state = model.initial();
-        for (i, step) in self.steps.iter().enumerate() {
-            let Some((next, outputs)) = take(model, &state, step) else {
-                return Followed::StoppedAt(i);
-            };
-            if outputs != step.outputs {
-                return Followed::OtherwiseAt(i, outputs);
-            }
-            state = next;
+        match follow(model, &self.steps, &mut state, &mut |_| ()) {
+            Some((step, None)) => Followed::StoppedAt(step),
+            Some((step, Some(outputs))) => Followed::OtherwiseAt(step, outputs),
+            None => Followed::ToTheEnd(model.broken_by(&state).collect()),
         }
-        let properties = model.scenario().properties.iter().copied();
-        let is_broken =
-            |id: &PropertyId| Model::breaks(&state, *id) || !model.state_rule_holds(&state, *id);
-        Followed::ToTheEnd(properties.filter(is_broken).collect())
     }
 }
 
-/// The effect of a step, with the outputs that it has now; `None` where it is not possible.
-pub(crate) fn take(
+/// Follows steps from a state as far as that goes, and shows each state that is reached. Says which step cannot be taken, or
+/// is one with these outputs now.
+pub(crate) fn follow(
     model: &Model,
-    state: &ModelState,
-    step: &ChartStep,
-) -> Option<(ModelState, Vec<String>)> {
+    steps: &[ChartStep],
+    state: &mut ModelState,
+    show: &mut dyn FnMut(&ModelState),
+) -> Option<(usize, Option<Vec<String>>)> {
+    for (i, step) in steps.iter().enumerate() {
+        let Some((next, outputs)) = take(model, state, step) else {
+            return Some((i, None));
+        };
+        if outputs != step.outputs {
+            return Some((i, Some(outputs)));
+        }
+        *state = next;
+        show(state);
+    }
+    None
+}
+
+/// The effect of a step, with the outputs that it has now; `None` where it is not possible.
+fn take(model: &Model, state: &ModelState, step: &ChartStep) -> Option<(ModelState, Vec<String>)> {
     let mut actions = Vec::new();
     model.actions_in(state, &mut actions);
     let is_meant = |action: &Action| {

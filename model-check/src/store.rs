@@ -12,6 +12,8 @@
 //!                        └─────────── state ───────────┘
 //! ```
 
+use std::hash::Hash;
+
 use crate::model::{Backdrop, ModelState};
 use crate::numbered::Numbered;
 use crate::scenario::MAX_ROBOTS;
@@ -19,6 +21,49 @@ use crate::scenario::MAX_ROBOTS;
 type Pairs = Numbered<(u32, u32)>;
 
 /// States with numbers from 0, in the order in which they were added.
+pub(crate) trait Store<T>: Default + Send + Sync {
+    fn len(&self) -> usize;
+
+    /// The number of a state, if it was added, before [`Store::freeze`].
+    fn find(&self, state: &T) -> Option<u32>;
+
+    /// The number of a state, a new one where it was not added before.
+    ///
+    /// # Panics
+    /// Where 2^32 states are there.
+    fn add(&mut self, state: T) -> u32;
+
+    /// The state of a number.
+    fn get(&self, number: u32) -> T;
+
+    /// Gives memory back: nothing is added or looked for any more.
+    fn freeze(&mut self);
+}
+
+/// Each state as it is.
+impl<T: Clone + Eq + Hash + Send + Sync> Store<T> for Numbered<T> {
+    fn len(&self) -> usize {
+        Self::len(self)
+    }
+
+    fn find(&self, state: &T) -> Option<u32> {
+        Self::find(self, state)
+    }
+
+    fn add(&mut self, state: T) -> u32 {
+        Self::add(self, state)
+    }
+
+    fn get(&self, number: u32) -> T {
+        Self::get(self, number).clone()
+    }
+
+    fn freeze(&mut self) {
+        Self::freeze(self);
+    }
+}
+
+/// States of the untimed model, compressed.
 #[derive(Default)]
 pub(crate) struct States {
     backdrop: Numbered<Backdrop>,
@@ -35,13 +80,12 @@ pub(crate) struct States {
 const PAIRS: usize = MAX_ROBOTS / 2;
 const _: () = assert!(PAIRS == 3 && MAX_ROBOTS.is_multiple_of(2));
 
-impl States {
-    pub(crate) fn len(&self) -> usize {
+impl Store<ModelState> for States {
+    fn len(&self) -> usize {
         self.whole.len()
     }
 
-    /// The number of a state, if it was added, before [`States::freeze`].
-    pub(crate) fn find(&self, state: &ModelState) -> Option<u32> {
+    fn find(&self, state: &ModelState) -> Option<u32> {
         let (robots, backdrop) = state.parts();
         let pair = |i: usize| self.robots[i].find(&(robots[2 * i], robots[2 * i + 1]));
         let front = self.front.find(&(pair(0)?, pair(1)?))?;
@@ -50,11 +94,7 @@ impl States {
         self.whole.find(&(front, back))
     }
 
-    /// The number of a state, a new one where it was not added before.
-    ///
-    /// # Panics
-    /// Where 2^32 states are there.
-    pub(crate) fn add(&mut self, state: &ModelState) -> u32 {
+    fn add(&mut self, state: ModelState) -> u32 {
         let (robots, backdrop) = state.parts();
         let mut pair = |i: usize| self.robots[i].add((robots[2 * i], robots[2 * i + 1]));
         let pairs: [u32; PAIRS] = std::array::from_fn(&mut pair);
@@ -64,8 +104,7 @@ impl States {
         self.whole.add((front, back))
     }
 
-    /// The state of a number.
-    pub(crate) fn get(&self, number: u32) -> ModelState {
+    fn get(&self, number: u32) -> ModelState {
         let (front, back) = *self.whole.get(number);
         let (back, backdrop) = *self.back.get(back);
         let (first, second) = *self.front.get(front);
@@ -76,8 +115,7 @@ impl States {
         ModelState::of_parts(robots, *self.backdrop.get(backdrop))
     }
 
-    /// Gives memory back: nothing is added or looked for any more.
-    pub(crate) fn freeze(&mut self) {
+    fn freeze(&mut self) {
         self.backdrop.freeze();
         for pairs in &mut self.robots {
             pairs.freeze();
@@ -97,22 +135,14 @@ mod tests {
     #[test]
     fn a_state_is_what_its_number_says() {
         let model = Model::new(Scenario::load("stable").unwrap());
-        let mut found = vec![model.initial()];
+        let found: Vec<_> = model.reachable().take(2_000).collect();
         let mut states = States::default();
-        let mut at = 0;
-        while at < found.len() && found.len() < 2_000 {
-            let mut actions = Vec::new();
-            model.actions_in(&found[at], &mut actions);
-            for action in actions {
-                if let Some((next, _)) = model.successor(&found[at], action) {
-                    found.push(next);
-                }
-            }
-            at += 1;
+        let numbers: Vec<u32> = (0..).take(found.len()).collect();
+        for _ in 0..2 {
+            let added = found.iter().map(|state| states.add(state.clone()));
+            assert!(added.eq(numbers.iter().copied()));
         }
-        let numbers: Vec<u32> = found.iter().map(|state| states.add(state)).collect();
-        assert!(states.len() > 100 && states.len() < found.len());
-        assert!(states.front.len() < states.len());
+        assert!(states.len() > 100 && states.front.len() < states.len());
         for (state, &number) in found.iter().zip(&numbers) {
             assert_eq!(
                 (states.get(number), states.find(state)),

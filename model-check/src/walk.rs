@@ -1,18 +1,17 @@
 //! A walk through a scenario, step by step: what each robot is doing after each step, and what may happen next.
 //!
-//! The steps are those of [`Replay`], so a walk is kept and followed like a counterexample.
+//! The steps are those of a [`Replay`](crate::replay::Replay), so a walk is kept and followed like a counterexample.
 //! Nothing is stored between two walks: to go one step further, a caller walks again from the start.
 
 use crossguard_protocol::{Availability, Role, State, StationId};
-use rustc_hash::FxHashSet;
 use serde::{Deserialize, Serialize};
 
-use crate::check::{chart_step, names};
-use crate::model::{Action, Model, ModelState};
+use crate::check::{chart, chart_step, names};
+use crate::model::{Model, ModelState};
 use crate::network::Transmission;
 use crate::node::Node;
 use crate::properties::PropertyId;
-use crate::replay::{Replay, take};
+use crate::replay::follow;
 use crate::road::{Body, Pedestrian};
 use crate::scenario::{Bounds, Scenario};
 use crate::sequence::ChartStep;
@@ -144,21 +143,9 @@ impl Walk {
         let model = Model::new(scenario);
         let mut state = model.initial();
         let mut frames = vec![WalkFrame::of(&model, &state)];
-        let mut stray = None;
-        for (i, step) in steps.iter().enumerate() {
-            let Some((next, outputs)) = take(&model, &state, step) else {
-                let (step, puts_out) = (i, None);
-                stray = Some(Stray { step, puts_out });
-                break;
-            };
-            if outputs != step.outputs {
-                let (step, puts_out) = (i, Some(outputs));
-                stray = Some(Stray { step, puts_out });
-                break;
-            }
-            state = next;
-            frames.push(WalkFrame::of(&model, &state));
-        }
+        let mut show = |state: &ModelState| frames.push(WalkFrame::of(&model, state));
+        let stray = follow(&model, steps, &mut state, &mut show);
+        let stray = stray.map(|(step, puts_out)| Stray { step, puts_out });
         let scenario = model.scenario();
         Self {
             scenario: scenario.name.clone(),
@@ -174,10 +161,7 @@ impl Walk {
 impl WalkFrame {
     /// Premises count that were met since the last frame of the model.
     fn of(model: &Model, state: &ModelState) -> Self {
-        let properties = &model.scenario().properties;
-        let is_broken =
-            |id: &PropertyId| Model::breaks(state, *id) || !model.state_rule_holds(state, *id);
-        let broken: Vec<_> = properties.iter().copied().filter(is_broken).collect();
+        let broken: Vec<_> = model.broken_by(state).collect();
         let met = model.newly_met();
         let (on_air, delayed) = model.on_their_way(state);
         let robots = model.nodes(state).enumerate();
@@ -291,36 +275,24 @@ pub struct Search {
 #[must_use]
 pub fn search(scenario: Scenario, goal: Goal, states_max: usize) -> Search {
     let model = Model::new(scenario);
-    let mut found = Found::default();
-    found.add(model.initial(), None);
-    let mut actions = Vec::new();
-    let (mut at, mut is_complete) = (0, true);
-    let reached = loop {
-        let Some(state) = found.states.get(at).cloned() else {
-            break None;
-        };
-        if goal.is_met(&model, &state) {
-            break Some(at);
-        }
-        if found.states.len() >= states_max {
-            is_complete = false;
-            break None;
-        }
-        actions.clear();
-        model.actions_in(&state, &mut actions);
-        for &action in &actions {
-            if let Some((next, _)) = model.successor(&state, action) {
-                found.add(next, Some((at, action)));
-            }
-        }
-        at += 1;
+    let mut reachable = model.reachable();
+    let mut search = Search {
+        steps: None,
+        states: 0,
+        is_complete: true,
     };
-    let steps = reached.map(|at| Replay::along(&model, &found.way(at)).steps);
-    Search {
-        steps,
-        states: at,
-        is_complete,
+    while let Some(state) = reachable.next() {
+        if goal.is_met(&model, &state) {
+            search.steps = Some(chart(&model, reachable.run()));
+            break;
+        }
+        if reachable.found() >= states_max {
+            search.is_complete = false;
+            break;
+        }
+        search.states += 1;
     }
+    search
 }
 
 impl Goal {
@@ -339,32 +311,5 @@ impl Goal {
             Self::ShowsGo => any(|node| node.actuation.corridor_open),
             Self::FallsBack => any(|node| matches!(node.actuation.body, Body::FallingBack(..))),
         }
-    }
-}
-
-/// The states of a search, in the order in which they were found, each with the one before it.
-#[derive(Default)]
-struct Found {
-    states: Vec<ModelState>,
-    before: Vec<Option<(usize, Action)>>,
-    known: FxHashSet<ModelState>,
-}
-
-impl Found {
-    fn add(&mut self, state: ModelState, before: Option<(usize, Action)>) {
-        if self.known.insert(state.clone()) {
-            self.states.push(state);
-            self.before.push(before);
-        }
-    }
-
-    fn way(&self, mut at: usize) -> Vec<Action> {
-        let mut way = Vec::new();
-        while let Some((before, action)) = self.before[at] {
-            way.push(action);
-            at = before;
-        }
-        way.reverse();
-        way
     }
 }

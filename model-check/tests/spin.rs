@@ -4,7 +4,7 @@
 //!
 //! It takes `spin` and `gcc`. Where one of them is missing, the tests are skipped, and say so by name.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::BTreeSet;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -328,24 +328,12 @@ fn assert_same_sights(name: &str, scenario: Scenario) -> usize {
 
 /// What is to be seen in all states of the kit's model.
 fn sights(model: &Model) -> BTreeSet<u32> {
-    let mut known: HashSet<ModelState> = HashSet::from([model.initial()]);
-    let (mut left, mut actions) = (vec![model.initial()], Vec::new());
     let mut sights = BTreeSet::new();
-    while let Some(state) = left.pop() {
+    for state in model.reachable() {
         let mut sight = Sight::default();
         sight.add(model, &state);
         // Two idle robots, before anything has happened, are all zeros, and left out in Promela.
         sights.extend(Some(sight.0).filter(|&packed| packed != 0));
-        actions.clear();
-        model.actions_in(&state, &mut actions);
-        for &action in &actions {
-            if let Some((next, _)) = model.successor(&state, action)
-                && !known.contains(&next)
-            {
-                known.insert(next.clone());
-                left.push(next);
-            }
-        }
     }
     sights
 }

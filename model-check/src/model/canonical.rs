@@ -215,32 +215,15 @@ mod tests {
         Model::new(Scenario::parse("symmetric.toml", &text).unwrap())
     }
 
-    type Successor = fn(&Model, &ModelState, Action) -> Option<ModelState>;
-
-    fn as_it_is(model: &Model, state: &ModelState, action: Action) -> Option<ModelState> {
-        Some(model.successor(state, action)?.0)
+    fn reachable(model: &Model) -> HashSet<ModelState> {
+        model.reachable().collect()
     }
 
-    fn up_to_symmetry(model: &Model, state: &ModelState, action: Action) -> Option<ModelState> {
-        Some(model.successor_up_to_symmetry(state, action)?.0)
-    }
-
-    fn reachable(model: &Model, successor: Successor) -> HashSet<ModelState> {
-        let mut todo = vec![model.initial()];
-        let mut reached: HashSet<ModelState> = todo.iter().cloned().collect();
-        let mut actions = Vec::new();
-        while let Some(state) = todo.pop() {
-            actions.clear();
-            model.actions_in(&state, &mut actions);
-            for &action in &actions {
-                if let Some(next) = successor(model, &state, action)
-                    && reached.insert(next.clone())
-                {
-                    todo.push(next);
-                }
-            }
-        }
-        reached
+    fn reachable_up_to_symmetry(model: &Model) -> HashSet<ModelState> {
+        let reachable = model.reachable_by(|model, state, action| {
+            Some(model.successor_up_to_symmetry(state, action)?.0)
+        });
+        reachable.collect()
     }
 
     /// All states that differ from `state` in which of the symmetric robots is which.
@@ -262,8 +245,8 @@ mod tests {
     /// Asserts that all states are exactly those of the classes of the reduced ones; how many there are
     /// of either.
     fn assert_covered(model: &Model) -> (usize, usize) {
-        let all = reachable(model, as_it_is);
-        let reduced = reachable(model, up_to_symmetry);
+        let all = reachable(model);
+        let reduced = reachable_up_to_symmetry(model);
         let mut covered = 0;
         for state in &reduced {
             let class = class(model, state);
@@ -331,7 +314,7 @@ mod tests {
                 .filter_map(|action| Some(model.successor_up_to_symmetry(state, action)?.0))
                 .collect()
         };
-        for state in reachable(&model, up_to_symmetry) {
+        for state in reachable_up_to_symmetry(&model) {
             let expected = successors(&state);
             for other in class(&model, &state) {
                 assert_eq!(successors(&other), expected);
@@ -347,7 +330,7 @@ mod tests {
             let nodes = model.nodes(&state).cloned().collect();
             (nodes, model.history(&state).clone())
         };
-        let all = reachable(model, as_it_is);
+        let all = reachable(model);
         all.into_iter().map(parts).collect()
     }
 

@@ -9,7 +9,9 @@ mod canonical;
 mod lies;
 mod parts;
 pub mod portable;
+mod reachable;
 mod successor;
+mod system;
 mod world;
 
 use std::sync::Arc;
@@ -19,6 +21,7 @@ use crossguard_protocol::{Event, Input, Outputs, Timer};
 use serde::{Deserialize, Serialize};
 
 pub(crate) use self::parts::Backdrop;
+pub use self::reachable::Reachable;
 use crate::canonical::{Ranks, Renamings};
 use crate::exploration::Stop;
 use crate::history::History;
@@ -27,9 +30,9 @@ use crate::model::lies::KnownLies;
 use crate::monotone::Sets;
 use crate::network::{Message, Network, PackedNetwork, Transmission};
 use crate::node::{Node, Protocol, Rules};
-use crate::properties::PropertyId;
+use crate::properties::{PropertyId, StateRule, View};
 use crate::scenario::{Bounds, MAX_ROBOTS, Scenario};
-use crate::steps::{Cause, ComputedStep, Steps};
+use crate::steps::{ComputedStep, Steps};
 use crate::symmetry::Symmetry;
 
 /// A global state: numbers of interned parts, and what may still happen. It means something to the model that made it
@@ -254,24 +257,17 @@ impl Model {
         self.0.steps.robots.message(number)
     }
 
-    /// Whether the step into this state broke a step property.
-    #[must_use]
-    pub fn breaks(state: &ModelState, property: PropertyId) -> bool {
-        state.broken & property.bit() != 0
+    /// The properties of states or steps that a state breaks. Notes the premises that it meets.
+    pub fn broken_by(&self, state: &ModelState) -> impl Iterator<Item = PropertyId> {
+        let broken = self.broken_in(state);
+        let properties = self.scenario().properties.iter().copied();
+        properties.filter(move |id| broken & id.bit() != 0)
     }
 
-    /// Whether a state keeps a property; true where the property is one of steps.
-    #[must_use]
-    pub fn state_rule_holds(&self, state: &ModelState, property: PropertyId) -> bool {
-        let Some(rule) = property.state_rule() else {
-            return true;
-        };
-        self.look(state, |view| {
-            if !self.premise_met(property) && (rule.premise)(view) {
-                self.note_premises(property.bit());
-            }
-            (rule.holds)(view)
-        })
+    /// Whether a state keeps a property of states or steps. Notes the premise where the state meets it.
+    pub(crate) fn keeps(&self, state: &ModelState, property: PropertyId) -> bool {
+        let keeps_rule = |rule| self.look(state, |view| self.judge(property, rule, view));
+        state.broken & property.bit() == 0 && property.state_rule().is_none_or(keeps_rule)
     }
 
     /// What a state breaks, as a bit for each property of states or steps. Notes the premises that it meets.
@@ -281,10 +277,7 @@ impl Model {
         self.look(state, |view| {
             let mut broken = state.broken;
             for (property, rule) in rules {
-                if !self.premise_met(property) && (rule.premise)(view) {
-                    self.note_premises(property.bit());
-                }
-                if !(rule.holds)(view) {
+                if !self.judge(property, rule, view) {
                     broken |= property.bit();
                 }
             }
@@ -292,38 +285,12 @@ impl Model {
         })
     }
 
-    /// Whether some message or timer changes the state, without any application's help and leaving aside
-    /// the timer of periodic RAM. A robot that hangs goes on at some time, so its timers count; that a
-    /// message of a monotone channel arrives at all is not sure, so it does not.
-    #[must_use]
-    pub fn can_progress(&self, state: &ModelState) -> bool {
-        let Shared {
-            scenario, steps, ..
-        } = &*self.0;
-        let effective = |i: usize, cause| {
-            let step = steps.step(
-                &scenario.config,
-                &scenario.properties,
-                state.nodes[i],
-                cause,
-            );
-            step.is_some_and(|step| step.after != state.nodes[i] || !step.sends.is_empty())
-        };
-        let by_timer = self.nodes(state).enumerate().any(|(i, node)| {
-            node.robot.as_ref().is_some_and(|robot| {
-                let timers = robot.timers();
-                let others = timers.iter().filter(|(timer, _)| *timer != Timer::Ram);
-                others
-                    .into_iter()
-                    .any(|(timer, _)| effective(i, Cause::Timer(*timer)))
-            })
-        });
-        by_timer
-            || self
-                .next_on_air(state)
-                .into_iter()
-                .chain(self.network(state).delayed())
-                .any(|t| effective(t.to.into(), Cause::Message(t.message)))
+    /// Whether a rule holds in a state. Notes its premise where the state meets it.
+    fn judge(&self, property: PropertyId, rule: StateRule, view: &View) -> bool {
+        if !self.premise_met(property) && (rule.premise)(view) {
+            self.note_premises(property.bit());
+        }
+        (rule.holds)(view)
     }
 
     /// Whether the premise of a property has been met so far.

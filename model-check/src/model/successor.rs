@@ -34,16 +34,6 @@ impl Model {
         Some((self.interned(self.representative_of(next)), step))
     }
 
-    /// The first action that leads from one state to another, up to symmetry.
-    pub(crate) fn action_between(&self, from: &ModelState, to: &ModelState) -> Option<Action> {
-        let mut actions = Vec::new();
-        self.actions_in(from, &mut actions);
-        actions.into_iter().find(|&action| {
-            let next = self.successor_up_to_symmetry(from, action);
-            next.is_some_and(|(next, _)| next == *to)
-        })
-    }
-
     pub(super) fn take(
         &self,
         state: &ModelState,

@@ -1,12 +1,13 @@
 //! The states of a model as the rules see them.
 
-use crossguard_protocol::{Config, StationId};
+use crossguard_protocol::{Config, Robot, StationId, Timer};
 use smallvec::SmallVec;
 
-use super::{Model, ModelState};
+use super::{Model, ModelState, Shared};
 use crate::node::Node;
 use crate::properties::{Surroundings, View};
 use crate::scenario::MAX_ROBOTS;
+use crate::steps::Cause;
 
 impl Model {
     /// Shows a state as the rules see it.
@@ -31,8 +32,29 @@ impl Surroundings for InModel<'_> {
         &self.model.scenario().config
     }
 
+    /// Leaving aside the timer of periodic RAM. A robot that hangs goes on at some time, so its timers count; that a
+    /// message of a monotone channel arrives at all is not sure, so it does not.
     fn can_progress(&self) -> bool {
-        self.model.can_progress(self.state)
+        let Self { model, state } = self;
+        let Shared {
+            scenario, steps, ..
+        } = &*model.0;
+        let (config, properties) = (&scenario.config, &scenario.properties);
+        let effective = |i: usize, cause| {
+            let step = steps.step(config, properties, state.nodes[i], cause);
+            step.is_some_and(|step| step.after != state.nodes[i] || !step.sends.is_empty())
+        };
+        let by_timer = model.nodes(state).enumerate().any(|(i, node)| {
+            let timers = node.robot.as_ref().map(Robot::timers).unwrap_or_default();
+            let mut others = timers.iter().filter(|(timer, _)| *timer != Timer::Ram);
+            others.any(|(timer, _)| effective(i, Cause::Timer(*timer)))
+        });
+        if by_timer {
+            return true;
+        }
+        let network = model.network(state);
+        let mut heard = (model.next_on_air(state).into_iter()).chain(network.delayed());
+        heard.any(|sent| effective(sent.to.into(), Cause::Message(sent.message)))
     }
 
     fn place_of(&self, station: StationId) -> Option<usize> {

@@ -1,17 +1,16 @@
 //! Runs the check of one timed scenario and reports the result.
 
-use std::time::Instant;
-
 use crossguard_protocol::Outputs;
 
-use super::explore::Explored;
-use super::measure::Longest;
 use super::model::TimedModel;
 use super::section::{Looks, Rates};
 use super::state::{TimedAction, TimedState};
+use super::system::where_time_stands_still;
 use crate::check::KIT;
 use crate::exploration::{CheckProgress, Options};
+use crate::explore::{Keep, RunOf, explore};
 use crate::network::Transmission;
+use crate::properties::PropertyId;
 use crate::report::{PropertyReport, ScenarioReport};
 use crate::robots::TimedCause;
 use crate::scenario::Size;
@@ -25,50 +24,56 @@ pub fn check(
     options: &Options,
     watch: &mut dyn FnMut(CheckProgress),
 ) -> ScenarioReport {
-    let start = Instant::now();
     let (scenario, timed) = (model.scenario(), model.timed());
-    let explored = Explored::of(model, options.threads, &options.limits(), watch);
-    let size = Size {
-        unique_states: explored.states(),
-        depth: explored.depth,
+    let options = Options {
+        until_broken: Vec::new(),
+        ..options.clone()
     };
-    let cut_off = explored.cut_off;
+    let limits = options.limits();
+    let expected = scenario.expected.map(|size| size.unique_states);
+    let mut tell = |reached| {
+        watch(CheckProgress {
+            expected,
+            ..reached
+        });
+    };
+    let (graph, shown) = explore(model, Keep::Transitions, &options, &limits, &mut tell);
+    let size = Size {
+        unique_states: graph.states(),
+        depth: graph.depth(),
+    };
+    let cut_off = graph.cut_off();
+    let is_asked = cut_off.is_none() && graph.broken(PropertyId::I12).is_none();
+    let held = is_asked.then(|| where_time_stands_still(&graph)).flatten();
     let claimed = timed.properties.iter();
     let claimed = claimed.filter_map(|&id| Some((id, id.timed()?)));
     let judged = |(id, claim)| {
-        let path = explored.path_to_broken(id);
-        let run = path.map(|path| chart(model, &path));
-        PropertyReport::judged((id, claim), explored.premises.met(id), run, None, cut_off)
+        let held = held.filter(|_| id == PropertyId::I12);
+        let broken = graph.broken(id).or(held);
+        let run = broken.map(|broken| chart(model, graph.run_into(broken)));
+        PropertyReport::judged((id, claim), shown.premises.met(id), run, None, cut_off)
     };
     ScenarioReport {
-        transitions: explored.transitions,
+        transitions: graph.transitions(),
         engines: vec![KIT],
         properties: claimed.flat_map(judged).collect(),
-        figures: explored.longest.figures(timed, model.limits()),
+        figures: shown.longest.figures(timed, model.limits()),
         assumptions: assumptions(model),
-        seconds: start.elapsed().as_secs_f64(),
+        seconds: limits.elapsed().as_secs_f64(),
         ..ScenarioReport::of_scenario(scenario, size, cut_off)
     }
 }
 
 /// A run as a chart: what happened at which time, and what the robots put out.
-fn chart(model: &TimedModel, path: &[u16]) -> Vec<ChartStep> {
-    let mut state = model.initial();
-    let mut actions = Vec::new();
+fn chart(model: &TimedModel, run: RunOf<TimedModel>) -> Vec<ChartStep> {
     let mut time = 0;
     let mut steps = Vec::new();
-    for &place in path {
-        actions.clear();
-        model.actions_in(&state, &mut actions);
-        let action = actions[usize::from(place)];
+    for (state, action) in run {
+        let Some(action) = action else { break };
         if matches!(action, TimedAction::Tick(_)) {
             time += model.timed().clock.tick.0;
         }
         steps.extend(steps_of(model, &state, action, time));
-        let Some(next) = model.successor(&state, action, &mut Longest::default()) else {
-            break;
-        };
-        state = next;
     }
     steps
 }

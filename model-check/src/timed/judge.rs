@@ -2,7 +2,6 @@
 
 use smallvec::SmallVec;
 
-use super::broken::BrokenSet;
 use super::model::TimedModel;
 use super::sign::Sign;
 use super::state::TimedState;
@@ -51,30 +50,23 @@ impl TimedModel {
         })
     }
 
-    /// Which properties the step from `before` to `after` breaks. `after` has the names of `before`.
-    pub(super) fn judge(
-        &self,
-        before: &TimedState,
-        after: &TimedState,
-        robots: RobotSteps,
-    ) -> BrokenSet {
+    /// Which properties the step from `before` to `after` breaks, one bit each. `after` has the names of `before`.
+    pub(super) fn judge(&self, before: &TimedState, after: &TimedState, robots: RobotSteps) -> u32 {
         self.look_at_step(before, after, robots, |step| {
-            let mut broken = BrokenSet::NOTHING;
-            for property in PropertyId::ALL {
-                let Some(rule) = property.timed_rule() else {
-                    continue;
-                };
-                if !(rule.holds)(step) {
-                    broken.add(property);
-                }
-            }
-            broken
+            let claimed = PropertyId::ALL.into_iter();
+            let claimed = claimed.filter_map(|id| Some((id, id.timed_rule()?)));
+            let broken = claimed.filter(|(_, rule)| !(rule.holds)(step));
+            broken.fold(0, |broken, (id, _)| broken | id.timed_bit())
         })
     }
 
     /// Whether nothing more is to be learned from a run.
     pub(super) fn is_over(&self, state: &TimedState) -> bool {
-        if state.broken.ends_run() {
+        // What has not come in time might never come.
+        let ends_run = |id: PropertyId| id.timed_rule().is_some_and(|rule| rule.ends_run);
+        let mut broken = PropertyId::ALL.into_iter();
+        if state.broken != 0 && broken.any(|id| state.broken & id.timed_bit() != 0 && ends_run(id))
+        {
             return true;
         }
         let timed = self.timed();

@@ -61,11 +61,9 @@
 
 mod actions;
 mod bounds;
-mod broken;
 mod channel;
 mod check;
 pub(crate) mod clock;
-mod explore;
 mod judge;
 pub(crate) mod limits;
 mod measure;
@@ -76,6 +74,7 @@ mod section;
 mod sign;
 mod state;
 mod successor;
+mod system;
 pub(crate) mod teams;
 pub(crate) mod told;
 pub(crate) mod watch;

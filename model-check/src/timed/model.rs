@@ -19,7 +19,6 @@ use std::sync::Arc;
 use crossguard_protocol::{Event, Millis, Outputs, StationId};
 use smallvec::SmallVec;
 
-use super::broken::BrokenSet;
 use super::channel::TimedChannel;
 use super::limits::Limits;
 use super::quiet::ContactChange;
@@ -123,7 +122,7 @@ impl TimedModel {
             waiting: self.timed.claims(PropertyId::W8).then_some(0),
             told: Told::NOTHING,
             quiet: [None; MAX_ROBOTS],
-            broken: BrokenSet::NOTHING,
+            broken: 0,
         };
         let mut robots = RobotSteps::NONE;
         for &leader in self.timed.teams.leaders() {

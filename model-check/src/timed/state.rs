@@ -2,7 +2,6 @@
 
 use crossguard_protocol::{Event, Millis};
 
-use super::broken::BrokenSet;
 use super::channel::{Flight, TimedChannel};
 use super::quiet::Quiet;
 use super::sign::Sign;
@@ -34,8 +33,8 @@ pub struct TimedState {
     pub(super) told: Told,
     /// For how long each robot has heard no news of its leader.
     pub(super) quiet: [Option<Quiet>; MAX_ROBOTS],
-    /// What the step into this state broke.
-    pub(super) broken: BrokenSet,
+    /// What the step into this state broke, one bit per property.
+    pub(super) broken: u32,
 }
 
 impl TimedState {

@@ -3,7 +3,6 @@
 use crossguard_protocol::{Event, Millis, Outputs};
 use smallvec::SmallVec;
 
-use super::broken::BrokenSet;
 use super::measure::{Longest, Measure};
 use super::model::{TimedModel, TimedRobotStep};
 use super::quiet::Quiet;
@@ -28,7 +27,7 @@ impl TimedModel {
         longest: &mut Longest,
     ) -> Option<TimedState> {
         let mut next = state.clone();
-        next.broken = BrokenSet::NOTHING;
+        next.broken = 0;
         let taken_in = self.taken_in(state, action);
         match action {
             TimedAction::Tick(fast) => self.tick(&mut next, fast),

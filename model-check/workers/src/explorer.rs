@@ -231,12 +231,11 @@ impl Explorer {
         self.told.states += 1;
         self.told.of_classes += u64::from(class);
         self.told.depth = self.told.depth.max(level);
-        for (property, broken) in self.common.judged.iter().zip(&mut self.told.broken) {
-            let holds = !Model::breaks(&state, *property)
-                && self.common.model.state_rule_holds(&state, *property);
-            let found = (level, fingerprint);
-            if !holds && broken.is_none_or(|known| found < known) {
-                *broken = Some(found);
+        for broken in self.common.model.broken_by(&state) {
+            let judged = self.common.judged.iter().zip(&mut self.told.broken);
+            for (_, first) in judged.filter(|(id, _)| **id == broken) {
+                let found = (level, fingerprint);
+                *first = Some(first.map_or(found, |known| known.min(found)));
             }
         }
         let waiting = self.waiting.entry(level).or_default();

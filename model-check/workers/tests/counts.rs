@@ -1,7 +1,5 @@
 //! Workers find what the existing exploration finds, however many they are and wherever they run.
 
-use std::collections::HashSet;
-
 use crossguard_model_check::check;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::report::ScenarioReport;
@@ -155,25 +153,6 @@ fn symmetric_robots_count_once_in_two_processes_of_two_workers() {
     }
 }
 
-/// All states that actions lead to, without anything left out for symmetry.
-fn reachable(model: &Model) -> usize {
-    let mut todo = vec![model.initial()];
-    let mut reached: HashSet<_> = todo.iter().cloned().collect();
-    let mut actions = Vec::new();
-    while let Some(state) = todo.pop() {
-        actions.clear();
-        model.actions_in(&state, &mut actions);
-        for &action in &actions {
-            if let Some((next, _)) = model.successor(&state, action)
-                && reached.insert(next.clone())
-            {
-                todo.push(next);
-            }
-        }
-    }
-    reached.len()
-}
-
 #[test]
 fn classes_stand_for_all_states() {
     for (name, losses) in [("team-symmetric", 0), ("trio-corridor", 0), ("pair", 0)] {
@@ -184,7 +163,7 @@ fn classes_stand_for_all_states() {
         scenario.channel.delayed = 0;
         let model = Model::new(scenario);
         let report = check_by_workers(&model, &workers(2), &mut |_| ()).unwrap();
-        let all = reachable(&model);
+        let all = model.reachable().count();
         assert_eq!(report.states_of_classes, all as u64, "{name}");
         let is_symmetric = !model.scenario().symmetric.is_empty();
         assert_eq!(report.scenario.unique_states < all, is_symmetric, "{name}");
