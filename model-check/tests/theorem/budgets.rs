@@ -11,7 +11,6 @@ use crossguard_protocol::laws::watch::Watch;
 use crossguard_protocol::laws::{budgets, lease};
 use crossguard_protocol::*;
 use crossguard_testkit::rules::with_state;
-use proptest::test_runner::{RngAlgorithm, TestRng};
 
 type Law = fn(&Config, &Taken);
 
@@ -96,12 +95,7 @@ fn hold(scenario: &str, rules: &dyn Rules, laws: &[Law], seeds: std::ops::Range<
     let scenario = Scenario::load(scenario).unwrap();
     let mut steps = 0;
     for seed in seeds {
-        let mut random = TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]);
-        let mut run = Run::new(&scenario, rules);
-        for _ in 0..600 {
-            run.go_on(&mut random);
-        }
-        for entry in run.entries {
+        for entry in Run::drawn(&scenario, rules, seed).entries {
             let Entry::Step {
                 before,
                 input,

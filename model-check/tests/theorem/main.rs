@@ -12,21 +12,16 @@ use crossguard_model_check::scenario::Scenario;
 use crossguard_protocol::Heartbeat;
 use crossguard_protocol::laws::exchange::{Heard, History};
 use crossguard_testkit::rules::*;
-use proptest::test_runner::{RngAlgorithm, TestRng};
 use runs::{Followed, Run, follow};
 
 /// Reads one fact.
 type IsKnown = fn(&History) -> bool;
 
-/// Runs of so many steps, and what was known and what was not at their ends.
+/// Runs, and what was known and what was not at their ends.
 fn walk(scenario: &Scenario, rules: &dyn Rules, seeds: std::ops::Range<u8>) -> Vec<Followed> {
     let mut followed = Vec::new();
     for seed in seeds {
-        let mut random = TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]);
-        let mut run = Run::new(scenario, rules);
-        for _ in 0..600 {
-            run.go_on(&mut random);
-        }
+        let run = Run::drawn(scenario, rules, seed);
         for exchange in run.exchanges() {
             followed.push(follow(&scenario.config, &exchange, &run.entries));
         }

@@ -12,7 +12,7 @@ use crossguard_protocol::laws::exchange::observer::lose_power;
 use crossguard_protocol::laws::exchange::{Exchange, History, alone, leases, robots, steps};
 use crossguard_protocol::*;
 use proptest::prelude::RngExt;
-use proptest::test_runner::TestRng;
+use proptest::test_runner::{RngAlgorithm, TestRng};
 
 /// What a robot did, or what happened to it.
 #[expect(clippy::large_enum_variant, reason = "nearly all are steps")]
@@ -40,7 +40,17 @@ pub(crate) struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    pub(crate) fn new(scenario: &'a Scenario, rules: &'a dyn Rules) -> Self {
+    /// A run of 600 things that happen, drawn by a seed.
+    pub(crate) fn drawn(scenario: &'a Scenario, rules: &'a dyn Rules, seed: u8) -> Self {
+        let mut random = TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]);
+        let mut run = Self::new(scenario, rules);
+        for _ in 0..600 {
+            run.go_on(&mut random);
+        }
+        run
+    }
+
+    fn new(scenario: &'a Scenario, rules: &'a dyn Rules) -> Self {
         let honest = scenario.robots.iter().filter(|robot| robot.lies.is_none());
         Self {
             scenario,
@@ -53,7 +63,7 @@ impl<'a> Run<'a> {
     }
 
     /// One thing happens, whatever it is.
-    pub(crate) fn go_on(&mut self, random: &mut TestRng) {
+    fn go_on(&mut self, random: &mut TestRng) {
         let place = random.random_range(0..self.robots.len());
         let robot = self.robots[place].clone();
         match random.random_range(0..100) {
