@@ -84,19 +84,6 @@ pub fn check(
     }
 }
 
-fn configure(model: &Model, options: &Options, drain: &Stop) -> stateright::CheckerBuilder<Model> {
-    let model = model.clone().stopping_at(drain);
-    let mut builder = model.checker().threads(options.threads.get());
-    if let Some(states) = options.states_max {
-        builder = builder.target_state_count(states);
-    }
-    if !options.until_broken.is_empty() {
-        let names = options.until_broken.iter().map(|id| id.name()).collect();
-        builder = builder.finish_when(HasDiscoveries::AllOf(names));
-    }
-    builder
-}
-
 /// What the properties of a scenario are read off.
 fn keep(scenario: &Scenario, options: &Options) -> Keep {
     let claims = scenario.properties.iter().filter_map(|id| id.untimed());
@@ -126,20 +113,19 @@ impl SecondOpinion {
         watch: &mut dyn FnMut(usize),
     ) -> Self {
         let drain = Stop::default();
-        let builder = configure(model, options, &drain);
+        let drained = model.clone().stopping_at(&drain);
+        let mut builder = drained.checker().threads(options.threads.get());
+        if let Some(states) = options.states_max {
+            builder = builder.target_state_count(states);
+        }
+        if !options.until_broken.is_empty() {
+            let names = options.until_broken.iter().map(|id| id.name()).collect();
+            builder = builder.finish_when(HasDiscoveries::AllOf(names));
+        }
         let (checker, _) = by_stateright(builder, &drain, |states, _| {
             watch(states);
             limits.time_reached()
         });
-        Self::by(&checker, model, options, limits)
-    }
-
-    fn by(
-        checker: &impl Checker<Model>,
-        model: &Model,
-        options: &Options,
-        limits: &ExplorationLimits,
-    ) -> Self {
         let mut discoveries = checker.discoveries();
         // stateright says it is done in all of these cases as well.
         let found_all =
@@ -261,9 +247,9 @@ impl Findings<'_> {
             };
             match leads_to(self.graph, fairness, from, to) {
                 LeadsTo::Vacuous => {}
-                LeadsTo::Holds => self.model.note_premise(id),
+                LeadsTo::Holds => self.model.note_premises(id.bit()),
                 LeadsTo::Broken(lasso) => {
-                    self.model.note_premise(id);
+                    self.model.note_premises(id.bit());
                     let run = self.graph.lasso(&lasso);
                     return Some((chart(self.model, run), lasso.stem.len() - 1));
                 }

@@ -131,8 +131,7 @@ fn exchanges(scenario: &Scenario) -> Vec<Exchange> {
 pub(crate) type Images = SmallVec<[u32; 6]>;
 
 /// The images of parts of one kind, each computed once.
-#[derive(Default)]
-pub(crate) struct KnownImages(MemoOfNumbers<Images>);
+pub(crate) type KnownImages = MemoOfNumbers<Images>;
 
 /// The exchanges of a scenario, and what they make of the parts of its states.
 pub(crate) struct Symmetry {
@@ -170,6 +169,6 @@ impl Symmetry {
         image: impl Fn(&Exchange) -> u32,
     ) -> &'a Images {
         let all = || self.exchanges.iter().map(image).collect();
-        known.0.get_or_compute(part, all)
+        known.get_or_compute(part, all)
     }
 }

@@ -54,7 +54,8 @@ pub fn mode_name(mode: Mode) -> String {
     }
 }
 
-fn mode(node: &Node) -> Mode {
+/// What a robot is doing; one that is down does nothing.
+pub(crate) fn mode(node: &Node) -> Mode {
     node.robot
         .as_ref()
         .map_or((Role::None, State::Idle), |robot| {

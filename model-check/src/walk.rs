@@ -15,7 +15,7 @@ use crate::replay::follow;
 use crate::road::{Body, Pedestrian};
 use crate::scenario::{Bounds, Scenario};
 use crate::sequence::ChartStep;
-use crate::transitions::mode_parts;
+use crate::transitions::{mode, mode_parts};
 
 /// A scenario on its way.
 #[derive(Clone, Debug, Serialize)]
@@ -188,10 +188,7 @@ impl WalkFrame {
 impl RobotFrame {
     fn of(node: &Node, hangs: bool) -> Self {
         let robot = node.robot.as_ref();
-        let mode = robot.map_or((Role::None, State::Idle), |robot| {
-            (robot.role(), robot.state())
-        });
-        let (state, role) = mode_parts(mode);
+        let (state, role) = mode_parts(mode(node));
         let timers = robot.map(|robot| {
             let timers = robot.timers();
             timers.iter().map(|(timer, _)| timer.to_string()).collect()

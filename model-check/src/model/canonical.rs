@@ -202,6 +202,8 @@ mod tests {
     use std::collections::HashSet;
 
     use super::*;
+    use crate::exploration::Options;
+    use crate::explore::{Keep, explore};
     use crate::history::History;
     use crate::node::Node;
     use crate::scenario::Scenario;
@@ -220,10 +222,13 @@ mod tests {
     }
 
     fn reachable_up_to_symmetry(model: &Model) -> HashSet<ModelState> {
-        let reachable = model.reachable_by(|model, state, action| {
-            Some(model.successor_up_to_symmetry(state, action)?.0)
-        });
-        reachable.collect()
+        let options = Options::default();
+        let limits = options.limits();
+        let (graph, ()) = explore(model, Keep::States, &options, &limits, &mut |_| ());
+        (0..)
+            .take(graph.states())
+            .map(|it| graph.state(it))
+            .collect()
     }
 
     /// All states that differ from `state` in which of the symmetric robots is which.

@@ -13,18 +13,12 @@ use crossguard_protocol::{
 use super::{Action, Model, ModelState};
 use crate::canonical::GivenOut;
 use crate::history::History;
-use crate::memo::Memo;
 use crate::network::{Transmission, concerns};
 use crate::node::Node;
 use crate::properties::StepView;
 use crate::scenario::{LyingPart, Scenario};
 use crate::steps::judge;
 use crate::utterances::Utterances;
-
-/// The messages of an insider that change something in a robot, by insider, robot and the numbers that the insider has
-/// given out.
-#[derive(Default)]
-pub(super) struct KnownLies(Memo<(u8, u32, GivenOut), Box<[u16]>>);
 
 /// The boot counter of all numbers that an insider gives out anew.
 const BOOT: u16 = 1;
@@ -104,7 +98,7 @@ impl Model {
     ) -> &[u16] {
         let key = (from, node, given_out.clone());
         let lies = || self.compute(liar, node, given_out).into();
-        self.0.lies.0.get_or_compute(key, |_| lies())
+        self.0.lies.get_or_compute(key, |_| lies())
     }
 
     /// The numbers of the messages that change something.

@@ -22,11 +22,11 @@ use serde::{Deserialize, Serialize};
 
 pub(crate) use self::parts::Backdrop;
 pub use self::reachable::Reachable;
-use crate::canonical::{Ranks, Renamings};
+use crate::canonical::{GivenOut, Ranks, Renamings};
 use crate::exploration::Stop;
 use crate::history::History;
 use crate::intern::Interner;
-use crate::model::lies::KnownLies;
+use crate::memo::Memo;
 use crate::monotone::Sets;
 use crate::network::{Message, Network, PackedNetwork, Transmission};
 use crate::node::{Node, Protocol, Rules};
@@ -136,7 +136,9 @@ struct Shared {
     networks: Interner<PackedNetwork>,
     /// Sets of messages on a monotone channel.
     sets: Sets,
-    lies: KnownLies,
+    /// The messages of an insider that change something in a robot, by insider, robot and the numbers that the insider has
+    /// given out.
+    lies: Memo<(u8, u32, GivenOut), Box<[u16]>>,
     /// One bit per property whose premise has been met.
     premises_met: AtomicU32,
 }
@@ -186,7 +188,7 @@ impl Model {
             histories: Interner::new(&renamings),
             networks: Interner::new(&renamings),
             sets: Sets::new(&renamings),
-            lies: KnownLies::default(),
+            lies: Memo::default(),
             premises_met: AtomicU32::new(0),
         };
         Self(Arc::new(shared), Stop::default())
@@ -299,11 +301,6 @@ impl Model {
         self.0.premises_met.load(Ordering::Relaxed) & property.bit() != 0
     }
 
-    /// Notes that the premise of a property has been met.
-    pub(crate) fn note_premise(&self, property: PropertyId) {
-        self.note_premises(property.bit());
-    }
-
     /// The properties whose premises have been met since this was asked last.
     pub(crate) fn newly_met(&self) -> Vec<PropertyId> {
         let met = self.0.premises_met.swap(0, Ordering::Relaxed);
@@ -320,7 +317,8 @@ impl Model {
         (network.on_air().collect(), network.delayed().collect())
     }
 
-    fn note_premises(&self, met: u32) {
+    /// Notes that the premises of properties have been met, one bit each.
+    pub(crate) fn note_premises(&self, met: u32) {
         if met & !self.0.premises_met.load(Ordering::Relaxed) != 0 {
             self.0.premises_met.fetch_or(met, Ordering::Relaxed);
         }

@@ -8,7 +8,6 @@ use crate::numbered::Numbered;
 /// symmetric robots is which are told apart. A state is expanded when the next one is asked for.
 pub struct Reachable<'a> {
     model: &'a Model,
-    successor: Successor,
     states: Numbered<ModelState>,
     /// Of each state the one from which it was found, and by which action.
     found_by: Vec<Option<(u32, Action)>>,
@@ -16,20 +15,12 @@ pub struct Reachable<'a> {
     given: u32,
 }
 
-/// The state after an action.
-type Successor = fn(&Model, &ModelState, Action) -> Option<ModelState>;
-
 impl Model {
     /// All states that actions lead to.
     #[must_use]
     pub fn reachable(&self) -> Reachable<'_> {
-        self.reachable_by(|model, state, action| Some(model.successor(state, action)?.0))
-    }
-
-    pub(super) fn reachable_by(&self, successor: Successor) -> Reachable<'_> {
         let mut reachable = Reachable {
             model: self,
-            successor,
             states: Numbered::default(),
             found_by: Vec::new(),
             given: 0,
@@ -70,7 +61,7 @@ impl Reachable<'_> {
         let mut actions = Vec::new();
         self.model.actions_in(&state, &mut actions);
         for action in actions {
-            if let Some(next) = (self.successor)(self.model, &state, action) {
+            if let Some((next, _)) = self.model.successor(&state, action) {
                 self.add(next, Some((number, action)));
             }
         }

@@ -183,7 +183,7 @@ impl Model {
             let keeps_guards =
                 self.look(next, |view| property.keeps_guards(view, session, required));
             if let Some(holds) = keeps_guards {
-                self.note_premise(property);
+                self.note_premises(property.bit());
                 if !holds {
                     next.broken |= property.bit();
                 }

@@ -191,12 +191,12 @@ pub(super) fn flow(
         }
         for (state, mass) in going {
             // The request ends with the next tick, before anything arrives in it.
-            if limits.help == Some(tick + 1) && space.model().is_requesting(space.state(state)) {
+            if limits.help == Some(tick + 1) && space.model.is_requesting(space.state(state)) {
                 continue;
             }
             // Ways that are only now worked out may bring new products.
             let _ = space.arcs(state);
-            if space.products() > products.len() {
+            if space.chances.len() > products.len() {
                 products = space.probabilities(loss);
             }
             for arc in space.arcs(state) {

@@ -16,12 +16,12 @@ pub(super) struct Arc {
 /// The states of a stage. Those are worked out that are asked for.
 pub(super) struct StageSpace<'a> {
     pub(super) stage: Stage,
-    model: &'a mut TeamModel,
+    pub(super) model: &'a mut TeamModel,
     states: Numbered<TeamState>,
     /// Where the ways from each state are in `arcs`, once they are worked out.
     rows: Vec<Option<(u32, u32)>>,
     arcs: Vec<Arc>,
-    chances: ChanceTable,
+    pub(super) chances: ChanceTable,
 }
 
 impl<'a> StageSpace<'a> {
@@ -36,10 +36,6 @@ impl<'a> StageSpace<'a> {
         }
     }
 
-    pub(super) const fn model(&self) -> &TeamModel {
-        self.model
-    }
-
     /// How many states have been found.
     pub(super) const fn states(&self) -> usize {
         self.states.len()
@@ -48,11 +44,6 @@ impl<'a> StageSpace<'a> {
     /// How many different ways have been found.
     pub(super) const fn transitions(&self) -> usize {
         self.arcs.len()
-    }
-
-    /// How many products of chances have been found.
-    pub(super) const fn products(&self) -> usize {
-        self.chances.len()
     }
 
     pub(super) fn state(&self, number: u32) -> &TeamState {

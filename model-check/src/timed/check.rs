@@ -24,7 +24,7 @@ pub fn check(
     options: &Options,
     watch: &mut dyn FnMut(CheckProgress),
 ) -> ScenarioReport {
-    let (scenario, timed) = (model.scenario(), model.timed());
+    let (scenario, timed) = (model.scenario(), &model.timed);
     let options = Options {
         until_broken: Vec::new(),
         ..options.clone()
@@ -57,7 +57,7 @@ pub fn check(
         transitions: graph.transitions(),
         engines: vec![KIT],
         properties: claimed.flat_map(judged).collect(),
-        figures: shown.longest.figures(timed, model.limits()),
+        figures: shown.longest.figures(timed, &model.limits),
         assumptions: assumptions(model),
         seconds: limits.elapsed().as_secs_f64(),
         ..ScenarioReport::of_scenario(scenario, size, cut_off)
@@ -71,7 +71,7 @@ fn chart(model: &TimedModel, run: RunOf<TimedModel>) -> Vec<ChartStep> {
     for (state, action) in run {
         let Some(action) = action else { break };
         if matches!(action, TimedAction::Tick(_)) {
-            time += model.timed().clock.tick.0;
+            time += model.timed.clock.tick.0;
         }
         steps.extend(steps_of(model, &state, action, time));
     }
@@ -112,7 +112,7 @@ fn steps_of(
             (TimedCause::Event(event), _) => at(robot, event.to_string(), &lines),
             (TimedCause::Message(number), TimedAction::Deliver(flight)) => {
                 let Transmission { from, to, .. } = flight.transmission;
-                let delay = model.timed().clock.millis(flight.ticks).0;
+                let delay = model.timed.clock.millis(flight.ticks).0;
                 let input = model.message(number).input();
                 let fate = if delay == 0 {
                     Fate::Arrives
@@ -139,7 +139,7 @@ fn steps_of(
 }
 
 fn assumptions(model: &TimedModel) -> Vec<String> {
-    let (scenario, timed) = (model.scenario(), model.timed());
+    let (scenario, timed) = (model.scenario(), &model.timed);
     let clock = &timed.clock;
     let drift = if clock.drifts() {
         let (slow, fast) = (clock.slow.0, clock.fast.0);

@@ -15,13 +15,13 @@ impl TimedModel {
     /// Shows a state as the rules see it.
     pub(super) fn look<T>(&self, state: &TimedState, look: impl FnOnce(&TimedView) -> T) -> T {
         let nodes: SmallVec<[&Node; MAX_ROBOTS]> = self.nodes(state).collect();
-        let timed = self.timed();
+        let timed = &self.timed;
         look(&TimedView {
             nodes: &nodes,
             setup: TimedSetup {
                 teams: &timed.teams,
                 clock: &timed.clock,
-                limits: self.limits(),
+                limits: &self.limits,
             },
             watch: state.watch,
             shows_go: state.signs.map(Sign::shows_go),
@@ -69,7 +69,7 @@ impl TimedModel {
         {
             return true;
         }
-        let timed = self.timed();
+        let timed = &self.timed;
         let leader = self.node(state, timed.teams.leaders()[0]);
         match state.watch {
             StopWatch::LeaderDown(_) => !self.nodes(state).any(Node::is_following),

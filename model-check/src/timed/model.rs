@@ -57,7 +57,7 @@ pub(super) struct TimedRobotStep {
 pub struct TimedModel {
     pub(super) scenario: Scenario,
     pub(super) timed: Timed,
-    limits: Limits,
+    pub(super) limits: Limits,
     pub(super) robots: Robots,
     /// Each step of a robot is computed once.
     steps: Memo<(u32, TimedCause), TimedRobotStep>,
@@ -88,14 +88,6 @@ impl TimedModel {
     #[must_use]
     pub const fn scenario(&self) -> &Scenario {
         &self.scenario
-    }
-
-    pub(super) const fn timed(&self) -> &Timed {
-        &self.timed
-    }
-
-    pub(super) const fn limits(&self) -> &Limits {
-        &self.limits
     }
 
     /// The state in which every run begins: all are idle, and one of each team has just detected a pedestrian.

@@ -79,7 +79,7 @@ impl TransitionSystem for TimedModel {
     fn no_notes(&self) -> Shown {
         Shown {
             longest: Longest::default(),
-            premises: Premises::of(&self.timed().properties),
+            premises: Premises::of(&self.timed.properties),
         }
     }
 
