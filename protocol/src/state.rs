@@ -253,6 +253,16 @@ words! {
     }
 }
 
+#[expect(
+    clippy::derivable_impls,
+    reason = "the macro has no place for a default"
+)]
+impl Default for Corridor {
+    fn default() -> Self {
+        Self::Clear
+    }
+}
+
 /// A leader's record of one follower.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -93,7 +93,7 @@ struct Task {
 }
 
 /// What a robot believes of its crossing, and what it is about to do.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a belief of its own")]
 pub struct Crossing<const N: usize = 64> {
     tracks: Tracks<N>,
@@ -116,7 +116,8 @@ pub struct Crossing<const N: usize = 64> {
     /// Time since nobody has been let on the road any more by a sign that counts on this robot, saturating.
     quiet: Millis,
     obligation: Option<Obligation>,
-    is_body_free: bool,
+    /// Whether the body moves because of a fallback.
+    is_falling_back: bool,
     /// Whether the protocol knows that the robot itself sees somebody on the road.
     is_person_told: bool,
     task: Option<Task>,
@@ -129,34 +130,6 @@ pub struct Crossing<const N: usize = 64> {
     lead: Option<Lead>,
     /// Whether its plan goes the other way round.
     turned: bool,
-}
-
-impl<const N: usize> Default for Crossing<N> {
-    fn default() -> Self {
-        Self {
-            tracks: Tracks::default(),
-            occupancy: Occupancy::default(),
-            traffic: Traffic::default(),
-            standing: Standing::Free,
-            corridor: Corridor::Clear,
-            is_called: false,
-            has_opened: false,
-            has_crossed: false,
-            call_pause: Millis::ZERO,
-            wanted: Millis::ZERO,
-            sign: Millis::ZERO,
-            quiet: Millis::ZERO,
-            obligation: None,
-            is_body_free: true,
-            is_person_told: false,
-            task: None,
-            kerbward: None,
-            pose: None,
-            own: Presence::NOWHERE,
-            lead: None,
-            turned: false,
-        }
-    }
 }
 
 impl<const N: usize> Crossing<N> {
@@ -187,7 +160,7 @@ impl<const N: usize> Crossing<N> {
                 self.guard_corridor(setup, &mut out);
             }
             Input::Body(report) => self.body_reports(report),
-            Input::BodyIsFree(is_free) => self.is_body_free = is_free,
+            Input::BodyIsFree(is_free) => self.is_falling_back = !is_free,
             Input::Started(maneuver, place) => self.start(setup, maneuver, place),
             Input::Stopped => (self.task, self.kerbward) = (None, None),
             Input::FellBack(_, policy) => {
@@ -550,27 +523,28 @@ impl<const N: usize> Crossing<N> {
             }
             self.lead = Some(Lead::new(plan, self.turned));
         }
-        let view = self.view(setup);
-        if let Some(lead) = &mut self.lead
-            && !lead.notice(setup, plan, &view, notice, out)
+        if let (Some(view), Some(lead)) = (self.view(setup), &mut self.lead)
+            && !lead.notice(&view, notice, out)
         {
             self.lead = None;
         }
     }
 
     fn lead_on(&mut self, setup: &Setup, out: &mut Outputs) {
-        let view = self.view(setup);
-        if let (Some(plan), Some(lead)) = (&setup.plan, &mut self.lead)
+        if let (Some(view), Some(lead)) = (self.view(setup), &mut self.lead)
             && self.standing == Standing::Leading
-            && !lead.lead_on(setup, plan, &view, out)
+            && !lead.lead_on(&view, out)
         {
             self.lead = None;
         }
     }
 
-    fn view(&self, setup: &Setup) -> View {
+    /// What the robot goes by while it leads, if it has a plan.
+    fn view<'a>(&self, setup: &'a Setup) -> Option<View<'a>> {
         let knows = self.occupancy.has_sources() && setup.ground.waiting.is_some();
-        View {
+        Some(View {
+            setup,
+            plan: setup.plan.as_ref()?,
             corridor: self.corridor,
             own: self.own,
             hindrance: self.hindrance(setup),
@@ -582,7 +556,7 @@ impl<const N: usize> Crossing<N> {
                 && !self.occupancy.was_seen()
                 && !self.tracks.is_somebody_lost(),
             was_seen: self.occupancy.was_seen(),
-        }
+        })
     }
 
     /// What keeps people from crossing, besides the plan.
@@ -596,8 +570,8 @@ impl<const N: usize> Crossing<N> {
     /// What keeps people from crossing now, if anything does.
     #[must_use]
     pub fn hindered(&self, setup: &Setup) -> Option<Hindrance> {
-        match (&setup.plan, &self.lead) {
-            (Some(plan), Some(lead)) => lead.hindrance(setup, plan, &self.view(setup)),
+        match (self.view(setup), &self.lead) {
+            (Some(view), Some(lead)) => lead.hindrance(&view),
             _ => self.hindrance(setup),
         }
     }
@@ -621,8 +595,8 @@ impl<const N: usize> Crossing<N> {
             out.put(Output::Hindered(why));
             return out.tell(Event::CloseCorridor);
         }
-        let there = match (&setup.plan, &self.lead) {
-            (Some(plan), Some(lead)) => lead.presence_left(setup, plan, &self.view(setup)),
+        let there = match (self.view(setup), &self.lead) {
+            (Some(view), Some(lead)) => lead.presence_left(&view),
             _ => left,
         };
         self.sign = left.min(there);
@@ -648,7 +622,7 @@ impl<const N: usize> Crossing<N> {
         let is_clear = obligation.is_said_clear
             || lets_nobody_cross
             || obligation.wait == Millis::ZERO && self.occupancy.is_clear(setup);
-        if is_clear && self.is_body_free {
+        if is_clear && !self.is_falling_back {
             out.tell(Event::RoadClear);
         }
     }

@@ -5,7 +5,7 @@ use crossguard_protocol::{
 };
 
 use crate::crossing::Sink;
-use crate::input::{Hindrance, Output, Pose};
+use crate::input::{Hindrance, Output, Outputs, Pose};
 use crate::plan::{Leg, Plan};
 use crate::position::Presence;
 use crate::setup::Setup;
@@ -87,10 +87,12 @@ pub(crate) struct Lead {
     ending: Millis,
 }
 
-/// What the leader believes besides its plan.
+/// What the leader goes by: its plan, and what it believes besides.
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a belief of its own")]
-pub(crate) struct View {
+pub(crate) struct View<'a> {
+    pub setup: &'a Setup,
+    pub plan: &'a Plan,
     pub corridor: Corridor,
     /// Whether the robot's own body is where the plan wants it.
     pub own: Presence,
@@ -108,6 +110,18 @@ pub(crate) struct View {
     pub nobody_is_lost: bool,
     /// Whether somebody was on the road a moment ago.
     pub was_seen: bool,
+}
+
+impl View<'_> {
+    /// Whether a leg guards from a place.
+    fn holds(&self, leg: Option<Leg>) -> bool {
+        leg.is_some_and(|leg| self.setup.holding.contains(leg.task))
+    }
+
+    /// Whether a leg takes a person on the road.
+    fn escorts(&self, leg: Option<Leg>) -> bool {
+        leg.is_some_and(|leg| self.setup.escorts().contains(leg.task))
+    }
 }
 
 impl Lead {
@@ -141,9 +155,6 @@ impl Lead {
     }
 
     fn leg(&self, plan: &Plan, seat: usize) -> Option<Leg> {
-        if !plan.roles.is_empty() && seat >= plan.roles.len() {
-            return None;
-        }
         plan.leg(self.stage, seat, self.turned)
     }
 
@@ -178,33 +189,23 @@ impl Lead {
 
     /// The leg of this stage, or else the newest one before it: who has no part in a stage stays where its last one led.
     fn held_leg(&self, plan: &Plan, seat: usize) -> Option<Leg> {
-        if !plan.roles.is_empty() && seat >= plan.roles.len() {
-            return None;
-        }
         let mut stages = (0..=self.stage).rev();
         stages.find_map(|stage| plan.leg(stage, seat, self.turned))
     }
 
     /// Takes in what the protocol tells. `false` when the plan is over.
-    pub(crate) fn notice(
-        &mut self,
-        setup: &Setup,
-        plan: &Plan,
-        view: &View,
-        notice: Notice,
-        out: &mut impl Sink,
-    ) -> bool {
+    pub(crate) fn notice(&mut self, view: &View<'_>, notice: Notice, out: &mut Outputs) -> bool {
         match notice {
-            Notice::FollowerJoined(station) => self.seat(setup, plan, view, station, out),
+            Notice::FollowerJoined(station) => self.seat(view, station, out),
             Notice::ManeuverReported(station, _) => {
                 self.goes_on(station);
-                self.open(setup, plan, view, out);
+                self.open(view, out);
             }
             Notice::ManeuverInPosition(station, _) => {
-                self.in_position(setup, plan, view, station, out);
+                self.in_position(view, station, out);
             }
             Notice::ManeuverCompleted(station, _) => {
-                self.completed(setup, plan, view, station, out);
+                self.completed(view, station, out);
             }
             // It will not do it, however often it is told.
             Notice::ManeuverFailed(_, _, Failure::Unavailable(_))
@@ -216,40 +217,27 @@ impl Lead {
             | Notice::FollowerSafeIdle(station, _)
             | Notice::CommandRejected(station, ..) => {
                 self.again(station);
-                self.command_again(setup, plan, view, out);
+                self.command_again(view, out);
             }
-            Notice::FollowerGone(station, _) => self.miss(plan, station, out),
+            Notice::FollowerGone(station, _) => self.miss(view.plan, station, out),
             // The session ends once the road is clear.
             Notice::Yielded(_) | Notice::SessionEnded(..) => return false,
             _ => {}
         }
-        self.finish_stage(setup, plan, view, out);
+        self.finish_stage(view, out);
         true
     }
 
     /// Gives a follower its seat in the plan: its role, the first one that is for any, or the next place in the row.
-    fn seat(
-        &mut self,
-        setup: &Setup,
-        plan: &Plan,
-        view: &View,
-        station: StationId,
-        out: &mut impl Sink,
-    ) {
-        let seat = self.seat_of(station).or_else(|| {
-            let mut roles = plan.roles.iter();
-            let own = roles.position(|role| *role == Some(station));
-            let is_free = |seat: usize, taken: &Seat| {
-                let role = plan.roles.iter().nth(seat);
-                taken.station.is_none() && role.is_none_or(Option::is_none)
-            };
-            let mut seats = self.seats.iter().enumerate();
-            own.or_else(|| {
-                seats
-                    .find(|(seat, it)| is_free(*seat, it))
-                    .map(|(seat, _)| seat)
-            })
-        });
+    fn seat(&mut self, view: &View<'_>, station: StationId, out: &mut Outputs) {
+        let roles = || view.plan.roles.iter();
+        let is_free = |(seat, taken): (usize, &Seat)| {
+            let role = roles().nth(seat);
+            taken.station.is_none() && role.is_none_or(Option::is_none)
+        };
+        let seat = self.seat_of(station);
+        let seat = seat.or_else(|| roles().position(|role| *role == Some(station)));
+        let seat = seat.or_else(|| self.seats.iter().enumerate().position(is_free));
         let seat = match seat {
             Some(seat) => seat,
             None if self.seats.push(Seat::EMPTY).is_ok() => self.seats.len() - 1,
@@ -261,22 +249,15 @@ impl Lead {
                 ..Seat::EMPTY
             };
         }
-        self.begin_part(setup, plan, view, seat, out);
+        self.begin_part(view, seat, out);
     }
 
-    fn begin_part(
-        &mut self,
-        setup: &Setup,
-        plan: &Plan,
-        view: &View,
-        seat: usize,
-        out: &mut impl Sink,
-    ) {
+    fn begin_part(&mut self, view: &View<'_>, seat: usize, out: &mut Outputs) {
         if let Some(it) = self.at(seat) {
             it.part = Part::Commanded(0);
             it.presence = Presence::NOWHERE;
         }
-        self.command(setup, plan, view, seat, out);
+        self.command(view, seat, out);
     }
 
     /// A guard has left its place again.
@@ -290,56 +271,41 @@ impl Lead {
     }
 
     /// A follower is in position, where it guards from a place.
-    fn in_position(
-        &mut self,
-        setup: &Setup,
-        plan: &Plan,
-        view: &View,
-        station: StationId,
-        out: &mut impl Sink,
-    ) {
+    fn in_position(&mut self, view: &View<'_>, station: StationId, out: &mut Outputs) {
         let Some(seat) = self.seat_of(station) else {
             return;
         };
         if self.is_elsewhere(seat) {
-            return self.command(setup, plan, view, seat, out);
+            return self.command(view, seat, out);
         }
-        let holds = self
-            .leg(plan, seat)
-            .is_some_and(|leg| setup.holding.contains(leg.task));
+        let holds = view.holds(self.leg(view.plan, seat));
         if let Some(it) = self.at(seat)
             && holds
         {
             (it.part, it.has_left) = (Part::Holds, false);
         }
-        self.open(setup, plan, view, out);
+        self.open(view, out);
     }
 
     /// A follower has completed its leg.
-    fn completed(
-        &mut self,
-        setup: &Setup,
-        plan: &Plan,
-        view: &View,
-        station: StationId,
-        out: &mut impl Sink,
-    ) {
+    fn completed(&mut self, view: &View<'_>, station: StationId, out: &mut Outputs) {
         let Some(seat) = self.seat_of(station) else {
             return;
         };
         if self.is_elsewhere(seat) {
-            return self.command(setup, plan, view, seat, out);
+            return self.command(view, seat, out);
         }
         if let Some(it) = self.at(seat) {
             it.part = Part::Done;
         }
     }
 
+    fn is(&self, seat: usize, so: impl Fn(&Seat) -> bool) -> bool {
+        self.seats.iter().nth(seat).is_some_and(so)
+    }
+
     fn is_elsewhere(&self, seat: usize) -> bool {
-        let mut seats = self.seats.iter();
-        seats
-            .nth(seat)
-            .is_some_and(|seat| seat.presence.is_elsewhere())
+        self.is(seat, |it| it.presence.is_elsewhere())
     }
 
     /// A follower is to be commanded its leg again.
@@ -350,28 +316,19 @@ impl Lead {
     }
 
     /// Commands again what was to wait for that.
-    fn command_again(&mut self, setup: &Setup, plan: &Plan, view: &View, out: &mut impl Sink) {
+    fn command_again(&mut self, view: &View<'_>, out: &mut Outputs) {
         for seat in 0..self.seats.len() {
-            let is_due = |it: &Seat| it.again && it.pause == Millis::ZERO;
-            if self.seats.iter().nth(seat).is_some_and(is_due) {
-                self.command(setup, plan, view, seat, out);
+            if self.is(seat, |it| it.again && it.pause == Millis::ZERO) {
+                self.command(view, seat, out);
             }
         }
     }
 
     /// Commands the follower's leg, again if it failed; in the end the leader gives up. A leg that takes a person on the road
     /// waits for everybody who guards from a place.
-    fn command(
-        &mut self,
-        setup: &Setup,
-        plan: &Plan,
-        view: &View,
-        seat: usize,
-        out: &mut impl Sink,
-    ) {
-        let leg = self.leg(plan, seat);
-        let is_escort = leg.is_some_and(|leg| setup.escorts().contains(leg.task));
-        let is_hindered = is_escort && self.hindrance(setup, plan, view).is_some();
+    fn command(&mut self, view: &View<'_>, seat: usize, out: &mut Outputs) {
+        let leg = self.leg(view.plan, seat);
+        let is_hindered = view.escorts(leg) && self.hindrance(view).is_some();
         let Some(it) = self.at(seat) else { return };
         let Some(leg) = leg else {
             it.part = Part::Done;
@@ -398,11 +355,11 @@ impl Lead {
     }
 
     /// A follower is gone, and with it a part of the plan that nobody else does.
-    fn miss(&mut self, plan: &Plan, station: StationId, out: &mut impl Sink) {
+    fn miss(&mut self, plan: &Plan, station: StationId, out: &mut Outputs) {
         let Some(gone) = self.seat_of(station) else {
             return;
         };
-        let had_part = plan.roles.is_empty() || gone < plan.roles.len();
+        let had_part = plan.has_role(gone);
         if let Some(seat) = self.at(gone) {
             *seat = Seat::EMPTY;
         }
@@ -412,41 +369,40 @@ impl Lead {
     }
 
     /// Goes on to the next stage when every follower has done its part or holds it.
-    fn finish_stage(&mut self, setup: &Setup, plan: &Plan, view: &View, out: &mut impl Sink) {
-        if self.is_ready(plan) && !plan.is_last(self.stage) {
-            self.begin_stage(setup, plan, view, self.stage + 1, out);
+    fn finish_stage(&mut self, view: &View<'_>, out: &mut Outputs) {
+        if self.is_ready(view) && !view.plan.is_last(self.stage) {
+            self.begin_stage(view, self.stage + 1, out);
         }
     }
 
     /// Whether every follower has done its part or holds it.
-    fn is_ready(&self, plan: &Plan) -> bool {
-        self.are_all(plan, |_, it| it.is_ready())
+    fn is_ready(&self, view: &View<'_>) -> bool {
+        self.are_all(view, |_, it| it.is_ready())
     }
 
     /// Whether every follower has done its part, holds it, or is an escort at the end of its way. That one goes on
     /// as long as it only hears of its person: what it hears is less exact than what its leader sees.
-    fn is_over_there(&self, setup: &Setup, plan: &Plan) -> bool {
-        self.are_all(plan, |seat, it| {
-            let leg = self.leg(plan, seat);
-            let is_escort = leg.is_some_and(|leg| setup.escorts().contains(leg.task));
+    fn is_over_there(&self, view: &View<'_>) -> bool {
+        self.are_all(view, |seat, it| {
+            let is_escort = view.escorts(self.leg(view.plan, seat));
             let is_at_end = it.presence.is_there() && it.pause == Millis::ZERO && !it.again;
             it.is_ready() || is_escort && is_at_end
         })
     }
 
     /// Whether every role has its follower, and this holds for every seat.
-    fn are_all(&self, plan: &Plan, holds: impl Fn(usize, &Seat) -> bool) -> bool {
-        let has_role = |seat: usize| plan.roles.is_empty() || seat < plan.roles.len();
+    fn are_all(&self, view: &View<'_>, holds: impl Fn(usize, &Seat) -> bool) -> bool {
+        let plan = view.plan;
         let seats = || self.seats.iter().enumerate();
-        let seated = seats().filter(|(seat, it)| has_role(*seat) && it.station.is_some());
+        let seated = seats().filter(|(seat, it)| plan.has_role(*seat) && it.station.is_some());
         seated.count() >= usize::from(plan.followers) && seats().all(|(seat, it)| holds(seat, it))
     }
 
     /// Whether the newest position of every follower is fresh.
-    fn are_heard(&self, setup: &Setup, plan: &Plan) -> bool {
-        let seated = self.seats.iter().filter(|it| it.station.is_some());
-        seated.clone().count() >= usize::from(plan.followers) && { seated }
-            .all(|it| it.presence.is_fresh(setup.position))
+    fn are_heard(&self, view: &View<'_>) -> bool {
+        let mut seated = self.seats.iter().filter(|it| it.station.is_some());
+        seated.clone().count() >= usize::from(view.plan.followers)
+            && seated.all(|it| it.presence.is_fresh(view.setup.position))
     }
 
     /// Whether nobody is let on the road any more in this session.
@@ -454,55 +410,41 @@ impl Lead {
         self.opened.0 == 0
     }
 
-    fn begin_stage(
-        &mut self,
-        setup: &Setup,
-        plan: &Plan,
-        view: &View,
-        stage: u8,
-        out: &mut impl Sink,
-    ) {
+    fn begin_stage(&mut self, view: &View<'_>, stage: u8, out: &mut Outputs) {
         self.stage = stage;
         for seat in 0..self.seats.len() {
-            let is_taken = self
-                .seats
-                .iter()
-                .nth(seat)
-                .is_some_and(|it| it.station.is_some());
             // Who holds goes on holding unless the stage has something else for it.
-            if is_taken && self.leg(plan, seat).is_some() {
-                self.begin_part(setup, plan, view, seat, out);
+            if self.is(seat, |it| it.station.is_some()) && self.leg(view.plan, seat).is_some() {
+                self.begin_part(view, seat, out);
             }
         }
     }
 
     /// What keeps people from crossing, besides that nobody wants to and that the plan is not so far.
-    pub(crate) fn hindrance(&self, setup: &Setup, plan: &Plan, view: &View) -> Option<Hindrance> {
+    pub(crate) fn hindrance(&self, view: &View<'_>) -> Option<Hindrance> {
         for (seat, it) in self.seats.iter().enumerate() {
             let Some(station) = it.station else { continue };
-            let leg = self.held_leg(plan, seat);
-            let holds = leg.is_some_and(|leg| setup.holding.contains(leg.task));
+            let holds = view.holds(self.held_leg(view.plan, seat));
             if holds && (it.part != Part::Holds || !it.presence.is_there()) {
                 return Some(Hindrance::GuardElsewhere(station));
             }
         }
-        if plan.own_place.is_some() && !view.own.is_there() {
+        if view.plan.own_place.is_some() && !view.own.is_there() {
             return Some(Hindrance::LeaderElsewhere);
         }
         view.hindrance
     }
 
     /// For how long yet everybody who guards from a place is there.
-    pub(crate) fn presence_left(&self, setup: &Setup, plan: &Plan, view: &View) -> Millis {
+    pub(crate) fn presence_left(&self, view: &View<'_>) -> Millis {
         let mut left = Millis(u32::MAX);
         for (seat, it) in self.seats.iter().enumerate() {
-            let leg = self.held_leg(plan, seat);
-            let holds = leg.is_some_and(|leg| setup.holding.contains(leg.task));
+            let holds = view.holds(self.held_leg(view.plan, seat));
             if it.station.is_some() && holds {
                 left = left.min(it.presence.left());
             }
         }
-        if plan.own_place.is_some() {
+        if view.plan.own_place.is_some() {
             left = left.min(view.own.left());
         }
         left
@@ -510,12 +452,12 @@ impl Lead {
 
     /// Asks for the corridor to be opened in the last stage, where nothing hinders. While it is open no guard is
     /// commanded anything, so an earlier stage would be the last one.
-    fn open(&mut self, setup: &Setup, plan: &Plan, view: &View, out: &mut impl Sink) {
-        if !plan.is_last(self.stage) {
+    fn open(&mut self, view: &View<'_>, out: &mut Outputs) {
+        if !view.plan.is_last(self.stage) {
             return;
         }
         self.tried = OPENING_PERIOD;
-        let is_free = self.hindrance(setup, plan, view).is_none();
+        let is_free = self.hindrance(view).is_none();
         if view.corridor != Corridor::Open && view.is_wanted && is_free && !self.is_full() {
             out.tell(Event::OpenCorridor);
         }
@@ -523,20 +465,16 @@ impl Lead {
 
     /// What a leader does by the clock: it opens the corridor when it did not open before, closes it when nobody wants it any
     /// more, ends the task when everybody is across, and gives up in the end. `false` when the plan is over.
-    pub(crate) fn lead_on(
-        &mut self,
-        setup: &Setup,
-        plan: &Plan,
-        view: &View,
-        out: &mut impl Sink,
-    ) -> bool {
-        self.command_again(setup, plan, view, out);
-        self.return_guards(setup, plan, view, out);
-        self.finish_stage(setup, plan, view, out);
-        let is_done = plan.is_last(self.stage) && self.is_ready(plan);
-        let is_over_there = plan.is_last(self.stage) && self.is_over_there(setup, plan);
+    pub(crate) fn lead_on(&mut self, view: &View<'_>, out: &mut Outputs) -> bool {
+        self.command_again(view, out);
+        self.return_guards(view, out);
+        self.finish_stage(view, out);
+        let plan = view.plan;
+        let is_last = plan.is_last(self.stage);
+        let is_done = is_last && self.is_ready(view);
+        let is_over_there = is_last && self.is_over_there(view);
         let may_try = self.tried == Millis::ZERO;
-        let goes_with_escort = plan.is_escort(self.stage, setup.escorts());
+        let goes_with_escort = plan.is_escort(self.stage, view.setup.escorts());
         if !view.has_opened {
             self.opened = if goes_with_escort {
                 STEP_ON_ESCORTED
@@ -556,11 +494,10 @@ impl Lead {
             }
             Corridor::Clearing => {}
             Corridor::Clear => {
-                let lets_cross = plan.lets_cross(setup.guarding);
+                let lets_cross = plan.lets_cross(view.setup.guarding);
                 // An escort that lost its person on the road waits there; its leader knows where they are. One that is
                 // not heard any more may be lost itself.
-                let is_escorted =
-                    plan.is_last(self.stage) && goes_with_escort && self.are_heard(setup, plan);
+                let is_escorted = is_last && goes_with_escort && self.are_heard(view);
                 let is_ended = self.ending == Millis::ZERO;
                 let may_end =
                     is_done || is_ended && (is_over_there || is_escorted && view.has_opened);
@@ -575,9 +512,9 @@ impl Lead {
                 } else if may_try && is_done && goes_with_escort {
                     // The escort is over there, and nobody came along.
                     self.tried = OPENING_PERIOD;
-                    self.begin_stage(setup, plan, view, 0, out);
+                    self.begin_stage(view, 0, out);
                 } else if may_try && !is_through && !(is_escorted && view.was_seen) {
-                    self.open(setup, plan, view, out);
+                    self.open(view, out);
                 }
             }
         }
@@ -585,7 +522,7 @@ impl Lead {
     }
 
     /// Commands guards back that have left their place, while nobody may be on the road.
-    fn return_guards(&mut self, setup: &Setup, plan: &Plan, view: &View, out: &mut impl Sink) {
+    fn return_guards(&mut self, view: &View<'_>, out: &mut Outputs) {
         if view.corridor != Corridor::Clear {
             return;
         }
@@ -594,11 +531,9 @@ impl Lead {
                 let is_away = it.part == Part::Holds && it.presence.is_elsewhere() || it.has_left;
                 is_away && it.pause == Millis::ZERO
             };
-            let holds = self
-                .leg(plan, seat)
-                .is_some_and(|leg| setup.holding.contains(leg.task));
-            if holds && self.seats.iter().nth(seat).is_some_and(is_away) {
-                self.command(setup, plan, view, seat, out);
+            let holds = view.holds(self.leg(view.plan, seat));
+            if holds && self.is(seat, is_away) {
+                self.command(view, seat, out);
             }
         }
     }

@@ -84,6 +84,9 @@ impl Plan {
     /// followers in the order in which they joined, who stand side by side. `turned` takes the kerbs the other way round.
     #[must_use]
     pub fn leg(&self, stage: u8, seat: usize, turned: bool) -> Option<Leg> {
+        if !self.has_role(seat) {
+            return None;
+        }
         let parts = &self.stage(stage)?.parts;
         let of = |who| parts.iter().find(|(part, _)| *part == who);
         let role = u8::try_from(seat).ok().and_then(|seat| of(Who::Role(seat)));
@@ -94,6 +97,11 @@ impl Plan {
         let (_, leg) = of(Who::Everybody)?;
         let to = self.beside(self.turn(leg.to, turned), seat);
         Some(Leg { to, ..*leg })
+    }
+
+    /// Whether a seat has a part in the plan: any where everybody does the same, otherwise one with a role.
+    pub(crate) fn has_role(&self, seat: usize) -> bool {
+        self.roles.is_empty() || seat < self.roles.len()
     }
 
     /// A place, or the other kerb for a kerb where the plan is turned.
