@@ -73,6 +73,14 @@ pub struct SessionId {
     pub number: SessionNumber,
 }
 
+impl SessionId {
+    /// The session to which this leader gave this number.
+    #[must_use]
+    pub const fn of(leader: StationId, number: SessionNumber) -> Self {
+        Self { leader, number }
+    }
+}
+
 impl fmt::Display for StationId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.fmt(f)
@@ -179,6 +187,14 @@ pub struct ManeuverId {
     pub request: RequestId,
 }
 
+impl ManeuverId {
+    /// The command of this number in this session.
+    #[must_use]
+    pub const fn of(session: SessionId, request: RequestId) -> Self {
+        Self { session, request }
+    }
+}
+
 impl fmt::Display for ManeuverId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}/{}", self.session, self.request)
@@ -188,39 +204,18 @@ impl fmt::Display for ManeuverId {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::laws::numbers as laws;
 
     #[test]
-    fn serial_order_survives_the_wrap() {
-        assert!(RequestId(1).is_newer_than(RequestId(255)));
-        assert!(!RequestId(255).is_newer_than(RequestId(1)));
-        assert!(Heartbeat(3).is_newer_than(Heartbeat(65_530)));
-        assert!(!Heartbeat(65_530).is_newer_than(Heartbeat(3)));
-    }
-
-    #[test]
-    fn no_number_is_newer_than_itself_or_than_its_opposite() {
-        for number in 0..=u8::MAX {
-            let number = RequestId(number);
-            assert!(!number.is_newer_than(number));
-            let opposite = RequestId(number.0.wrapping_add(128));
-            assert!(!number.is_newer_than(opposite) && !opposite.is_newer_than(number));
-        }
-    }
-
-    #[test]
-    fn heartbeats_half_the_space_apart_are_in_no_order() {
-        let (a, b) = (Heartbeat(5), Heartbeat(5).after(1 << 15));
-        assert!(!a.is_newer_than(b) && !b.is_newer_than(a));
-        assert!(a.after((1 << 15) - 1).is_newer_than(a));
-    }
-
-    #[test]
-    fn exactly_one_of_two_numbers_of_a_session_is_newer() {
-        for first in 0..=u8::MAX {
-            for step in 1..=RequestId::MAX_PER_SESSION {
-                let (older, newer) = (RequestId(first), RequestId(first.wrapping_add(step)));
-                assert!(newer.is_newer_than(older) && !older.is_newer_than(newer));
-            }
+    fn serial_numbers_stand_in_the_order_in_which_they_were_given_out() {
+        for number in 0..=u16::MAX {
+            let [first, a] = number.to_be_bytes().map(RequestId);
+            laws::requests_are_in_one_order(first, a);
+            laws::requests_of_a_session_are_transitive(first, a, first, first);
+            laws::the_next_request_is_newer(a);
+            let (known, other) = (Heartbeat(65_530), Heartbeat(number));
+            laws::heartbeats_are_in_one_order(known, other);
+            laws::later_heartbeats_are_newer(known, number);
         }
     }
 

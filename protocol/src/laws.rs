@@ -38,4 +38,4 @@ mod arithmetic;
 mod part;
 mod source;
 
-pub use source::Source;
+pub use source::{Random, Source};

@@ -70,7 +70,7 @@ mod id;
 mod identity;
 mod idle;
 mod input;
-#[cfg(feature = "laws")]
+#[cfg(any(test, feature = "laws"))]
 #[doc(hidden)]
 pub mod laws;
 mod list;
@@ -83,8 +83,6 @@ mod robot;
 mod roles;
 mod state;
 mod task;
-#[cfg(test)]
-mod team;
 mod termination;
 mod time;
 mod timers;

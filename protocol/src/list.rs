@@ -138,7 +138,7 @@ impl<T: Copy, const N: usize> List<T, N> {
     }
 
     /// The list of these slots, dense or not.
-    #[cfg(feature = "laws")]
+    #[cfg(any(test, feature = "laws"))]
     pub(crate) const fn of_slots(slots: [Option<T>; N]) -> Self {
         Self(slots)
     }
@@ -290,33 +290,23 @@ mod serialization {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::laws::lists as laws;
 
+    /// All lists of up to four of the numbers 0 to 3.
     #[test]
-    fn a_full_list_refuses_an_item_and_keeps_what_it_has() {
-        let mut list = List::<u8, 2>::from_iter([1, 2]);
-        assert_eq!(list.push(3), Err(Full));
-        assert!(list.iter().eq(&[1, 2]));
-    }
-
-    #[test]
-    fn removing_closes_the_gap() {
-        let mut list = List::<u8, 4>::from_iter([1, 2, 3]);
-        assert_eq!(list.remove_first(|&item| item == 1), Some(1));
-        assert!(list.iter().eq(&[2, 3]) && list.is_dense());
-        assert_eq!(list.remove_first(|&item| item == 9), None);
-    }
-
-    #[test]
-    fn a_gap_is_noticed_wherever_it_is() {
-        for gapped in [[None, Some(1), Some(2)], [Some(1), None, Some(2)]] {
-            assert!(!List(gapped).is_dense(), "{gapped:?}");
-        }
-        for dense in [
-            [None; 3],
-            [Some(1), None, None],
-            [Some(1), Some(2), Some(3)],
-        ] {
-            assert!(List(dense).is_dense(), "{dense:?}");
+    fn lists_are_changed_as_their_laws_say() {
+        for digits in 0..=u8::MAX {
+            let items = [6, 4, 2, 0].map(|shift| digits >> shift & 3);
+            laws::tells_of_gaps(items.map(|item| (item > 0).then_some(item)));
+            for length in 0..=4 {
+                laws::holds_what_it_was_made_of(items, length);
+                let list = laws::numbers(items, length);
+                for item in 0..4 {
+                    laws::pushes_to_the_end(list, item);
+                    laws::removes_the_first(list, item);
+                    laws::inserts_by_rank(list, item);
+                }
+            }
         }
     }
 
@@ -326,14 +316,5 @@ mod tests {
         assert!(list.iter().all(|&item| item < 4) && !list.iter().all(|&item| item < 3));
         assert!(list.iter().any(|&item| item == 3) && !list.iter().any(|&item| item == 4));
         assert_eq!(list.iter().find(|&&item| item > 1), Some(&2));
-    }
-
-    #[test]
-    fn ranked_insertion_keeps_the_best() {
-        let mut list = List::<u8, 3>::EMPTY;
-        for item in [5, 3, 4, 1, 9] {
-            list.insert_ranked(item, |a, b| a < b);
-        }
-        assert!(list.iter().eq(&[1, 3, 4]));
     }
 }

@@ -64,6 +64,19 @@ fn offer_number(to: &mut impl Renaming, owner: StationId, number: OfferNumber) -
     OfferNumber(to.number(owner, number.0))
 }
 
+/// Gives a session of `owner` and its newest heartbeat other names. The session by its old name.
+fn rename_own(
+    to: &mut impl Renaming,
+    owner: StationId,
+    number: &mut SessionNumber,
+    heartbeat: &mut Heartbeat,
+) -> SessionId {
+    let session = SessionId::of(owner, *number);
+    *number = session_number(to, owner, *number);
+    *heartbeat = to.heartbeat(session, *heartbeat);
+    session
+}
+
 /// The followers that a leader has confirmed, under other names. Where no station changes their order is that
 /// of the selection, whatever it was by.
 fn confirmed<T: Copy, const N: usize>(
@@ -126,79 +139,43 @@ impl Ram {
     /// The message under other names.
     #[must_use]
     pub fn renamed(&self, to: &mut impl Renaming) -> Self {
-        let station = self.station;
-        let coordination = match self.coordination {
-            Coordination::None => Coordination::None,
+        let (mut ram, station) = (*self, self.station);
+        match &mut ram.coordination {
+            Coordination::None => {}
             Coordination::NeedHelp {
-                number,
-                heartbeat,
-                request,
-            } => Coordination::NeedHelp {
-                number: session_number(to, station, number),
-                heartbeat: to.heartbeat(
-                    SessionId {
-                        leader: station,
-                        number,
-                    },
-                    heartbeat,
-                ),
-                request,
-            },
+                number, heartbeat, ..
+            } => {
+                rename_own(to, station, number, heartbeat);
+            }
             Coordination::OfferHelp {
                 session,
                 offer,
-                capabilities,
                 echo,
-                t_safety,
-            } => Coordination::OfferHelp {
-                session: session.renamed(to),
-                offer: offer_number(to, station, offer),
-                capabilities,
-                echo: to.heartbeat(session, echo),
-                t_safety,
-            },
+                ..
+            } => {
+                let old = *session;
+                *session = old.renamed(to);
+                *offer = offer_number(to, station, *offer);
+                *echo = to.heartbeat(old, *echo);
+            }
             Coordination::Leader {
                 number,
                 heartbeat,
                 followers,
-                urgency,
-                place,
-                yields,
-            } => Coordination::Leader {
-                number: session_number(to, station, number),
-                heartbeat: to.heartbeat(
-                    SessionId {
-                        leader: station,
-                        number,
-                    },
-                    heartbeat,
-                ),
-                followers: confirmed(
-                    &followers,
-                    |follower| follower.renamed(to),
-                    |follower| follower.station,
-                ),
-                urgency,
-                place,
-                yields,
-            },
-            Coordination::Follower {
-                session,
-                echo,
-                last,
-            } => Coordination::Follower {
-                session: session.renamed(to),
-                echo: to.heartbeat(session, echo),
-                last,
-            },
-        };
-        let farewell = self.farewell.map(|farewell| farewell.renamed(to, station));
-        Self {
-            station: to.station(station),
-            coordination,
-            farewell,
-            on_duty: self.on_duty,
+                ..
+            } => {
+                rename_own(to, station, number, heartbeat);
+                *followers = confirmed(followers, |it| it.renamed(to), |it| it.station);
+            }
+            Coordination::Follower { session, echo, .. } => {
+                let old = *session;
+                *session = old.renamed(to);
+                *echo = to.heartbeat(old, *echo);
+            }
         }
+        ram.farewell = ram.farewell.map(|farewell| farewell.renamed(to, station));
+        ram.station = to.station(station);
+        ram
     }
 }
 
@@ -275,12 +252,7 @@ impl Rival {
 
 impl Requesting {
     fn rename(&mut self, to: &mut impl Renaming, station: StationId) {
-        let session = SessionId {
-            leader: station,
-            number: self.number,
-        };
-        self.number = session_number(to, station, self.number);
-        self.heartbeat = to.heartbeat(session, self.heartbeat);
+        let session = rename_own(to, station, &mut self.number, &mut self.heartbeat);
         self.rival = self.rival.map(|rival| rival.renamed(to));
         for offer in self.offers.iter_mut() {
             offer.echo = to.heartbeat(session, offer.echo);
@@ -301,12 +273,7 @@ impl Offering {
 
 impl Leading {
     fn rename(&mut self, to: &mut impl Renaming, station: StationId) {
-        let session = SessionId {
-            leader: station,
-            number: self.number,
-        };
-        self.number = session_number(to, station, self.number);
-        self.heartbeat = to.heartbeat(session, self.heartbeat);
+        let session = rename_own(to, station, &mut self.number, &mut self.heartbeat);
         self.rival = self.rival.map(|rival| rival.renamed(to));
         self.yields_to = self.yields_to.map(|other| to.station(other));
         let rename = |member: &Member| Member {

@@ -335,7 +335,7 @@ macro_rules! words {
             pub(crate) fn tell_fields(&self, _: &mut $crate::words::Said) {}
         }
 
-        #[cfg(feature = "laws")]
+        #[cfg(any(test, feature = "laws"))]
         impl $crate::laws::arbitrary::AnyWord for $name {
             type Kind = Self;
             const COUNT: usize = $name::WORDS.words.len();
@@ -431,7 +431,7 @@ macro_rules! words {
             }
         }
 
-        #[cfg(feature = "laws")]
+        #[cfg(any(test, feature = "laws"))]
         impl $crate::laws::arbitrary::AnyWord for $name {
             type Kind = $kind;
             const COUNT: usize = $name::WORDS.words.len();

@@ -37,3 +37,32 @@ pub trait Source {
         self.number(u8::MAX.into(), hint.into()) as u8
     }
 }
+
+/// Random numbers that all follow from a seed (`SplitMix64`): mostly as hinted, often at an edge or small.
+#[derive(Clone, Debug)]
+pub struct Random(pub u64);
+
+impl Random {
+    fn next(&mut self) -> u32 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        u32::try_from((z ^ (z >> 31)) >> 32).unwrap_or_default()
+    }
+}
+
+impl Source for Random {
+    fn number(&mut self, max: u32, hint: u32) -> u32 {
+        let (kind, value) = (self.next() % 16, self.next());
+        let number = match kind {
+            0 => value,
+            1 => max,
+            2 => 0,
+            3 => value % 1_000,
+            _ if hint <= max => hint,
+            _ => value,
+        };
+        number.checked_rem(max.wrapping_add(1)).unwrap_or(number)
+    }
+}
