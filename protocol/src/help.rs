@@ -5,7 +5,7 @@ use core::cmp::Reverse;
 use crate::claim::Claim;
 use crate::id::{Heartbeat, OfferNumber, SessionId, StationId};
 use crate::list::List;
-use crate::output::{EndReason, Ignored, Notice, Output, ReleaseReason, Sink};
+use crate::output::{EndReason, Ignored, Notice, Output, Sink};
 use crate::robot::{Effect, Step};
 use crate::roles::age_of;
 use crate::state::{
@@ -214,12 +214,6 @@ impl Robot {
     pub(crate) fn help_expired(&mut self, step: &mut Step<'_, impl Sink>) {
         // R5
         self.end_session(step, EndReason::NoHelp);
-    }
-
-    /// `T_offer` has run out: the helper is free for other requesters. If the leader confirms it
-    /// all the same, it says that it has no part in the session.
-    pub(crate) fn reservation_expired(&mut self, step: &mut Step<'_, impl Sink>) {
-        self.release(step, ReleaseReason::ReservationExpired);
     }
 }
 

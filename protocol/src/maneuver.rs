@@ -26,10 +26,7 @@ impl Robot {
         let Phase::Leading(leading) = &mut self.phase else {
             return Err(Ignored::NotLeading);
         };
-        let session = SessionId {
-            leader: self.station,
-            number: leading.number,
-        };
+        let session = SessionId::of(self.station, leading.number);
         let request = leading.request;
         let member = leading.member(follower);
         let used_up = member
@@ -111,7 +108,7 @@ impl Robot {
             order.progress = Some(Progress::Failed(failure));
             order.execution = Countdown::OFF;
             let request = order.request;
-            let id = ManeuverId { session, request };
+            let id = ManeuverId::of(session, request);
             step.out
                 .notify(Notice::ManeuverFailed(station, id, failure));
         });
@@ -191,10 +188,7 @@ impl Member {
             Verdict::Rejected(reason) => reason,
         };
         self.take_outstanding(answer.request)?;
-        let id = ManeuverId {
-            session: answer.session,
-            request: answer.request,
-        };
+        let id = ManeuverId::of(answer.session, answer.request);
         step.out
             .notify(Notice::CommandRejected(self.station, id, reason));
         Ok(())
@@ -225,7 +219,7 @@ impl Member {
             progress: None,
             execution,
         });
-        let id = ManeuverId { session, request };
+        let id = ManeuverId::of(session, request);
         step.out
             .notify(Notice::CommandAcknowledged(self.station, id));
         Ok(())
@@ -254,10 +248,7 @@ impl Member {
         if !report.progress.is_running() {
             order.execution = Countdown::OFF;
         }
-        let id = ManeuverId {
-            session,
-            request: report.request,
-        };
+        let id = ManeuverId::of(session, report.request);
         step.out.notify(match report.progress {
             Progress::Executing => Notice::ManeuverReported(self.station, id),
             Progress::InPosition => Notice::ManeuverInPosition(self.station, id),
@@ -340,25 +331,8 @@ impl Robot {
         }
     }
 
-    /// The application has finished the maneuver.
-    pub(crate) fn complete_maneuver(
-        &mut self,
-        step: &mut Step<'_, impl Sink>,
-        id: ManeuverId,
-    ) -> Effect {
-        self.finish_maneuver(step, id, Progress::Completed)
-    }
-
-    /// The application cannot finish the maneuver.
-    pub(crate) fn fail_maneuver(
-        &mut self,
-        step: &mut Step<'_, impl Sink>,
-        id: ManeuverId,
-    ) -> Effect {
-        self.finish_maneuver(step, id, Progress::Failed(Failure::Maneuver))
-    }
-
-    fn finish_maneuver(
+    /// The application has finished the maneuver, or cannot.
+    pub(crate) fn finish_maneuver(
         &mut self,
         step: &mut Step<'_, impl Sink>,
         id: ManeuverId,
@@ -454,10 +428,7 @@ impl Following {
             step.out
                 .push(Output::StopManeuver(maneuver, StopReason::Superseded));
         }
-        let id = ManeuverId {
-            session: self.session,
-            request,
-        };
+        let id = ManeuverId::of(self.session, request);
         step.out.push(Output::StartManeuver(Maneuver { id, task }));
         step.out.push(Output::SendRam);
         Ok(())

@@ -13,7 +13,7 @@ use crate::claim::Claim;
 use crate::config::Config;
 use crate::id::{OfferNumber, SessionId, SessionNumber, StationId, UniqueNumber};
 use crate::input::{Decimetres, Event, Input};
-use crate::message::{Confirmation, Coordination, Farewell, Progress, Ram, Report, Rmcm};
+use crate::message::{Confirmation, Coordination, Failure, Farewell, Progress, Ram, Report, Rmcm};
 use crate::output::{Ignored, Output, Outputs, Sink};
 use crate::state::{Duty, Identity, Offer, Phase, Rival, Robot, Role, State};
 use crate::task::Availability;
@@ -126,10 +126,7 @@ impl Robot {
                 heartbeat,
                 request,
             } => {
-                let session = SessionId {
-                    leader: from,
-                    number,
-                };
+                let session = SessionId::of(from, number);
                 self.hear_request(step, Rival::heard(session, heartbeat), request)
             }
             // R3: an offer that the same RAM takes back is none.
@@ -163,10 +160,7 @@ impl Robot {
                 place,
                 yields,
             } => {
-                let session = SessionId {
-                    leader: from,
-                    number,
-                };
+                let session = SessionId::of(from, number);
                 let heard = Rival::heard(session, heartbeat);
                 let claim = (!yields).then_some(Claim { urgency, place });
                 self.hear_leader(step, heard, &followers, claim)
@@ -186,8 +180,10 @@ impl Robot {
             Event::CommandManeuver { follower, task } => self.command(step, follower, task),
             Event::InPosition(id) => self.report_place(step, id, Progress::InPosition),
             Event::OutOfPosition(id) => self.report_place(step, id, Progress::Executing),
-            Event::ManeuverCompleted(id) => self.complete_maneuver(step, id),
-            Event::ManeuverFailed(id) => self.fail_maneuver(step, id),
+            Event::ManeuverCompleted(id) => self.finish_maneuver(step, id, Progress::Completed),
+            Event::ManeuverFailed(id) => {
+                self.finish_maneuver(step, id, Progress::Failed(Failure::Maneuver))
+            }
             Event::TaskCompleted => self.complete_task(step),
             Event::RoadClear => self.clear_road(step),
             Event::PersonOnRoad => self.see_person(),
@@ -264,10 +260,7 @@ impl Robot {
 
     /// The robot's own session of this number.
     pub(crate) const fn own_session(&self, number: SessionNumber) -> SessionId {
-        SessionId {
-            leader: self.station,
-            number,
-        }
+        SessionId::of(self.station, number)
     }
 
     /// The RAM that says what this state is. The endpoint adds the rest of the message.

@@ -190,11 +190,6 @@ impl Robot {
         });
     }
 
-    /// A follower has been without a lease for so long that it must have left.
-    pub(crate) fn lost_expired(&mut self, step: &mut Step<'_, impl Sink>, station: StationId) {
-        self.drop_follower(step, station, GoneReason::NoContact);
-    }
-
     /// Removes one follower; the records of the others stay as they are (property I17).
     pub(crate) fn drop_follower(
         &mut self,

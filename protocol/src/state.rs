@@ -448,10 +448,7 @@ impl Following {
     #[must_use]
     pub fn executing(&self) -> Option<Maneuver> {
         let job = self.job.filter(|job| job.progress.is_running())?;
-        let id = ManeuverId {
-            session: self.session,
-            request: job.request,
-        };
+        let id = ManeuverId::of(self.session, job.request);
         Some(Maneuver { id, task: job.task })
     }
 

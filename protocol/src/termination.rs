@@ -122,10 +122,7 @@ impl Robot {
                 leading.shut(step, CorridorClosure::SessionEnded);
                 // R19: an end under people is a duty.
                 if leading.corridor != Corridor::Clear && ending == Ending::Aborted {
-                    self.duty = Some(Duty::Crossing(SessionId {
-                        leader: self.station,
-                        number: leading.number,
-                    }));
+                    self.duty = Some(Duty::Crossing(SessionId::of(self.station, leading.number)));
                 }
                 leading.number
             }
@@ -201,10 +198,7 @@ impl Robot {
     ) -> Effect {
         match farewell {
             Farewell::Ended(number, ending) => {
-                let ended = SessionId {
-                    leader: from,
-                    number,
-                };
+                let ended = SessionId::of(from, number);
                 // R21: named by its number, or not meant.
                 if self.session() != Some(ended) {
                     return Err(Ignored::OtherSession);
@@ -281,10 +275,5 @@ impl Robot {
         if self.farewell_session() == Some(session) {
             self.farewell = None;
         }
-    }
-
-    /// `T_farewell` ran out.
-    pub(crate) fn farewell_expired(&mut self) {
-        self.farewell = None;
     }
 }

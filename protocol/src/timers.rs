@@ -3,7 +3,7 @@
 use crate::config::Config;
 use crate::input::Timer;
 use crate::list::List;
-use crate::output::{GoneReason, Ignored, Output, Sink};
+use crate::output::{GoneReason, Ignored, Output, ReleaseReason, Sink};
 use crate::robot::{Effect, Step};
 use crate::state::{Contact, Identity, Lease, Phase, Robot};
 use crate::time::{Countdown, Millis};
@@ -142,15 +142,17 @@ impl Robot {
             Timer::Safety => self.safety_expired(step),
             Timer::Leave => self.leave_expired(step),
             Timer::Lease(station) => self.lease_expired(step, station),
-            Timer::Lost(station) => self.lost_expired(step, station),
+            // Without a lease for so long, it must have left.
+            Timer::Lost(station) => self.drop_follower(step, station, GoneReason::NoContact),
             Timer::Execution(station) => self.execution_expired(step, station),
             Timer::Acknowledgement(station) => self.acknowledgement_expired(step, station),
             Timer::Offer(station) => self.offer_expired(step, station),
             Timer::Help => self.help_expired(step),
             Timer::Selection => self.selection_expired(step),
-            Timer::Reservation => self.reservation_expired(step),
+            // Free for other requesters. A leader that confirms it all the same is told that it has no part in the session.
+            Timer::Reservation => self.release(step, ReleaseReason::ReservationExpired),
             Timer::IdentityLock => self.identity_lock_expired(step),
-            Timer::Farewell => self.farewell_expired(),
+            Timer::Farewell => self.farewell = None,
             Timer::Ram => self.ram_expired(step, late),
         }
     }

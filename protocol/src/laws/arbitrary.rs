@@ -227,10 +227,7 @@ fn number(source: &mut impl Source) -> UniqueNumber {
 }
 
 fn session(source: &mut impl Source, leader: u32) -> SessionId {
-    SessionId {
-        leader: station(source, leader),
-        number: session_number(source),
-    }
+    SessionId::of(station(source, leader), session_number(source))
 }
 
 fn session_number(source: &mut impl Source) -> SessionNumber {
@@ -254,10 +251,7 @@ fn request_id(source: &mut impl Source) -> RequestId {
 }
 
 fn maneuver_id(source: &mut impl Source) -> ManeuverId {
-    ManeuverId {
-        session: session(source, PEER),
-        request: request_id(source),
-    }
+    ManeuverId::of(session(source, PEER), request_id(source))
 }
 
 fn task(source: &mut impl Source) -> TaskType {

@@ -26,8 +26,7 @@ fn session(input: &Input) -> Option<SessionId> {
         Input::Ram { ram, .. } => match ram.coordination {
             Coordination::None => return None,
             Coordination::NeedHelp { number, .. } | Coordination::Leader { number, .. } => {
-                let leader = ram.station;
-                SessionId { leader, number }
+                SessionId::of(ram.station, number)
             }
             Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. } => {
                 session

@@ -103,10 +103,7 @@ pub fn a_reservation_beats_with_its_request(config: &Config, step: &Taken) {
         Input::Ram { ram, .. } => match ram.coordination {
             Coordination::NeedHelp {
                 number, heartbeat, ..
-            } => {
-                let leader = ram.station;
-                (after.session == SessionId { leader, number }).then_some(heartbeat)
-            }
+            } => (after.session == SessionId::of(ram.station, number)).then_some(heartbeat),
             _ => None,
         },
         _ => None,

@@ -48,10 +48,7 @@ impl Exchange {
     /// What the leader's command is about.
     #[must_use]
     pub const fn maneuver(&self) -> ManeuverId {
-        ManeuverId {
-            session: self.session,
-            request: self.request,
-        }
+        ManeuverId::of(self.session, self.request)
     }
 
     /// Whether this is the leader.

@@ -261,8 +261,7 @@ pub fn an_offer_that_does_not_stand_is_declined(step: &Taken) {
     if may_compete || ram.station == before.station() || ram.farewell.is_some() {
         return;
     }
-    let leader = ram.station;
-    let session = SessionId { leader, number };
+    let session = SessionId::of(ram.station, number);
     let Some(listed) = followers.iter().find(|f| f.station == before.station()) else {
         return;
     };

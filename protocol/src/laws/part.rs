@@ -39,10 +39,7 @@ pub(super) const fn runs(progress: Progress) -> bool {
 pub(super) fn executing(robot: &Robot) -> Option<Maneuver> {
     let following = following(robot)?;
     let job = following.job.filter(|job| runs(job.progress))?;
-    let id = ManeuverId {
-        session: following.session,
-        request: job.request,
-    };
+    let id = ManeuverId::of(following.session, job.request);
     Some(Maneuver { id, task: job.task })
 }
 

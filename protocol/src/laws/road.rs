@@ -324,9 +324,8 @@ fn claimant(input: &Input) -> Option<Claimant> {
         } => (number, heartbeat, urgency, place, true),
         _ => return None,
     };
-    let leader = ram.station;
     Some(Claimant {
-        session: SessionId { leader, number },
+        session: SessionId::of(ram.station, number),
         heartbeat,
         urgency,
         place,

@@ -386,10 +386,7 @@ fn taken_back(step: &Taken) -> Option<UniqueNumber> {
     let Some(Farewell::Ended(number, _)) = ram.farewell else {
         return None;
     };
-    let ended = SessionId {
-        leader: ram.station,
-        number,
-    };
+    let ended = SessionId::of(ram.station, number);
     let is_own = offering.number.0.boot == step.before.boot();
     (offering.session == ended && is_own).then_some(offering.number.0)
 }

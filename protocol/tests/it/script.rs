@@ -425,10 +425,7 @@ impl Street {
 
     /// The maneuver with this request number in the session of `who`.
     pub fn maneuver(&self, who: StationId, request: u8) -> ManeuverId {
-        ManeuverId {
-            session: self.session_of(who),
-            request: RequestId(request),
-        }
+        ManeuverId::of(self.session_of(who), RequestId(request))
     }
 }
 

@@ -11,7 +11,7 @@ fn guard(place: Option<Point>) -> (Scene, ManeuverId) {
     let leader = StationId(1);
     let session = SessionId { leader, number };
     let request = RequestId(0);
-    let id = ManeuverId { session, request };
+    let id = ManeuverId::of(session, request);
     let task = TaskType::BLOCK;
     let mut setup = street();
     setup.watches = false;

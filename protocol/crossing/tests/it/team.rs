@@ -180,10 +180,7 @@ impl Team {
                 Said::SendRam => self.send_ram(robot),
                 Said::SendRmcm(rmcm) => {
                     if let (Rmcm::Command(command), Some(leg)) = (rmcm, leg) {
-                        let id = ManeuverId {
-                            session: command.session,
-                            request: command.request,
-                        };
+                        let id = ManeuverId::of(command.session, command.request);
                         self.legs.insert(key(command.to, id), leg);
                     }
                     self.broadcast(robot, crossguard_protocol::Input::Rmcm(rmcm));

@@ -104,10 +104,7 @@ pub fn is_near(exchange: &Exchange, ram: &Ram) -> bool {
         }
         | Coordination::Leader {
             number, heartbeat, ..
-        } => {
-            let leader = ram.station;
-            (SessionId { leader, number }, heartbeat)
-        }
+        } => (SessionId::of(ram.station, number), heartbeat),
         Coordination::Follower { session, echo, .. } => (session, echo),
     };
     session != exchange.session || exchange.is_near(heartbeat)
