@@ -330,6 +330,11 @@ mod tests {
     #[test]
     fn a_value_above_fifteen_is_no_task() {
         assert_eq!(TaskType::new(15).map(TaskType::value), Some(15));
-        assert_eq!(TaskType::try_from(16), Err(NoSuchTask(16)));
+        assert_eq!(TaskType::try_from(1).map(u8::from), Ok(1));
+        let none = TaskType::try_from(16).unwrap_err();
+        assert_eq!(
+            none.to_string(),
+            "task type 16 does not exist, the largest is 15"
+        );
     }
 }

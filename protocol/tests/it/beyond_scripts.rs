@@ -1,4 +1,4 @@
-//! What no script can say: every moment of ten seconds, half of a number space, a timer that is told alone, capacities.
+//! What no script can say: every moment of ten seconds, half of a number space, what an application reads.
 
 use crossguard_protocol::*;
 
@@ -92,42 +92,6 @@ fn a_follower_whose_echo_is_half_the_number_space_old_is_dropped() {
 }
 
 #[test]
-fn a_timer_that_is_not_armed_does_not_expire() {
-    let mut street = Street::with_roles(&[ARI, GO2]);
-    for (who, timer) in [
-        (ARI, Timer::Help),
-        (ARI, Timer::Acknowledgement(GO2)),
-        (ARI, Timer::Lost(GO2)),
-        (GO2, Timer::Leave),
-        (GO2, Timer::Farewell),
-    ] {
-        let outputs = street.step(who, Input::Expired(timer));
-        assert_eq!(outputs.ignored(), Some(Ignored::TimerNotArmed), "{timer}");
-    }
-}
-
-#[test]
-fn one_step_of_a_full_team_stays_within_the_capacity_for_outputs() {
-    let everybody = [ARI, GO2, SPOT, NAO, PEPPER];
-    // The leader sleeps until everything is due at once: under an open corridor, and with commands that
-    // nobody acknowledges.
-    let open = Street::open(&everybody, TaskType::BLOCK);
-    let mut commanded = Street::with_roles(&everybody);
-    for follower in [GO2, SPOT, NAO, PEPPER] {
-        commanded.tell(ARI, order(follower, TaskType::BLOCK));
-    }
-    for follower in [GO2, SPOT, NAO, PEPPER] {
-        commanded.part(ARI, follower);
-        commanded.tell(ARI, order(follower, TaskType::MOVE));
-    }
-    for mut street in [open, commanded] {
-        let outputs = street.step(ARI, Input::Elapsed(Millis(400_000)));
-        assert!(outputs.len() <= MAX_OUTPUTS);
-        assert_eq!(street[ARI].state(), State::Idle);
-    }
-}
-
-#[test]
 fn the_edge_is_that_of_the_inequality() {
     // (1900 + 50) * 1.001 < t_safety * 0.999 from 1954 on.
     for (t_safety, fits) in [(1_953, false), (1_954, true)] {
@@ -137,4 +101,28 @@ fn the_edge_is_that_of_the_inequality() {
             "{t_safety}"
         );
     }
+}
+
+#[test]
+fn the_newest_request_is_the_one_that_was_answered_last() {
+    let street = Street::with_roles(&[ARI, GO2]);
+    assert_eq!(street.following(GO2).newest_request(), None);
+    let mut street = Street::executing(TaskType::INITIAL_POS);
+    let running = street.executes(GO2).id;
+    assert_eq!(
+        street.following(GO2).newest_request(),
+        Some(running.request)
+    );
+    street.tell(GO2, Event::ManeuverCompleted(running));
+    assert_eq!(
+        street.following(GO2).newest_request(),
+        Some(running.request)
+    );
+}
+
+/// Each step of each script is measured.
+#[test]
+fn an_allocation_is_counted() {
+    let counted = allocation_counter::measure(|| drop(std::hint::black_box(Box::new(1))));
+    assert_eq!(counted.count_total, 1);
 }

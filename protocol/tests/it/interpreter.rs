@@ -9,11 +9,12 @@ use crossguard_protocol::*;
 use crate::script::*;
 
 mod show;
-mod words;
+pub(crate) mod words;
 
 use show::{name, said, show};
 use words::{
-    Wrong, event, made_ram, made_rmcm, number, request_of, set, station, stations, task, wrong,
+    Wrong, event, made_ram, made_rmcm, named, number, request_of, set, station, stations, task,
+    wrong,
 };
 
 /// The commands, as an error about an unknown one shows them.
@@ -30,6 +31,7 @@ ROBOT EVENT                detects N, orders ROBOT TASK, in position, out of pos
                            road clear, task completed, leaves, unavailable WHY, available, all answered, sees a person,
                            identity N, epoch N
 ROBOT elapses MS           time that this robot alone is told
+ROBOT expires TIMER        one timer, whatever time it has left; `lease of 2` is the one on GO2
 ROBOT hears NAME           a message that was kept, or `RAM ...` or `RMCM ...` (see `made_ram`, `made_rmcm`)
 keep NAME ROBOT RAM|RMCM   what the robot says now, or the RMCM that it sent last
 pass MS                    time passes for all
@@ -166,6 +168,9 @@ impl<'a> Script<'a> {
         let input = match *words {
             ["wakes"] => None,
             ["elapses", millis] => Some(Input::Elapsed(Millis(number(millis)?))),
+            ["expires", ref timer @ ..] => {
+                Some(Input::Expired(named(Timer::SAMPLES, &timer.join(" "))?))
+            }
             ["hears", "RAM", ref words @ ..] => Some(made_ram(words)?),
             ["hears", "RMCM", ref words @ ..] => Some(Input::Rmcm(made_rmcm(words)?)),
             ["hears", name] => {

@@ -2,12 +2,11 @@
 //! they say.
 #![allow(clippy::wildcard_imports, reason = "scripts use the whole vocabulary")]
 
-mod allocation;
 mod beyond_scripts;
 mod every_guard_counts;
 mod interpreter;
 mod numbers_that_a_peer_cannot_use_up;
-mod reading;
 mod script;
 mod serialization;
+mod settings;
 mod valid;

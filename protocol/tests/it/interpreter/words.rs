@@ -11,7 +11,7 @@ use crate::script::*;
 pub(super) const NAMES: [&str; 5] = ["ARI", "GO2", "SPOT", "NAO", "PEPPER"];
 
 /// Why a command cannot be run.
-pub(super) type Wrong = String;
+pub(crate) type Wrong = String;
 
 pub(super) fn wrong(word: &str, allowed: &str) -> Wrong {
     format!("{word}: expected {allowed}")
@@ -23,7 +23,7 @@ fn pair<'a>(word: &'a str, at: char, form: &str) -> Result<(&'a str, &'a str), W
 }
 
 /// The value that reads like this.
-fn named<T: Copy + Display>(all: &[T], text: &str) -> Result<T, Wrong> {
+pub(super) fn named<T: Copy + Display>(all: &[T], text: &str) -> Result<T, Wrong> {
     let of_text = all.iter().find(|it| it.to_string() == text).copied();
     let texts = || all.iter().map(T::to_string).collect::<Vec<_>>().join(", ");
     of_text.ok_or_else(|| wrong(text, &texts()))
@@ -75,18 +75,30 @@ pub(super) fn unique(word: &str) -> Result<UniqueNumber, Wrong> {
 /// `LEADER#BOOT.COUNT`.
 pub(super) fn session(word: &str) -> Result<SessionId, Wrong> {
     let (leader, count) = pair(word, '#', "LEADER#BOOT.COUNT")?;
-    Ok(SessionId {
-        leader: station(leader)?,
-        number: SessionNumber(unique(count)?),
-    })
+    Ok(SessionId::of(
+        station(leader)?,
+        SessionNumber(unique(count)?),
+    ))
 }
 
 /// Values of settings, `KEY=VALUE`.
-pub(super) fn set(settings: &mut Settings, values: &[&str]) -> Result<(), Wrong> {
+pub(crate) fn set(settings: &mut Settings, values: &[&str]) -> Result<(), Wrong> {
     for value in values {
         let (key, value) = pair(value, '=', "KEY=VALUE")?;
         let millis = || number(value).map(Millis);
+        if let Some(of) = key.strip_prefix("t_exec.") {
+            settings.t_exec[usize::from(task(of)?.value())] = millis()?;
+            continue;
+        }
         match key {
+            "t_select" => settings.t_select = millis()?,
+            "t_offer" => settings.t_offer = millis()?,
+            "t_ack" => settings.t_ack = millis()?,
+            "t_farewell" => settings.t_farewell = millis()?,
+            "delay_max" => settings.delay_max = millis()?,
+            "n_ack" => settings.n_ack = number(value)?,
+            "drift_ppm" => settings.drift_ppm = number(value)?,
+            "guarding" => settings.guarding = tasks(value)?,
             "t_lock" => settings.t_lock = millis()?,
             "t_safety" => settings.t_safety = millis()?,
             "t_lease" => settings.t_lease = millis()?,
@@ -113,10 +125,7 @@ pub(super) fn event(street: &Street, who: StationId, words: &[&str]) -> Result<E
             _ => Err(Wrong::from("it follows nobody")),
         },
         [request] => Ok(street.maneuver(who, number(request)?)),
-        [request, "of", of] => Ok(ManeuverId {
-            session: session(of)?,
-            request: RequestId(number(request)?),
-        }),
+        [request, "of", of] => Ok(ManeuverId::of(session(of)?, RequestId(number(request)?))),
         _ => Err(wrong(
             &words.join(" "),
             "nothing, REQUEST or REQUEST of SESSION",
