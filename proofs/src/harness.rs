@@ -60,4 +60,22 @@ macro_rules! harnesses {
     };
 }
 
-pub(crate) use harnesses;
+/// Declares harnesses with the same bound of their loops, each by what it does.
+macro_rules! cases {
+    ($unwind:literal; $(
+        $(#[doc = $doc:literal])*
+        $(#[random_only($reason:literal)])?
+        $name:ident => $case:expr;
+    )+) => {
+        $crate::harness::harnesses! { $(
+            $(#[doc = $doc])*
+            #[unwind($unwind)]
+            $(#[random_only($reason)])?
+            fn $name() {
+                $case;
+            }
+        )+ }
+    };
+}
+
+pub(crate) use {cases, harnesses};

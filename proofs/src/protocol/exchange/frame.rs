@@ -2,11 +2,13 @@
 
 use super::{
     EventKind, Kind, Laws, Part, Role, Source, StationId, Symbolic, any_step, any_valid,
-    any_watched, arbitrary, harnesses, kani, messages, robots, steps,
+    any_watched, arbitrary, kani, messages, robots, steps,
 };
 use crossguard_protocol::{
     Event, FallbackPolicy, Input, Maneuver, ManeuverId, Output, Rmcm, StopReason,
 };
+
+use crate::harness::cases;
 
 fn others_leave_it_so(part: Part, stage: Role) {
     let it = any_watched(part, stage);
@@ -64,10 +66,7 @@ fn one_of<T: Copy>(all: &[T]) -> T {
 
 fn any_maneuver() -> ManeuverId {
     let command = arbitrary::command(&mut Symbolic);
-    ManeuverId {
-        session: command.session,
-        request: command.request,
-    }
+    ManeuverId::of(command.session, command.request)
 }
 
 fn stays_true(kind: u32) {
@@ -100,105 +99,62 @@ fn reboots(part: Part, stage: Role) {
     kani::cover!(true, "boots");
 }
 
-harnesses! {
+cases! { 6;
     /// What others do leaves a requesting leader as it is.
-    #[unwind(6)]
-    fn a_requester_is_left_so() {
-        others_leave_it_so(Part::Leader, Role::Requester);
-    }
+    a_requester_is_left_so => others_leave_it_so(Part::Leader, Role::Requester);
 
     /// What others do leaves a leader as it is.
-    #[unwind(6)]
-    fn a_leader_is_left_so() {
-        others_leave_it_so(Part::Leader, Role::Leader);
-    }
+    a_leader_is_left_so => others_leave_it_so(Part::Leader, Role::Leader);
 
     /// What others do leaves a follower as it is.
-    #[unwind(6)]
-    fn a_follower_is_left_so() {
-        others_leave_it_so(Part::Follower, Role::Follower);
-    }
+    a_follower_is_left_so => others_leave_it_so(Part::Follower, Role::Follower);
 
     /// A request stays true.
-    #[unwind(6)]
-    fn what_a_requester_says_stays_true() {
-        stays_true(1);
-    }
+    what_a_requester_says_stays_true => stays_true(1);
 
     /// An offer stays true.
-    #[unwind(6)]
-    fn what_a_helper_says_stays_true() {
-        stays_true(2);
-    }
+    what_a_helper_says_stays_true => stays_true(2);
 
     /// A list of followers stays true.
-    #[unwind(6)]
-    fn what_a_leader_says_stays_true() {
-        stays_true(3);
-    }
+    what_a_leader_says_stays_true => stays_true(3);
 
     /// A report and an answer stay true.
-    #[unwind(6)]
-    fn what_a_follower_says_stays_true() {
-        stays_true(4);
-    }
+    what_a_follower_says_stays_true => stays_true(4);
 
     /// A robot that leads or follows elsewhere makes nothing known.
-    #[unwind(6)]
-    fn a_bystander_leads() {
-        bystands(Role::Leader);
-    }
+    a_bystander_leads => bystands(Role::Leader);
 
     /// A robot that follows elsewhere makes nothing known.
-    #[unwind(6)]
-    fn a_bystander_follows() {
-        bystands(Role::Follower);
-    }
+    a_bystander_follows => bystands(Role::Follower);
 
     /// A robot that asks for help makes nothing known.
-    #[unwind(6)]
-    fn a_bystander_asks() {
-        bystands(Role::Requester);
-    }
+    a_bystander_asks => bystands(Role::Requester);
 
     /// A helper of another session makes nothing known.
-    #[unwind(6)]
-    fn a_bystander_helps() {
-        bystands(Role::Helper);
-    }
+    a_bystander_helps => bystands(Role::Helper);
 
     /// A robot without a part makes nothing known.
-    #[unwind(6)]
-    fn a_bystander_idles() {
-        bystands(Role::None);
-    }
+    a_bystander_idles => bystands(Role::None);
 
     /// A leader loses power and boots.
-    #[unwind(6)]
-    fn a_leader_reboots() {
-        reboots(Part::Leader, Role::Leader);
-    }
+    a_leader_reboots => reboots(Part::Leader, Role::Leader);
 
     /// A follower loses power and boots.
-    #[unwind(6)]
-    fn a_follower_reboots() {
-        reboots(Part::Follower, Role::Follower);
-    }
+    a_follower_reboots => reboots(Part::Follower, Role::Follower);
 
     /// A robot takes another station id, which may be that of the leader or the follower.
-    #[unwind(6)]
-    fn a_station_is_taken() {
+    a_station_is_taken => {
         let kind = Kind::Local(EventKind::IdentityChanged);
         let kept = any_step(Part::Bystander, Role::None, kind, Laws::All);
         let leads = Part::Leader.is_of(&kept.exchange, &kept.after);
         let follows = Part::Follower.is_of(&kept.exchange, &kept.after);
         kani::cover!(leads, "the leader's");
         kani::cover!(follows, "the follower's");
-    }
+    };
 
     /// Any robot, with any part or none, any input.
     #[random_only("all stages, parts and kinds of input at once")]
-    fn any_robot_keeps_it() {
+    any_robot_keeps_it => {
         let part = one_of(&[Part::Leader, Part::Follower, Part::Bystander]);
         let stage = one_of(&Role::ALL);
         let kinds = [
@@ -219,5 +175,5 @@ harnesses! {
         let kept = any_step(part, stage, kind, Laws::All);
         kani::cover!(kept.changed(), "a fact becomes known");
         kani::cover!(robots::agrees(&kept.exchange, &kept.was, &kept.after) && kept.before != kept.after, "none does");
-    }
+    };
 }
