@@ -3,9 +3,8 @@ import json, math, socket, sys, time
 
 address, numbers = sys.argv[1], [float(word) for word in sys.argv[2:]]
 place, pace = numbers[:2] or [0.0, 0.0], numbers[2] if len(numbers) > 2 else 1.0
-host, _, port = address.rpartition(":")
-link = socket.socket(socket.AF_UNIX if host == "unix" else socket.AF_INET)
-link.connect(port if host == "unix" else (host, int(port)))
+link = socket.socket(socket.AF_UNIX)
+link.connect(address.removeprefix("unix:"))
 link.settimeout(0.02)
 say = lambda type, **more: link.sendall((json.dumps({"type": type, **more}) + "\n").encode())
 say("hello", crossguard=2)

@@ -84,12 +84,16 @@ pub enum Cause {
     BodyFault,
     /// The body said something that is no line of the port, or of a maneuver that does not run.
     BodyGarbled,
+    /// Another user wanted to connect to the body port.
+    BodyStranger,
     /// A program said something that is no line of the operator port, or never said hello.
     OperatorGarbled,
     /// A program did not read what the operator port told it.
     OperatorSlow,
     /// More programs wanted to connect to the operator port than can.
     OperatorsFull,
+    /// Another user wanted to connect to the operator port.
+    OperatorStranger,
     /// The next boot counter could not be persisted; the robot keeps the one that it has.
     EpochNotRenewed,
     /// The time could not be persisted; a robot that loses power now may trust a clock that was put back.
@@ -117,8 +121,13 @@ impl Cause {
             Self::Contradictory(_) => Layer::Semantics,
             Self::Ignored(_) => Layer::Protocol,
             Self::Unplaced | Self::FrameDropped(_) => Layer::Perception,
-            Self::BodySilent | Self::BodyFault | Self::BodyGarbled => Layer::Body,
-            Self::OperatorGarbled | Self::OperatorSlow | Self::OperatorsFull => Layer::Operator,
+            Self::BodySilent | Self::BodyFault | Self::BodyGarbled | Self::BodyStranger => {
+                Layer::Body
+            }
+            Self::OperatorGarbled
+            | Self::OperatorSlow
+            | Self::OperatorsFull
+            | Self::OperatorStranger => Layer::Operator,
             Self::EpochNotRenewed | Self::TimeNotKept | Self::RevokedUnread => Layer::Storage,
             Self::LogFull => Layer::Log,
             Self::OutputFull => Layer::Output,
@@ -160,6 +169,7 @@ impl Display for Reason {
             Cause::BodyGarbled | Cause::OperatorGarbled => "not understood",
             Cause::OperatorSlow => "too slow",
             Cause::OperatorsFull => "too many",
+            Cause::BodyStranger | Cause::OperatorStranger => "another user",
             Cause::EpochNotRenewed => "boot counter not renewed",
             Cause::TimeNotKept => "time not kept",
             Cause::RevokedUnread => "revocation list not read",

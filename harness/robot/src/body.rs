@@ -202,6 +202,8 @@ pub enum Report {
     Fault(String),
     /// It said something that was not understood, for this reason.
     Garbled(String),
+    /// This user, who is not the robot's, wanted to be it.
+    Stranger(u32),
 }
 
 /// How far a body is with its fallback.

@@ -47,6 +47,10 @@ impl Application {
                 (Cause::BodyFault, what.into())
             }
             Report::Garbled(why) => (Cause::BodyGarbled, why.into()),
+            Report::Stranger(uid) => (
+                Cause::BodyStranger,
+                format!("user {uid} is not the robot's: refused").into(),
+            ),
         };
         self.trouble(cause, what);
     }

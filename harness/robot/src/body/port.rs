@@ -172,6 +172,7 @@ impl Ported {
             Heard::Line(number, line) if self.is_current(number) => self.read(&line),
             Heard::Closed(number) if self.is_current(number) => self.lose(),
             Heard::Line(..) | Heard::Closed(_) => {}
+            Heard::Stranger(uid) => self.reports.push_back(Report::Stranger(uid)),
         }
     }
 

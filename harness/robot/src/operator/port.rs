@@ -237,6 +237,7 @@ impl<O: Obeys> Counter<O> {
                 );
             }
             Heard::Line(number, line) => self.hear_line(number, &line, now_us),
+            Heard::Stranger(_) => self.count(Cause::OperatorStranger, "refused"),
             Heard::Closed(number) => {
                 if let Some(client) = self.clients.remove(&number) {
                     client.stream.close();

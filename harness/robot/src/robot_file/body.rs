@@ -2,7 +2,7 @@
 //!
 //! ```toml
 //! [body]
-//! listen = "unix:go2.sock" # or "127.0.0.1:47600"
+//! listen = "unix:go2.sock"
 //! silence_ms = 500
 //! stands_m = 0.3
 //! ```
@@ -37,7 +37,7 @@ const fn stands_m() -> f64 {
 /// Why no body can be reached like that.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum NoBody {
-    /// It is no address of this machine.
+    /// It is no UNIX socket.
     #[error(transparent)]
     Address(#[from] NoAddress),
     /// Nobody is silent so fast, or so slowly, and no body stands like that.

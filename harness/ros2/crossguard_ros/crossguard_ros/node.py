@@ -74,12 +74,10 @@ class Port:
 
     def connect(self):
         """Whether it is connected now. It said hello, then."""
-        path, (host, _, port) = self.address.removeprefix("unix:"), self.address.rpartition(":")
-        is_path = path != self.address
-        link = socket.socket(socket.AF_UNIX if is_path else socket.AF_INET)
+        link = socket.socket(socket.AF_UNIX)
         try:
             link.settimeout(0.1)
-            link.connect(path if is_path else (host, int(port)))
+            link.connect(self.address.removeprefix("unix:"))
         except OSError:
             link.close()
             return False

@@ -27,7 +27,7 @@ fn open(hello: &str) -> (Ported, UnixStream, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("body.sock");
     let port = BodyPort {
-        address: PortAddress::Unix(path.clone()),
+        address: PortAddress(path.clone()),
         silence: Duration::from_millis(500),
         stands_m: 0.3,
     };

@@ -11,6 +11,7 @@ use crossguard_protocol::{
 };
 
 use super::*;
+use crate::port::prepare;
 use crate::table::rows;
 
 /// What the robot was told.
@@ -45,8 +46,7 @@ fn counter() -> (Counter<Told>, Told) {
 /// A client's end of a connection of this number.
 fn connect(counter: &mut Counter<Told>, number: u64) -> BufReader<UnixStream> {
     let (ours, theirs) = UnixStream::pair().unwrap();
-    let stream = Stream::Unix(ours);
-    stream.prepare().unwrap();
+    let (stream, _) = prepare(ours).unwrap();
     counter.hear(Heard::Connected(number, stream), 0);
     BufReader::new(theirs)
 }
