@@ -24,6 +24,8 @@ use std::path::{Path, PathBuf};
 
 use nix::fcntl::OFlag;
 
+use crate::files;
+
 /// What the file begins with.
 const MAGIC: &str = "crossguard boot counter";
 
@@ -166,8 +168,8 @@ fn take_after(path: &Path, lock: &File, known: u16) -> Result<u16, BootError> {
         cause,
     };
     let remembered = remembered(lock).map_err(unusable)?;
-    let counter = match File::open(path) {
-        Ok(file) => next(path, file)?,
+    let counter = match files::open(path) {
+        Ok((file, _)) => next(path, file)?,
         Err(missing) if missing.kind() == std::io::ErrorKind::NotFound => match remembered {
             Remembered::Unreadable => {
                 let path = path.to_owned();
@@ -258,7 +260,8 @@ fn lock(path: &Path) -> Result<File, BootError> {
         .write(true)
         .custom_flags(OFlag::O_NOFOLLOW.bits())
         .open(&lock_path)
-        .map_err(unusable)?;
+        .and_then(files::regular);
+    let (lock, _) = lock.map_err(unusable)?;
     match lock.try_lock() {
         Ok(()) => Ok(lock),
         Err(TryLockError::WouldBlock) => Err(BootError::InUse {

@@ -30,6 +30,7 @@ pub mod boot;
 pub mod capture;
 pub mod channel;
 pub mod clock;
+pub mod files;
 pub mod journal;
 pub mod lines;
 mod located;

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
+use crate::files;
 use crate::site::Place;
 
 /// Farthest place on a site, in metres.
@@ -72,7 +73,7 @@ impl Misfit {
 
 /// The text of a file.
 pub(crate) fn read(path: &Path) -> Result<String, FileError> {
-    std::fs::read_to_string(path).map_err(|cause| FileError {
+    files::text(path, files::TEXT_MAX).map_err(|cause| FileError {
         file: path.display().to_string(),
         line: None,
         what: cause.to_string(),

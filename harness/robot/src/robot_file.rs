@@ -20,6 +20,7 @@ use crate::application::{Application, Traits};
 use crate::attachment::Sends;
 use crate::body::{Body, BodyPort, Build, Ported, Simulated};
 use crate::boot::Boot;
+use crate::files;
 use crate::journal::Journal;
 use crate::located::{FileError, Impossible, possible};
 use crate::plan::Plan;
@@ -314,7 +315,7 @@ impl RobotFile {
     }
 
     fn checked(path: &Path, besides: Besides<'_>) -> Result<Self, Impossibility> {
-        let text = std::fs::read_to_string(path)?;
+        let text = files::text(path, files::TEXT_MAX)?;
         let mut file: RobotTable = toml::from_str(&text).map_err(Box::new)?;
         let folder = path.parent().unwrap_or(Path::new("."));
         file.name_files(folder, besides);

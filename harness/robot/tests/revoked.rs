@@ -18,6 +18,8 @@ use crossguard_robot::runtime::{Running, Setup};
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Air, Transport};
+use nix::sys::stat;
+use nix::unistd::mkfifo;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 
@@ -79,8 +81,14 @@ fn a_list_that_changes_ends_what_a_robot_believes_and_one_that_cannot_be_read_ch
     wait_for(&records, "the other robot", is_heard);
     add_revoked(&list, &[stolen]).unwrap();
     wait_for(&records, "a revoked message", |it| is_dropped(it, REVOKED));
-    fs::remove_file(&list).unwrap();
+    // Something takes its place that could be waited for, and then nothing is there.
+    let fifo = folder.path().join("fifo");
+    mkfifo(&fifo, stat::Mode::S_IRUSR).unwrap();
+    fs::rename(fifo, &list).unwrap();
     let is_said = |it: &Entry| is_dropped(it, Cause::RevokedUnread);
+    let before = wait_for(&records, "that the list is a FIFO", is_said);
+    assert!(!before.iter().any(is_heard), "revoked is revoked");
+    fs::remove_file(&list).unwrap();
     let before = wait_for(&records, "that the list is gone", is_said);
     assert!(!before.iter().any(is_heard), "revoked is revoked");
     let before = wait_for(&records, "a revoked message", |it| is_dropped(it, REVOKED));

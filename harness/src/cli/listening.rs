@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crossguard_codec::{Dictionary, Identifiers};
 use crossguard_judge::signature::Signatures;
-use crossguard_robot::pki;
+use crossguard_robot::{files, pki};
 use serde::Deserialize;
 
 use super::Failure;
@@ -48,7 +48,7 @@ pub(super) fn identifiers_of(file: Option<&Path>) -> Result<Identifiers, Failure
     let Some(path) = file else {
         return Ok(Identifiers::default());
     };
-    let text = std::fs::read_to_string(path).map_err(Failure::at(path))?;
+    let text = files::text(path, files::TEXT_MAX).map_err(Failure::at(path))?;
     let file: IdentifiersFile = toml::from_str(&text).map_err(Failure::at(path))?;
     let checked = file.identifiers.check();
     let checked = checked.map_err(|error| format!("[identifiers] {error}"));

@@ -12,13 +12,14 @@
 //! that it does not trust its clock, until somebody who knows what time it is deletes the file.
 
 use std::fs::File;
-use std::io::{Read, Write};
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use crossguard_codec::security::{Time64, random_octets};
 use crossguard_endpoint::station::Secret;
 
 use super::{BootError, replace};
+use crate::files;
 
 /// How far ahead the time is kept, in µs, and how often at most it is written.
 pub const AHEAD_US: u64 = 5_000_000;
@@ -91,21 +92,17 @@ fn beside(counter: &Path, extension: &str) -> PathBuf {
 
 /// What stands behind the first words of a file of one line; `None` where there is no file.
 fn read(path: &Path, begins: &str) -> Result<Option<String>, BootError> {
-    let mut text = String::new();
-    let file = match File::open(path) {
-        Ok(file) => file,
-        Err(missing) if missing.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+    let text = match files::text(path, 200) {
+        Ok(text) => text,
+        Err(missing) if missing.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(no_text) if no_text.kind() == ErrorKind::InvalidData => return Err(forgotten(path)),
         Err(cause) => return Err(unusable(path, cause)),
     };
-    let read = file.take(200).read_to_string(&mut text);
     let line = text
         .strip_suffix('\n')
         .and_then(|line| line.strip_prefix(begins))
         .map(|rest| rest.trim().to_owned());
-    match (read, line) {
-        (Ok(_), Some(rest)) => Ok(Some(rest)),
-        _ => Err(forgotten(path)),
-    }
+    line.map(Some).ok_or_else(|| forgotten(path))
 }
 
 fn unusable(path: &Path, cause: std::io::Error) -> BootError {

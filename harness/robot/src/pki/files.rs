@@ -9,9 +9,13 @@ use crossguard_codec::security::{Certificate, NoKey, PrivateKey};
 use zeroize::Zeroizing;
 
 use super::{Holder, PkiError};
+use crate::files;
 
 /// How long the file of a key may be, in octets; those of NIST P-256 take 241.
 const KEY_LEN_MAX: u64 = 4_096;
+
+/// How long that of a certificate may be, in octets; those of the kit take some 200.
+const CERTIFICATE_LEN_MAX: u64 = 65_536;
 
 pub(super) fn at(path: &Path) -> impl FnOnce(io::Error) -> PkiError {
     let path = path.to_owned();
@@ -51,8 +55,7 @@ impl Holder {
 
 /// Reads a key. Who may read it is asked of the open file, so that it is not exchanged in between.
 fn read_key(path: &Path) -> Result<PrivateKey, PkiError> {
-    let file = File::open(path).map_err(at(path))?;
-    let metadata = file.metadata().map_err(at(path))?;
+    let (file, metadata) = files::open(path).map_err(at(path))?;
     check_private(path, &metadata)?;
     // With room for all of it, the text is never moved, which would leave a copy behind.
     let room = usize::try_from(KEY_LEN_MAX).unwrap_or_default() + 1;
@@ -176,7 +179,7 @@ pub fn write_certificate(
     name: &str,
 ) -> Result<(), PkiError> {
     let path = folder.join(format!("{name}.cert"));
-    if fs::read(&path).is_ok_and(|octets| octets == certificate.octets()) {
+    if files::read(&path, CERTIFICATE_LEN_MAX).is_ok_and(|octets| octets == certificate.octets()) {
         return Ok(());
     }
     create(&path, certificate.octets(), 0o644).map_err(at(&path))
@@ -187,7 +190,7 @@ pub fn write_certificate(
 /// # Errors
 /// When it cannot be read, or is none.
 pub fn read_certificate(path: &Path) -> Result<Certificate, PkiError> {
-    let octets = fs::read(path).map_err(at(path))?;
+    let octets = files::read(path, CERTIFICATE_LEN_MAX).map_err(at(path))?;
     Certificate::decode(&octets).map_err(|cause| PkiError::Certificate {
         path: path.to_owned(),
         cause,

@@ -11,8 +11,9 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::fs::{self, File, Metadata};
-use std::io::{self, Read};
+use std::fs;
+use std::io;
+use std::os::unix::fs::MetadataExt as _;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -20,6 +21,7 @@ use crossguard_codec::security::HashedId8;
 
 use super::PkiError;
 use super::files::{at, check_unchangeable, replace};
+use crate::files;
 
 /// The name of the list in the folder of a PKI.
 pub const REVOKED_LIST: &str = "revoked.txt";
@@ -31,7 +33,8 @@ const LEN_MAX: u64 = 1 << 20;
 #[derive(Clone, Debug)]
 pub struct RevokedList {
     path: PathBuf,
-    read: Option<Stamp>,
+    /// `None` for a file that is not there.
+    seen: Option<Stamp>,
 }
 
 /// By what a file that has changed is noticed.
@@ -41,7 +44,7 @@ impl RevokedList {
     /// The list in this file, which is not read yet.
     #[must_use]
     pub const fn new(path: PathBuf) -> Self {
-        Self { path, read: None }
+        Self { path, seen: None }
     }
 
     /// The certificates on the list.
@@ -49,38 +52,25 @@ impl RevokedList {
     /// # Errors
     /// When the file cannot be read, others can change it, or a line names no certificate.
     pub fn read(&mut self) -> Result<BTreeSet<HashedId8>, PkiError> {
+        // One that changes after this is read again.
+        self.seen = self.stamp();
         let path = &self.path;
-        let file = File::open(path).map_err(at(path))?;
-        let metadata = file.metadata().map_err(at(path))?;
-        self.read = Some(stamp(&metadata));
+        let (file, metadata) = files::open(path).map_err(at(path))?;
         check_unchangeable(path, &metadata)?;
-        if metadata.len() > LEN_MAX {
-            let cause = io::Error::other(format!("longer than {LEN_MAX} octets"));
-            return Err(at(path)(cause));
-        }
-        let mut text = String::new();
-        let read = file.take(LEN_MAX).read_to_string(&mut text);
-        read.map_err(at(path))?;
-        parse(path, &text)
+        let text = files::rest(file, LEN_MAX).and_then(files::text_of);
+        parse(path, &text.map_err(at(path))?)
     }
 
-    /// The certificates on it, if the file is another one than when it was read the last time, or is gone.
+    /// The certificates on it, if the file is another one than when it was read the last time, or is gone. What is wrong
+    /// with one file is said once.
     pub fn read_if_changed(&mut self) -> Option<Result<BTreeSet<HashedId8>, PkiError>> {
-        match fs::metadata(&self.path) {
-            Ok(metadata) if self.read == Some(stamp(&metadata)) => None,
-            Ok(_) => Some(self.read()),
-            // It is said once.
-            Err(cause) => self.read.take().map(|_| Err(at(&self.path)(cause))),
-        }
+        (self.stamp() != self.seen).then(|| self.read())
     }
-}
 
-fn stamp(metadata: &Metadata) -> Stamp {
-    #[cfg(unix)]
-    let number = std::os::unix::fs::MetadataExt::ino(metadata);
-    #[cfg(not(unix))]
-    let number = 0;
-    (metadata.modified().ok(), metadata.len(), number)
+    fn stamp(&self) -> Option<Stamp> {
+        let metadata = fs::metadata(&self.path).ok()?;
+        Some((metadata.modified().ok(), metadata.len(), metadata.ino()))
+    }
 }
 
 fn parse(path: &Path, text: &str) -> Result<BTreeSet<HashedId8>, PkiError> {
@@ -103,7 +93,7 @@ fn parse(path: &Path, text: &str) -> Result<BTreeSet<HashedId8>, PkiError> {
 /// # Errors
 /// When the list cannot be read or written.
 pub fn add_revoked(path: &Path, ids: &[HashedId8]) -> Result<(), PkiError> {
-    let mut text = match fs::read_to_string(path) {
+    let mut text = match files::text(path, LEN_MAX) {
         Err(cause) if cause.kind() == io::ErrorKind::NotFound => String::new(),
         read => read.map_err(at(path))?,
     };
@@ -119,6 +109,9 @@ pub fn add_revoked(path: &Path, ids: &[HashedId8]) -> Result<(), PkiError> {
 
 #[cfg(test)]
 mod tests {
+    use nix::sys::stat::Mode;
+    use nix::unistd::mkfifo;
+
     use super::*;
 
     const ONE: HashedId8 = HashedId8([0x0f, 0x2c, 0x5e, 0x7a, 0x9b, 0x1d, 0x3f, 0x48]);
@@ -140,6 +133,11 @@ mod tests {
         fs::remove_file(&path).unwrap();
         assert!(list.read_if_changed().unwrap().is_err());
         assert!(list.read_if_changed().is_none(), "said once");
+        mkfifo(&path, Mode::S_IRUSR).unwrap();
+        assert!(list.read_if_changed().unwrap().is_err(), "not waited for");
+        assert!(list.read_if_changed().is_none(), "said once");
+        assert!(add_revoked(&path, &[OTHER]).is_err(), "nor written over");
+        fs::remove_file(&path).unwrap();
         add_revoked(&path, &[OTHER]).unwrap();
         let other = BTreeSet::from([OTHER]);
         assert_eq!(list.read_if_changed().unwrap().unwrap(), other);

@@ -6,13 +6,17 @@ use crossguard_model_check::check::names;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::replay::{Followed, Replay};
 use crossguard_model_check::scenario::Scenario;
+use crossguard_robot::files;
 
 use super::super::{Failure, print};
 use super::untimed;
 
+/// The longest run that is read, in octets.
+const REPLAY_MAX: u64 = 1 << 26;
+
 /// The run in `file`.
 pub(in crate::cli) fn read(file: &Path) -> Result<Replay, Failure> {
-    let text = std::fs::read_to_string(file).map_err(Failure::at(file))?;
+    let text = files::text(file, REPLAY_MAX).map_err(Failure::at(file))?;
     serde_json::from_str(&text).map_err(Failure::at(file))
 }
 
