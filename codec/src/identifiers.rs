@@ -9,6 +9,8 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::Service;
+
 /// The identifiers of RAM and RMCM. JSON is in `camelCase`, configuration files are in `snake_case`; both are read.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default, deny_unknown_fields)]
@@ -91,6 +93,9 @@ pub enum IdentifierClash {
     /// Both messages have this port.
     #[error("RAM and RMCM have the same BTP port {0}")]
     SamePort(u16),
+    /// Two services have this ITS-AID.
+    #[error("two services have the ITS-AID {0}; RAM and RMCM want one of their own each")]
+    SameItsAid(u32),
     /// Another message of ETSI has this messageId.
     #[error(
         "messageId {0} is assigned to another message, use one above {ASSIGNED_MESSAGE_ID_MAX}"
@@ -113,6 +118,15 @@ impl Identifiers {
         }
         if self.ram.btp_port == self.rmcm.btp_port {
             return Err(IdentifierClash::SamePort(self.ram.btp_port));
+        }
+        for (at, service) in Service::ALL.into_iter().enumerate() {
+            let its_aid = service.its_aid(self);
+            if Service::ALL[..at]
+                .iter()
+                .any(|it| it.its_aid(self) == its_aid)
+            {
+                return Err(IdentifierClash::SameItsAid(its_aid));
+            }
         }
         for message in [&self.ram, &self.rmcm] {
             if message.message_id <= ASSIGNED_MESSAGE_ID_MAX {
@@ -156,6 +170,13 @@ mod tests {
         );
         identifiers.ram.btp_port = 2001;
         assert_eq!(identifiers.check(), Err(IdentifierClash::SamePort(2001)));
+        // Those of RAM by default, and of CAM.
+        for its_aid in [16_480, 36] {
+            identifiers = Identifiers::default();
+            identifiers.rmcm.its_aid = its_aid;
+            let clash = IdentifierClash::SameItsAid(its_aid);
+            assert_eq!(identifiers.check(), Err(clash));
+        }
     }
 
     #[test]

@@ -4,13 +4,35 @@ use std::fmt;
 use std::ops::{Range, RangeInclusive};
 use std::path::Path;
 
-use serde::Deserialize;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
 
 use crate::files;
 use crate::site::Place;
 
-/// Farthest place on a site, in metres.
-pub(crate) const METRES_MAX: f64 = 1e5;
+/// Farthest place that a body says, in metres.
+const METRES_MAX: f64 = 1e5;
+
+/// Farthest place of a configuration from the origin of its site, in metres: the crossing is there, and nobody has to do
+/// with it from farther off.
+pub(crate) const NEAR_M: f64 = 1_000.0;
+
+/// An array of a file with exactly as many elements as are wanted: without it, what is too many is left out without a word.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Exact<T, const N: usize>(pub(crate) [T; N]);
+
+impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exact<T, N> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let elements = Vec::<T>::deserialize(from)?;
+        let count = elements.len();
+        let exact = elements.try_into().map(Self);
+        exact.map_err(|_| {
+            D::Error::custom(format!(
+                "{count} elements are here, and {N} are wanted; decimals have a point, like 1.5"
+            ))
+        })
+    }
+}
 
 /// A file of a site or a plan that cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -94,8 +116,8 @@ fn line_of(text: &str, offset: usize) -> usize {
 }
 
 /// A place on the site.
-pub(crate) fn place(at: &toml::Spanned<[f64; 2]>) -> Result<Place, Misfit> {
-    place_at(at, *at.get_ref())
+pub(crate) fn place(at: &toml::Spanned<Exact<f64, 2>>) -> Result<Place, Misfit> {
+    place_at(at, at.get_ref().0)
 }
 
 /// A place on the site, which stands there.
@@ -103,16 +125,21 @@ pub(crate) fn place_at<T>(
     there: &toml::Spanned<T>,
     [east, north]: [f64; 2],
 ) -> Result<Place, Misfit> {
-    if is_on_site([east, north]) {
+    if is_near([east, north]) {
         return Ok(Place::new(east, north));
     }
     let what = format!(
-        "[{east}, {north}] is no place: metres east and north, at most {METRES_MAX}, are wanted"
+        "[{east}, {north}] is no place: metres east and north of the origin, at most {NEAR_M}, are wanted"
     );
     Err(Misfit::at(there, what))
 }
 
-/// Whether a place is near enough to the origin of its site.
+/// Whether a place of a configuration is near the origin of its site.
+pub(crate) fn is_near(place: [f64; 2]) -> bool {
+    place.iter().all(|metres| metres.abs() <= NEAR_M)
+}
+
+/// Whether a body can be at a place.
 pub(crate) fn is_on_site(place: [f64; 2]) -> bool {
     place.iter().all(|metres| metres.abs() <= METRES_MAX)
 }

@@ -22,7 +22,7 @@ use crate::body::{Body, BodyPort, Build, Ported, Simulated};
 use crate::boot::Boot;
 use crate::files;
 use crate::journal::Journal;
-use crate::located::{FileError, Impossible, possible};
+use crate::located::{Exact, FileError, Impossible, NEAR_M, is_near, possible};
 use crate::plan::Plan;
 use crate::plan_file::PlanFile;
 use crate::port::{NoAddress, PortAddress};
@@ -101,12 +101,11 @@ struct RobotTable {
     station: u32,
     build: Build,
     job: Option<JobName>,
-    dimensions_m: Option<[f64; 3]>,
+    dimensions_m: Option<Exact<f64, 3>>,
     #[serde(default)]
     battery: BatteryTable,
     boot_file: PathBuf,
-    #[serde(default)]
-    place: [f64; 2],
+    place: Option<Exact<f64, 2>>,
     #[serde(default = "one")]
     speed: f64,
     #[serde(default)]
@@ -210,10 +209,6 @@ pub struct RobotFileError {
     pub cause: Impossibility,
 }
 
-/// How far from the origin of its site a robot may be, in metres: farther off, its coordinates on the plane are
-/// not true.
-const PLACE_MAX_M: f64 = 10_000.0;
-
 /// What is wrong with a configuration.
 #[derive(Debug, thiserror::Error)]
 pub enum Impossibility {
@@ -256,10 +251,23 @@ pub enum Impossibility {
     /// Nobody could tell it from others.
     #[error("name: a name with at least one character other than white space is wanted")]
     Name,
+    /// No station has this id.
+    #[error("station is 0: a number from 1 to 4294967295 is wanted, which no other robot has")]
+    Station,
+    /// A peer is the robot itself.
+    #[error(
+        "[link] {0} is the robot's own address: 'peers' and 'unit' are the addresses of others"
+    )]
+    OwnAddress(SocketAddr),
+    /// A robot that leads by itself does not know where robots go on a site of its own.
+    #[error(
+        "'autopilot' on a site of its own wants 'plan_file': \"crossing\" is the paper's crossing, at the places of the site"
+    )]
+    NoPlan,
     /// No place of a site.
     #[error(
         "place is [{0}, {1}]: metres east and north of the site's origin are wanted, each from -{max} to {max}",
-        max = PLACE_MAX_M
+        max = NEAR_M
     )]
     Place(f64, f64),
     /// People cannot be clustered so.
@@ -434,9 +442,12 @@ impl RobotTable {
         if self.name.trim().is_empty() {
             return Err(Impossibility::Name);
         }
-        let is_near = |metres: &f64| (-PLACE_MAX_M..=PLACE_MAX_M).contains(metres);
-        if !self.place.iter().all(is_near) {
-            return Err(Impossibility::Place(self.place[0], self.place[1]));
+        if self.station == 0 {
+            return Err(Impossibility::Station);
+        }
+        let [east, north] = self.place.map_or_else(Default::default, |it| it.0);
+        if !is_near([east, north]) {
+            return Err(Impossibility::Place(east, north));
         }
         let layout = self.site()?;
         let crossing = self.crossing.as_deref().map(str::parse);
@@ -470,28 +481,30 @@ impl RobotTable {
         }
         let carriageway = layout.carriageway();
         let carriageway = carriageway.map(|it| Area::Polygon(outline(it.whole)));
-        // On a site of one's own the crossing is where its places are.
-        let crossing = Path::new("crossing");
-        let own = (self.autopilot && self.site_file.is_some()).then_some(crossing);
-        let plan = self.plan_file.as_deref().or(own);
+        let kerbs = kerbs.flatten();
+        let is_own_site = self.site_file.is_some() || self.site.is_some() && kerbs.is_none();
+        if self.autopilot && is_own_site && self.plan_file.is_none() {
+            return Err(Impossibility::NoPlan);
+        }
+        let plan = self.plan_file.as_deref();
         let plan = plan
             .map(|name| PlanFile::open_for(name, layout.at(site), config.settings()))
             .transpose()?;
-        let traits = traits::check(self.job, self.dimensions_m, &self.battery)?;
+        let traits = traits::check(self.job, self.dimensions_m.map(|it| it.0), &self.battery)?;
         Ok(RobotFile {
             name: self.name,
             station: StationId(self.station),
             build: self.build,
             traits,
             boot_file: folder.join(self.boot_file),
-            place: Place::new(self.place[0], self.place[1]),
+            place: Place::new(east, north),
             site,
             speed,
             autopilot,
             shows: shows.into_iter().reduce(SignalMeans::union),
             zone,
             carriageway,
-            kerbs: kerbs.flatten(),
+            kerbs,
             plan_file: plan,
             body_port: self.body.map(|body| body.check(folder)).transpose()?,
             operator_port: self.operator.map(|it| it.check(folder)).transpose()?,
@@ -523,6 +536,16 @@ impl LinkTable {
         let is_nobody = |to: &&SocketAddr| to.ip().is_unspecified() || to.port() == 0;
         if let Some(nobody) = to.into_iter().find(is_nobody) {
             return Err(Impossibility::Peer(*nobody));
+        }
+        let is_own = |to: &&SocketAddr| {
+            self.address.is_some_and(|own| {
+                let is_this = own.ip() == to.ip();
+                let is_here = own.ip().is_unspecified() && to.ip().is_loopback();
+                own.port() == to.port() && (is_this || is_here)
+            })
+        };
+        if let Some(own) = self.peers.iter().chain(&self.unit).find(is_own) {
+            return Err(Impossibility::OwnAddress(*own));
         }
         let what = (self.address, self.multicast, self.ethernet);
         let more = (self.unit, self.interface, self.peers.is_empty());

@@ -27,7 +27,7 @@ use std::path::Path;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::located::{self, FileError, Misfit};
+use crate::located::{self, Exact, FileError, Misfit};
 use crate::site::{CrossingReference, Place, Site};
 
 mod carriageway;
@@ -111,7 +111,7 @@ struct OriginTable {
 struct CrossingTable {
     reference: Option<Spanned<String>>,
     map_place: Option<Spanned<String>>,
-    kerbs_m: Vec<[Spanned<[f64; 2]>; 2]>,
+    kerbs_m: Vec<Exact<Spanned<Exact<f64, 2>>, 2>>,
     along_m: Option<Spanned<f64>>,
 }
 
@@ -119,15 +119,15 @@ struct CrossingTable {
 #[serde(deny_unknown_fields)]
 struct LaneTable {
     name: String,
-    from_m: Spanned<[f64; 2]>,
-    to_m: Spanned<[f64; 2]>,
+    from_m: Spanned<Exact<f64, 2>>,
+    to_m: Spanned<Exact<f64, 2>>,
     width_m: Spanned<f64>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SpotTable {
-    at_m: Spanned<[f64; 2]>,
+    at_m: Spanned<Exact<f64, 2>>,
     #[serde(rename = "for")]
     purpose: Purpose,
 }
@@ -232,7 +232,7 @@ impl SiteTables {
                 "the two kerbs meet, or will within {} m beside the crossing",
                 checked.along_m
             );
-            return Err(Misfit::at(&kerb[0], what));
+            return Err(Misfit::at(&kerb.0[0], what));
         }
         for (name, spot) in self.places {
             let place = located::place(&spot.get_ref().at_m)?;
@@ -290,7 +290,7 @@ impl SiteTables {
 
 impl CrossingTable {
     fn kerbs(&self) -> Result<Vec<[Place; 2]>, Misfit> {
-        let kerb = |[from, to]: &[Spanned<[f64; 2]>; 2]| {
+        let kerb = |Exact([from, to]): &Exact<Spanned<Exact<f64, 2>>, 2>| {
             let kerb = [located::place(from)?, located::place(to)?];
             if kerb[0].distance(kerb[1]) < 1.0 {
                 return Err(Misfit::at(to, "the kerb is shorter than a metre"));

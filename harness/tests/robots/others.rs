@@ -86,7 +86,11 @@ fn port_of(config: &str) -> u16 {
 fn stations_of_others_are_in_status_metrics_and_log_and_what_outlived_its_lifetime_is_dropped() {
     let street = Street::new(&[("[link]", SITE)]);
     let config = &street.configs[ARI];
-    edit(config, &[("station = 1", &format!("station = {ROBOT}"))]);
+    let station = format!("station = {ROBOT}");
+    edit(
+        config,
+        &[("station = 1", &station), ("autopilot = true\n", "")],
+    );
     let log = street.path("ari.jsonl");
     let mut robot = Running::start(config, &log);
     let station = UdpSocket::bind("127.0.0.1:0").unwrap();

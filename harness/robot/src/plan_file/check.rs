@@ -11,7 +11,7 @@ use toml::Spanned;
 
 use super::tables::{DemoTable, EndName, PartTable, PlanTables, RoleTable, SignalName, SpotName};
 use super::{APART_M, Ending, PlanFile, Role, safety};
-use crate::located::{self, Misfit};
+use crate::located::{self, Exact, Misfit};
 use crate::plan::{Leg, Stage, Who};
 use crate::site::Place;
 use crate::site_file::{Purpose, SiteFile};
@@ -46,7 +46,7 @@ impl PlanTables {
         apart(&self, &roles, &stages)?;
         safety::guards_first(&self, &followers, &stages, settings)?;
         safety::ways_in_time(&self, &followers, &stages, settings)?;
-        let either_way = self.either_way.as_ref().map(|[from, to]| {
+        let either_way = self.either_way.as_ref().map(|Exact([from, to])| {
             let crossing = Some((Purpose::Cross, "an escort"));
             Ok([place(&site, from, crossing)?, place(&site, to, crossing)?])
         });
@@ -84,6 +84,12 @@ fn roles(tables: &[Spanned<RoleTable>], site: &SiteFile) -> Result<Vec<Role>, Mi
         if let Some(other) = roles.iter().find(|role| has_station(role)) {
             let (one, other) = (&table.name, &other.name);
             return refuse(format!("roles '{other}' and '{one}' are for one station"));
+        }
+        if table.station == Some(0) {
+            return refuse(format!(
+                "role '{}' is for station 0, which is no station",
+                table.name
+            ));
         }
         if !table.leads && table.stands.is_some() {
             let name = &table.name;
@@ -183,7 +189,7 @@ fn place(
     wanted: Option<(Purpose, &str)>,
 ) -> Result<Place, Misfit> {
     let text = match name.get_ref() {
-        SpotName::At(place) => return located::place_at(name, *place),
+        SpotName::At(Exact(place)) => return located::place_at(name, *place),
         SpotName::Named(text) => text,
     };
     let Some(spot) = site.places.get(text) else {

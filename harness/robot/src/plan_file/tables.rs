@@ -7,6 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::body::Build;
+use crate::located::Exact;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -16,7 +17,7 @@ pub(super) struct PlanTables {
     pub(super) urgency: Option<Urgency>,
     pub(super) crossing_s: Option<Spanned<f64>>,
     pub(super) patience_s: Option<Spanned<f64>>,
-    pub(super) either_way: Option<[Spanned<SpotName>; 2]>,
+    pub(super) either_way: Option<Exact<Spanned<SpotName>, 2>>,
     pub(super) roles: Vec<Spanned<RoleTable>>,
     pub(super) stages: Vec<Spanned<BTreeMap<String, Spanned<PartTable>>>>,
     pub(super) demo: Option<Spanned<DemoTable>>,
@@ -81,5 +82,5 @@ pub(super) enum EndName {
 )]
 pub(super) enum SpotName {
     Named(String),
-    At([f64; 2]),
+    At(Exact<f64, 2>),
 }

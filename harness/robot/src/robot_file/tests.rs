@@ -3,6 +3,90 @@
 use std::path::Path;
 
 use super::*;
+use crate::table::rows;
+
+/// What is replaced in the text of a robot, its site or its plan, by what, and what is said then.
+const WRONG: &str = r#"
+robot | [0.0, -1.5]        | [0,0, -1,5]          | 4 elements are here, and 2 are wanted; decimals have a point, like 1.5
+robot | [0.0, -1.5]        | [0.0]                | 1 elements are here, and 2 are wanted
+robot | [0.0, -1.5]        | [0.0, 2000.0]        | place is [0, 2000]: metres east and north of the site's origin are wanted, each from -1000 to 1000
+robot | [0.53, 0.75, 1.65] | [0,53, 0,75, 1,65]   | 6 elements are here, and 3 are wanted
+robot | [6.0, 9.0]]        | [6,0, 9,0]]          | 4 elements are here, and 2 are wanted
+robot | [5.0, 7.0]]        | [5.0, 7.0, 0.0]]     | 3 elements are here, and 2 are wanted
+robot | [1.0, 8.0]]        | [1.0, 8.0, 0.0]]     | 3 elements are here, and 2 are wanted
+robot | [1.0, 8.0]]        | [1.0, 8.0], [0, 0]]  | 3 elements are here, and 2 are wanted
+robot | [1.0, 8.0]]        | [1.0, 2000.0]]       | [zone] escort_m: [1, 2000] is no place: metres on the site, at most 1000
+robot | station = 1        | station = 0          | station is 0: a number from 1 to 4294967295 is wanted, which no other robot has
+robot | 127.0.0.1:2        | 127.0.0.1:1          | [link] 127.0.0.1:1 is the robot's own address: 'peers'
+robot | 127.0.0.1:1"       | 0.0.0.0:2"           | [link] 127.0.0.1:2 is the robot's own address: 'peers'
+robot | plan_file          | autopilot = true #   | 'autopilot' on a site of its own wants 'plan_file': "crossing" is
+robot | its_aid = 16482    | its_aid = 16481      | [identifiers] two services have the ITS-AID 16481
+robot | its_aid = 16482    | its_aid = 36         | [identifiers] two services have the ITS-AID 36
+robot | its_aid = 16482    | its_aid = 638        | [identifiers] two services have the ITS-AID 638
+robot | unix:ari.sock      | tcp:47600            | [body] listen: 'tcp:47600' is no UNIX socket: "unix:FILE" is wanted
+robot | unix:ari-op.sock   | 127.0.0.1:47700      | [operator] listen: '127.0.0.1:47700' is no UNIX socket: "unix:FILE" is wanted
+site  | [-4.0, 2.0]        | [-4,0, 2,0]          | site.toml:37: 4 elements are here, and 2 are wanted
+site  | [-20.0, 1.75]      | [-20.0, 1.75, 0.0]   | site.toml:18: 3 elements are here, and 2 are wanted
+site  | [-3.0, 0.0], [5.0  | [-3,0, 0,0], [5.0    | site.toml:10: 4 elements are here, and 2 are wanted
+site  | [5.0, 0.0]]        | [5.0, 0.0], [6, 0]]  | site.toml:10: 3 elements are here, and 2 are wanted
+site  | [-4.0, 2.0]        | [-4.0, 2000.0]       | [-4, 2000] is no place: metres east and north of the origin, at most 1000, are wanted
+plan  | "near-kerb", "far  | "corner", "x", "far  | plan.toml:4: 3 elements are here, and 2 are wanted
+plan  | to = "far-kerb"    | to = [1,0, 8,0]      | plan.toml:26: a place is wanted: its name on the site, or [EAST, NORTH] in metres
+plan  | station = 1        | station = 0          | plan.toml:6: role 'leader' is for station 0, which is no station
+plan  | station = 1        | station = 2          | plan.toml:14: roles 'leader' and 'escort' are for one station
+"#;
+
+/// A robot file that says of everything what it can, and is right.
+const RIGHT: &str = r#"
+name = "ARI"
+station = 1
+build = "humanoid"
+dimensions_m = [0.53, 0.75, 1.65]
+boot_file = "ari.boot"
+place = [0.0, -1.5]
+site_file = "site.toml"
+plan_file = "plan.toml"
+[zone]
+polygon_m = [[-4.0, -2.0], [6.0, -2.0], [6.0, 9.0]]
+road_m = [[-3.0, 0.0], [5.0, 0.0], [5.0, 7.0]]
+escort_m = [[1.0, -1.0], [1.0, 8.0]]
+[body]
+listen = "unix:ari.sock"
+[operator]
+listen = "unix:ari-op.sock"
+[identifiers.ram]
+protocol_version = 1
+message_id = 240
+btp_port = 2998
+its_aid = 16482
+[link]
+address = "127.0.0.1:1"
+peers = ["127.0.0.1:2"]
+"#;
+
+#[test]
+fn point_7_what_is_wrong_is_refused_with_line_or_key_and_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let right = [
+        ("robot", RIGHT),
+        ("site", include_str!("../../plans/street.toml")),
+        ("plan", include_str!("../../plans/crossing.toml")),
+    ];
+    let read = |changed: &str, from: &str, to: &str| {
+        for (name, text) in right {
+            let to = if name == changed { to } else { from };
+            assert!(name != changed || text.contains(from), "{from}");
+            let path = folder.path().join(format!("{name}.toml"));
+            std::fs::write(path, text.replacen(from, to, 1)).unwrap();
+        }
+        RobotFile::read(&folder.path().join("robot.toml")).map_err(|error| error.to_string())
+    };
+    assert!(read("", "", "").is_ok());
+    for [file, from, to, cause] in rows(WRONG) {
+        let error = read(&file, &from, &to).expect_err(&to);
+        assert!(error.contains(&cause), "{file}: {to}: {error}");
+    }
+}
 
 fn read(protocol: &str) -> Result<RobotFile, String> {
     let folder = tempfile::tempdir().unwrap();

@@ -17,9 +17,9 @@
 use crossguard_crossing::{PositionRules, Sensors, TrafficRules, WaitingRules};
 use crossguard_endpoint::ras::area::Area;
 use crossguard_protocol::Millis;
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 
-use crate::located::{Impossible, METRES_MAX, is_on_site, possible};
+use crate::located::{Exact, Impossible, NEAR_M, is_near, possible};
 use crate::plan::millis;
 use crate::site::Place;
 use crate::site_file::{Purpose, SiteFile, Spot, between, outline};
@@ -35,18 +35,26 @@ const AREA_MIN_M2: f64 = 0.01;
 #[serde(deny_unknown_fields)]
 pub(super) struct ZoneTable {
     pavement_m: Option<f64>,
+    #[serde(default, deserialize_with = "corners")]
     polygon_m: Option<Vec<[f64; 2]>>,
-    place_m: Option<[f64; 2]>,
+    place_m: Option<Exact<f64, 2>>,
     radius_m: Option<f64>,
+    #[serde(default, deserialize_with = "corners")]
     road_m: Option<Vec<[f64; 2]>>,
     /// The part of the carriageway between the kerbs of the site.
     #[serde(skip)]
     crossing_m: Option<Vec<[f64; 2]>>,
-    escort_m: Option<[[f64; 2]; 2]>,
+    escort_m: Option<Exact<Exact<f64, 2>, 2>>,
     dwell_s: Option<f64>,
     speed_max_mps: Option<f64>,
     approach_s: Option<f64>,
     clear_s: Option<f64>,
+}
+
+/// Corners, each with two coordinates.
+fn corners<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Vec<[f64; 2]>>, D::Error> {
+    let corners = Vec::<Exact<f64, 2>>::deserialize(from)?;
+    Ok(Some(corners.into_iter().map(|it| it.0).collect()))
 }
 
 /// Why a table `[zone]` is no zone.
@@ -67,7 +75,7 @@ pub enum NoZone {
         count: usize,
     },
     /// No place on the site.
-    #[error("{field}: [{}, {}] is no place: metres on the site, at most {METRES_MAX}, are wanted", place[0], place[1])]
+    #[error("{field}: [{}, {}] is no place: metres on the site, at most {NEAR_M}, are wanted", place[0], place[1])]
     Place {
         /// The field.
         field: &'static str,
@@ -134,10 +142,10 @@ impl ZoneTable {
         let crossed = layout.places.values();
         let crossed = crossed.filter(|spot| spot.purpose == Purpose::Cross);
         let crossed: Vec<_> = crossed
-            .map(|Spot { place, .. }| [place.east, place.north])
+            .map(|Spot { place, .. }| Exact([place.east, place.north]))
             .collect();
         if let ([from, to], None) = (&crossed[..], self.escort_m) {
-            self.escort_m = Some([*from, *to]);
+            self.escort_m = Some(Exact([*from, *to]));
         }
         Ok(())
     }
@@ -152,7 +160,7 @@ impl ZoneTable {
         self.fill_from(layout)?;
         let waiting = match (self.polygon_m, self.place_m, self.radius_m) {
             (Some(corners), None, None) => Some(polygon("polygon_m", corners)?),
-            (None, Some(place), Some(radius_m)) => Some(Area::Circle {
+            (None, Some(Exact(place)), Some(radius_m)) => Some(Area::Circle {
                 center: on_site("place_m", place)?,
                 radius_m: possible("radius_m", radius_m, 0.1..=1e3, "0.1 to 1000 m")?,
             }),
@@ -166,8 +174,10 @@ impl ZoneTable {
             (None, _) if is_autopilot => return Err(NoZone::NobodyWaits),
             _ => {}
         }
-        let kerbs = self.escort_m.map(|[from, to]| {
-            let place = |at| on_site("escort_m", at).map(|[east, north]| Place::new(east, north));
+        let kerbs = self.escort_m.map(|Exact([from, to])| {
+            let place = |at: Exact<_, 2>| {
+                on_site("escort_m", at.0).map(|[east, north]| Place::new(east, north))
+            };
             Ok::<_, NoZone>([place(from)?, place(to)?])
         });
         let default = WaitingRules::default();
@@ -232,7 +242,7 @@ fn percent(share: f64) -> u8 {
 }
 
 fn on_site(field: &'static str, place: [f64; 2]) -> Result<[f64; 2], NoZone> {
-    if is_on_site(place) {
+    if is_near(place) {
         Ok(place)
     } else {
         Err(NoZone::Place { field, place })
