@@ -7,6 +7,7 @@
 mod links;
 mod scenario;
 
+pub use links::free_ports;
 pub use scenario::{NoScenario, Participant, Scenario};
 
 use std::collections::BTreeMap;

@@ -782,7 +782,7 @@ typedef struct CrossguardEvent {
   uint8_t kind;
   // `CrossguardUrgency`.
   uint8_t urgency;
-  // How many followers are asked for, 1..4.
+  // How many followers are asked for, 1..16: at most `CROSSGUARD_FOLLOWERS_MAX`.
   uint8_t followers;
   // Task type, 0..15.
   uint8_t task;

@@ -235,7 +235,7 @@ pub struct CrossguardEvent {
     pub kind: u8,
     /// `CrossguardUrgency`.
     pub urgency: u8,
-    /// How many followers are asked for, 1..4.
+    /// How many followers are asked for, 1..16: at most `CROSSGUARD_FOLLOWERS_MAX`.
     pub followers: u8,
     /// Task type, 0..15.
     pub task: u8,

@@ -28,7 +28,7 @@ const BOOT_MS: u64 = CROSSGUARD_NONE_MS as u64;
 // A message of several commands is one step for each of them, and one of them at most is for this robot:
 // the others are ignored with one output.
 const _: () = assert!(CROSSGUARD_OUTPUTS_MAX >= MAX_OUTPUTS + MAX_FOLLOWERS);
-const _: () = assert!(CROSSGUARD_FOLLOWERS_MAX >= MAX_FOLLOWERS);
+const _: () = assert!(CROSSGUARD_FOLLOWERS_MAX == MAX_FOLLOWERS);
 // At most one RAM and one RMCM to each follower leave one step.
 const _: () = assert!(
     CROSSGUARD_PACKETS_LEN

@@ -400,12 +400,20 @@ impl Feed {
     }
 }
 
+/// U+FEFF in UTF-8.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 fn observations(
     name: String,
     file: impl BufRead + Send + 'static,
 ) -> impl Iterator<Item = Result<Observation, String>> + Send {
     let numbered = (1..).zip(lines(file));
     numbered.filter_map(move |(number, line)| {
+        // Editors of some systems begin a file with a mark of its byte order.
+        let line = line.map(|text| match text.strip_prefix(BYTE_ORDER_MARK) {
+            Some(rest) if number == 1 => rest.to_vec(),
+            _ => text,
+        });
         let observation = match line {
             Ok(text) if text.trim_ascii().is_empty() => return None,
             Ok(text) => parse(&String::from_utf8_lossy(&text)).map_err(|error| error.to_string()),
@@ -526,6 +534,15 @@ mod tests {
             (Some(7), 100, 40)
         );
         assert!(matches!(frame.covers, Some(Area::Polygon(corners)) if corners.len() == 3));
+    }
+
+    #[test]
+    fn point_9_a_byte_order_mark_is_left_out_at_the_beginning_alone() {
+        let line = r#"{"at_s": 1, "people": []}"#;
+        let file = format!("\u{feff}{line}\n\u{feff}{line}\n");
+        let read = observations("people".to_owned(), std::io::Cursor::new(file));
+        let read: Vec<_> = read.map(|it| it.is_ok()).collect();
+        assert_eq!(read, [true, false]);
     }
 
     #[test]

@@ -51,9 +51,10 @@ pub(super) struct Arguments {
     /// Seed of the faults and of the robots' gait.
     #[arg(long, default_value_t = 1, value_parser = any)]
     seed: u64,
-    /// Port of the first robot on 127.0.0.1; the others have the next ones.
-    #[arg(long, default_value_t = 47_401, value_parser = whole::<u16>(1_024..=65_500))]
-    port: u16,
+    /// Port of the first robot on 127.0.0.1; the others have the next ones. [default: the first that are free from 47401
+    /// on]
+    #[arg(long, value_parser = whole::<u16>(1_024..=65_500))]
+    port: Option<u16>,
     #[command(flatten)]
     security: super::security::SecurityArguments,
     /// Write the log to this file, one JSON object per line.
@@ -172,7 +173,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             ..arguments.faults.clone()
         },
         seed: arguments.seed,
-        port: arguments.port,
+        port: arguments
+            .port
+            .unwrap_or_else(|| demo::free_ports(names.len())),
         security_mode: arguments.security.mode(),
         security: arguments.security.of_robots(&names)?,
         capture: super::create_capture(arguments.pcap.as_deref())?,

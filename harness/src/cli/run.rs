@@ -10,6 +10,7 @@
 //!
 //! The console never waits for anybody but the robot, so that it hears a signal at any time.
 
+mod drops;
 mod output;
 mod typed;
 
@@ -40,6 +41,7 @@ use crossguard_robot::robot_file::{Besides, RobotFile};
 use crossguard_robot::runtime::{Order, Panicked, Running};
 use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Faults, Halves, Link, Reopening, Transport, WithFaults};
+use drops::Drops;
 use output::{Lines, Outputs};
 use typed::TYPED;
 
@@ -200,6 +202,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         hold: None,
         perceived,
         announced: Announced::default(),
+        drops: Drops::default(),
         described: BTreeMap::new(),
         missing: 0,
     };
@@ -319,6 +322,7 @@ struct Console<'a> {
     /// The people that the robot's sensors report, from a file.
     perceived: Option<Feed>,
     announced: Announced,
+    drops: Drops,
     /// What the stations around show to people, and what they serve, as they said last.
     described: BTreeMap<StationId, (Option<SignalsShown>, Option<MapPlace>)>,
     /// How many records did not get into a log, by the robot's own account.
@@ -410,8 +414,8 @@ impl Console<'_> {
         }
     }
 
-    fn texts(&self, record: &Record) -> Vec<String> {
-        let mut texts = Vec::new();
+    fn texts(&mut self, record: &Record) -> Vec<String> {
+        let mut texts: Vec<_> = self.drops.over(record.at_us).into_iter().collect();
         match &record.entry {
             Entry::Step {
                 input,
@@ -434,7 +438,10 @@ impl Console<'_> {
                 }
             }
             Entry::Dropped { cause, detail, .. }
-                if cause.layer != Layer::Simulated && !cause.is_own_packet() =>
+                if cause.layer != Layer::Simulated
+                    && !cause.is_own_packet()
+                    // Others differ by what is in them.
+                    && (cause.layer != Layer::Inbox || self.drops.is_news(record.at_us, cause)) =>
             {
                 texts.push(format!("dropped, {cause}: {detail}"));
             }

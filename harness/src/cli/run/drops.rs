@@ -1,0 +1,61 @@
+//! Drops on the console: those of one cause in one instant are one line, and their number is another.
+
+use crossguard_endpoint::counters::CauseName;
+
+/// How long an instant is.
+const INSTANT_US: u64 = 100_000;
+
+/// The drop that was said last.
+#[derive(Default)]
+pub(super) struct Drops(Option<Said>);
+
+struct Said {
+    cause: CauseName,
+    at_us: u64,
+    /// How many followed it in its instant.
+    more: u64,
+}
+
+impl Drops {
+    /// Whether a drop at this time is to be said: it is not the same thing again.
+    pub(super) fn is_news(&mut self, at_us: u64, cause: &CauseName) -> bool {
+        if let Some(said) = self.0.as_mut().filter(|said| said.cause == *cause) {
+            said.more += 1;
+            return false;
+        }
+        let (cause, more) = (cause.clone(), 0);
+        self.0 = Some(Said { cause, at_us, more });
+        true
+    }
+
+    /// What is to be said of an instant that is over by this time.
+    pub(super) fn over(&mut self, at_us: u64) -> Option<String> {
+        let said = self.0.take_if(|said| at_us >= said.at_us + INSTANT_US)?;
+        (said.more > 0).then(|| format!("dropped, {}: {} more", said.cause, said.more))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crossguard_endpoint::cause::Cause;
+
+    use super::*;
+
+    #[test]
+    fn point_9_drops_of_one_instant_are_said_once_with_their_number() {
+        let (mut drops, late) = (Drops::default(), Cause::WaitedTooLong.into());
+        let said: Vec<_> = (0..28)
+            .filter(|at_us| drops.is_news(*at_us, &late))
+            .collect();
+        assert_eq!((said, drops.over(99_999)), (vec![0], None));
+        let over = drops.over(100_000);
+        assert_eq!(
+            over.as_deref(),
+            Some("dropped, inbox: waited too long: 27 more")
+        );
+        // One alone is not said again, and the next one is.
+        assert!(drops.is_news(200_000, &late));
+        assert_eq!(drops.over(400_000), None);
+        assert!(drops.is_news(400_000, &late));
+    }
+}
