@@ -30,6 +30,6 @@ while True:
         step, way = (time.monotonic() - last) * speed * pace, math.dist(place, target)
         place = target if way <= step else [a + (b - a) * step / way for a, b in zip(place, target)]
     last = time.monotonic()
-    say("pose", eastM=place[0], northM=place[1], speedMps=speed if target and place != target and not waits else 0.0)
+    say("pose", eastM=place[0], northM=place[1], errorM=0.2, speedMps=speed if target and place != target and not waits else 0.0)
     if target == place:
         target, done = None, done and say(done[0], **done[1])

@@ -177,10 +177,12 @@ pub trait Body: fmt::Debug + Send {
 pub struct Pose {
     /// Where it is.
     pub place: Place,
+    /// How far off that may be, in metres, with a confidence of 95 %.
+    pub error_m: Option<f64>,
     /// Where it faces, in degrees clockwise from north.
-    pub heading_deg: f64,
+    pub heading_deg: Option<f64>,
     /// How fast it moves, in m/s.
-    pub speed_mps: f64,
+    pub speed_mps: Option<f64>,
 }
 
 /// What a body reports.
@@ -217,14 +219,21 @@ pub enum Fallback {
     Finished,
 }
 
-/// What is known of a body of this build at a pose; `None` where nobody knows where it is.
-fn state_of(build: Build, site: &Site, pose: Option<Pose>, acceleration_mps2: f64) -> RobotState {
+/// What is known of a body of this build at a pose; `None` where nobody knows where it is. What is not known is
+/// unavailable in messages.
+fn state_of(
+    build: Build,
+    site: &Site,
+    pose: Option<Pose>,
+    acceleration_mps2: Option<f64>,
+) -> RobotState {
+    let position = |pose: Pose| site.position_within(pose.place, pose.error_m);
     RobotState {
-        position: pose.map_or_else(Position::default, |pose| site.position(pose.place)),
-        heading: pose.map(|pose| pose.heading_deg.into()),
-        speed: pose.map(|pose| pose.speed_mps.into()),
+        position: pose.map_or_else(Position::default, position),
+        heading: pose.and_then(|pose| pose.heading_deg).map(Into::into),
+        speed: pose.and_then(|pose| pose.speed_mps).map(Into::into),
         drive_direction: DriveDirection::Forward,
-        longitudinal_acceleration: Some(acceleration_mps2.into()),
+        longitudinal_acceleration: acceleration_mps2.map(Into::into),
         dimensions: build.dimensions(),
         category: build.category(),
         job_role: build.job(),

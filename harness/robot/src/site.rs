@@ -120,6 +120,9 @@ impl FromStr for CrossingReference {
 /// ellipsoid, which is more than a simulated site needs.
 const METRES_PER_DEGREE: f64 = 111_195.0;
 
+/// How far off the place of somebody simulated may be, in metres.
+pub(crate) const SIMULATED_ERROR_M: f64 = 0.2;
+
 impl Site {
     /// Latitude and longitude of a place, in degrees.
     #[must_use]
@@ -142,17 +145,22 @@ impl Site {
         }
     }
 
-    /// A place as a RAM tells it, known to 20 cm.
+    /// A place as a RAM tells it, known to 20 cm: that of somebody simulated.
     #[must_use]
     pub fn position(&self, place: Place) -> Position {
+        self.position_within(place, Some(SIMULATED_ERROR_M))
+    }
+
+    /// The same, known to so many metres, or nobody knows to how many.
+    #[must_use]
+    pub fn position_within(&self, place: Place, error_m: Option<f64>) -> Position {
         let (latitude, longitude) = self.coordinates(place);
-        let ellipse = ConfidenceEllipse {
-            semi_major: 0.2,
-            semi_minor: 0.2,
-            orientation: 0.0,
-        };
         Position {
-            ellipse: Some(ellipse),
+            ellipse: error_m.map(|radius| ConfidenceEllipse {
+                semi_major: radius,
+                semi_minor: radius,
+                orientation: 0.0,
+            }),
             ..Position::at(latitude, longitude)
         }
     }

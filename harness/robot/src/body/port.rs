@@ -29,6 +29,9 @@ use crate::site::{Place, Site};
 /// For how long a body is where it said that it is, in seconds.
 const POSE_LASTS_S: f64 = 1.0;
 
+/// Largest error of a pose, in metres.
+const ERROR_MAX_M: f64 = 1_000.0;
+
 /// How often the kit says something at least, in seconds.
 const BEAT_S: f64 = 0.1;
 
@@ -100,8 +103,9 @@ impl Ported {
     ) -> std::io::Result<Self> {
         let pose = Pose {
             place,
-            heading_deg: 0.0,
-            speed_mps: 0.0,
+            error_m: None,
+            heading_deg: None,
+            speed_mps: None,
         };
         Ok(Self {
             build,
@@ -209,17 +213,23 @@ impl Ported {
             FromBody::Pose {
                 east_m,
                 north_m,
+                error_m,
                 heading_deg,
                 speed_mps,
             } => {
-                let is_on_site = is_on_site([east_m, north_m]);
-                if !is_on_site || !heading_deg.is_finite() || !speed_mps.is_finite() {
+                let can_be = is_on_site([east_m, north_m])
+                    && error_m.is_none_or(|it| it > 0.0 && it <= ERROR_MAX_M)
+                    && heading_deg.is_none_or(f64::is_finite)
+                    && speed_mps.is_none_or(f64::is_finite);
+                if !can_be {
                     return self.misunderstand("a pose that cannot be");
                 }
                 self.pose = Pose {
                     place: Place::new(east_m, north_m),
-                    heading_deg: heading_deg.rem_euclid(360.0),
-                    speed_mps,
+                    error_m,
+                    heading_deg: heading_deg.map(|it| it.rem_euclid(360.0)),
+                    // A speed has no direction. What is below 0 does not say how fast the body moves.
+                    speed_mps: speed_mps.filter(|it| *it >= 0.0),
                 };
                 self.known_s = POSE_LASTS_S;
             }
@@ -299,7 +309,7 @@ impl Body for Ported {
     }
 
     fn state(&self) -> RobotState {
-        state_of(self.build, &self.site, self.known(), 0.0)
+        state_of(self.build, &self.site, self.known(), None)
     }
 
     fn place(&self) -> Place {

@@ -9,7 +9,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::{AT_PLACE_M, Body, BodyAct, Build, Fallback, NotTaken, Pose, Report, state_of};
-use crate::site::{Place, Site};
+use crate::site::{Place, SIMULATED_ERROR_M, Site};
 
 /// How fast a body gains and loses speed, in m/s².
 const ACCELERATION: f64 = 1.2;
@@ -216,10 +216,16 @@ impl Body for Simulated {
     fn state(&self) -> RobotState {
         let pose = Pose {
             place: self.place,
-            heading_deg: self.heading_deg,
-            speed_mps: self.speed_mps,
+            error_m: Some(SIMULATED_ERROR_M),
+            heading_deg: Some(self.heading_deg),
+            speed_mps: Some(self.speed_mps),
         };
-        let state = state_of(self.build, &self.site, Some(pose), self.acceleration_mps2);
+        let state = state_of(
+            self.build,
+            &self.site,
+            Some(pose),
+            Some(self.acceleration_mps2),
+        );
         RobotState {
             battery: SIMULATED_BATTERY,
             ..state

@@ -121,8 +121,9 @@ class Port:
 class Body:
     """The body port: each act is a goal of the action `maneuver`, and poses are the heartbeat of the body."""
 
-    def __init__(self, node, address, silence_s):
+    def __init__(self, node, address, silence_s, error_m):
         self.node, self.port, self.silence_s = node, Port(address, BODY_PORT_VERSION), silence_s
+        self.error = {"errorM": error_m} if error_m > 0.0 else {}  # where nobody knows it, nothing is said
         self.goal = None  # the newest one
         self.waits = None  # the one that goes on after a wait
         self.pose = self.place = None  # not said yet; where and when it was before
@@ -140,7 +141,7 @@ class Body:
         speed = math.dist(place, before[0]) / (now - before[1]) if before and now > before[1] else 0.0
         z, w = message.pose.orientation.z, message.pose.orientation.w
         heading = 90.0 - math.degrees(2 * math.atan2(z, w))
-        self.pose = dict(eastM=place[0], northM=place[1], headingDeg=heading % 360.0, speedMps=speed)
+        self.pose = dict(eastM=place[0], northM=place[1], headingDeg=heading % 360.0, speedMps=speed, **self.error)
 
     def turn(self, late_s):
         if late_s > self.silence_s:  # it was held: what has come meanwhile is of no use any more
@@ -348,6 +349,7 @@ class Crossguard(Node):
         body = self.declare_parameter("body", "").value
         operator = self.declare_parameter("operator", "").value
         silence_s = self.declare_parameter("silence", 0.5).value
+        error_m = self.declare_parameter("pose_error", 0.0).value
         if is_visible(os.environ) and not trusts:
             sys.exit("others than this machine may be on the ROS graph, and who is on it moves and commands the robot: set "
                      "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST (Humble: ROS_LOCALHOST_ONLY=1), and no other peers, "
@@ -355,7 +357,7 @@ class Crossguard(Node):
         if not body and not operator:
             sys.exit("the parameters body and operator name ports of the robot's file, like unix:go2.sock: set one or both")
         self.operator = Operator(self, operator) if operator else None
-        self.body = Body(self, body, silence_s) if body else None
+        self.body = Body(self, body, silence_s, error_m) if body else None
         self.refused, self.turned = 0, time.monotonic()
         self.diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
         self.create_timer(TURN_S, self.turn)

@@ -64,10 +64,9 @@ pub(super) enum FromBody {
     Pose {
         east_m: f64,
         north_m: f64,
-        #[serde(default)]
-        heading_deg: f64,
-        #[serde(default)]
-        speed_mps: f64,
+        error_m: Option<f64>,
+        heading_deg: Option<f64>,
+        speed_mps: Option<f64>,
     },
     InPosition {
         id: String,

@@ -3,12 +3,15 @@
 use std::io::{BufRead, BufReader, Write};
 use std::os::unix::net::UnixStream;
 
-use crossguard_codec::TaskParameters;
+use crossguard_codec::geonet::EgoPosition;
+use crossguard_codec::{Heard as Message, Identifiers, Position, TaskParameters, encode, ram_from};
 use crossguard_protocol::{
-    ManeuverId, RequestId, SessionId, SessionNumber, StationId, StopReason, TaskType, UniqueNumber,
+    Availability, ManeuverId, RequestId, Robot, SessionId, SessionNumber, StationId, StopReason,
+    TaskType, UniqueNumber,
 };
 
 use super::*;
+use crate::table::rows;
 
 /// What a body says first.
 const HELLO: &str = r#"{"type": "hello", "crossguard": 2}"#;
@@ -149,4 +152,68 @@ fn a_body_of_the_version_without_wait_is_refused() {
             .starts_with("version 1: 2 is spoken"),
         "{refused}"
     );
+}
+
+/// What a RAM of a robot in this state says of it.
+fn ram_of(state: &RobotState) -> RobotState {
+    let ids = Identifiers::default();
+    let view = Robot::new(StationId(7), 1).ram();
+    let ram = ram_from(&ids, state, &view, Availability::Available, 0, false).unwrap();
+    let octets = encode(&ids, &ram).unwrap();
+    let heard = Message::of(&ids, StationId(8), &Position::default(), &octets).unwrap();
+    heard.state.unwrap()
+}
+
+/// A pose as a body says it, and what RAM says, half axis, speed and heading, and the packet, `isAccurate`.
+const POSES: &str = r#"
+                                                          | none | none | none | false
+"errorM": 0.05                                            | 0.05 | none | none | true
+"errorM": 0.2, "speedMps": 0, "headingDeg": 0             | 0.2  | 0    | 0    | true
+"errorM": 3.5, "speedMps": 0.5, "headingDeg": -90         | 3.5  | 0.5  | 270  | true
+"errorM": 40.5                                            | 40.5 | none | none | false
+"speedMps": -0.5, "headingDeg": 90                        | none | none | 90   | false
+"#;
+
+#[test]
+fn point_5_what_a_body_does_not_know_of_its_pose_is_unavailable() {
+    let (mut body, mut other, _folder) = open(HELLO);
+    assert_eq!(report(&mut body), Some(Report::Here));
+    for ([more, error, speed, heading, is_accurate], at) in rows(POSES).zip(1..) {
+        let comma = if more.is_empty() { "" } else { ", " };
+        writeln!(
+            other,
+            "{{\"type\": \"pose\", \"eastM\": {at}, \"northM\": 0{comma}{more}}}"
+        )
+        .unwrap();
+        while body.place() != Place::new(f64::from(at), 0.0) {
+            std::thread::sleep(Duration::from_millis(1));
+            assert_eq!(body.advance(0.0), None, "{more}");
+        }
+        let sent = ram_of(&body.state());
+        let number = |value: Option<f64>| value.map_or("none".to_owned(), |it| it.to_string());
+        let found = [
+            number(sent.position.ellipse.map(|it| it.semi_major)),
+            number(sent.speed.map(|it| it.value)),
+            number(sent.heading.map(|it| it.value)),
+            EgoPosition::of(&sent, 0).is_accurate.to_string(),
+        ];
+        assert_eq!(found, [error, speed, heading, is_accurate], "{more}");
+    }
+    for wrong in [
+        "\"errorM\": 0",
+        "\"errorM\": -1",
+        "\"errorM\": 1001",
+        "\"speedMps\": 1e999",
+    ] {
+        writeln!(
+            other,
+            "{{\"type\": \"pose\", \"eastM\": 0, \"northM\": 0, {wrong}}}"
+        )
+        .unwrap();
+        let said = report(&mut body);
+        assert!(
+            matches!(said, Some(Report::Garbled(_))),
+            "{wrong}: {said:?}"
+        );
+    }
 }
