@@ -1,4 +1,5 @@
-//! What it costs to sign and to verify, and to reject what is not worth a signature.
+//! What it costs to sign and to verify, and to refuse what is not worth a signature:
+//! `cargo bench -p crossguard-codec --features security --bench security`.
 //!
 //! The sign and verify operations of the curve alone stand beside, by both libraries, so that the share of everything
 //! else can be seen.
@@ -9,17 +10,18 @@ mod forge;
 #[path = "../tests/it/security/pki.rs"]
 #[allow(dead_code, unreachable_pub, reason = "shared with the tests")]
 mod pki;
+#[allow(unreachable_pub, reason = "shared by two programs")]
+mod support;
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
 
-use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
-use crossguard_codec::security::{Certificate, Rejected, SignedMessage, Station};
+use crossguard_codec::security::{Certificate, SignedMessage, Station};
 use forge::{Envelope, Terms, opaque, permissions};
-use p256::ecdsa::SigningKey;
-use p256::ecdsa::signature::hazmat::{PrehashSigner, PrehashVerifier};
+use p256::ecdsa::signature::{Signer, Verifier};
+use p256::ecdsa::{Signature, SigningKey};
 use pki::{NOW, NOW_S, Pki, RAM, after_ms, hear};
 use ring::signature::{ECDSA_P256_SHA256_FIXED, UnparsedPublicKey};
+use support::{Row, is_wanted, print_shortest, time};
 
 /// As long as common header, extended header, BTP and a RAM in a session.
 const PAYLOAD: [u8; 120] = [0x55; 120];
@@ -55,69 +57,72 @@ fn scene() -> Scene {
     }
 }
 
-fn bench(criterion: &mut Criterion) {
-    let scene = scene();
-    let now = after_ms(2);
-    let mut group = criterion.benchmark_group("security");
-    let key = SigningKey::from_slice(&[1; 32]).expect("a key");
-    let digest = [7; 32];
-    let signature: p256::ecdsa::Signature = key.sign_prehash(&digest).expect("a signature");
-    group.bench_function("sign, the curve alone", |bencher| {
-        bencher
-            .iter(|| -> Result<p256::ecdsa::Signature, _> { key.sign_prehash(black_box(&digest)) });
-    });
-    group.bench_function("verify by p256, the curve alone", |bencher| {
-        bencher.iter(|| {
-            key.verifying_key()
-                .verify_prehash(black_box(&digest), &signature)
-        });
-    });
-    let point = key.verifying_key().to_sec1_point(false);
-    let signature: p256::ecdsa::Signature = signing(&key, &[7; 64]);
-    let signature = signature.to_bytes();
-    group.bench_function("verify by ring, the curve alone", |bencher| {
-        let key = UnparsedPublicKey::new(&ECDSA_P256_SHA256_FIXED, point.as_bytes());
-        bencher.iter(|| key.verify(black_box(&[7; 64]), &signature));
-    });
-    let mut sender = scene.sender.clone();
-    group.bench_function("seal", |bencher| {
-        bencher.iter(|| sender.seal(now, RAM, black_box(&PAYLOAD)));
-    });
-    for (name, receiver, envelope) in [
-        ("open, signer known", &scene.knowing, &scene.by_digest),
-        ("open, signer new", &scene.new, &scene.in_full),
-        ("reject, replayed", &scene.knowing, &scene.replayed),
-        ("reject, signer unknown", &scene.new, &scene.by_digest),
-    ] {
-        group.bench_function(name, |bencher| {
-            bencher.iter_batched_ref(
-                || receiver.clone(),
-                |receiver| hear(receiver, now, black_box(envelope)),
-                BatchSize::SmallInput,
-            );
-        });
-    }
-    let certificate = scene.sender.ticket().certificate().octets();
-    group.bench_function("read an envelope", |bencher| {
-        bencher.iter(|| SignedMessage::decode(black_box(&scene.by_digest)).is_ok());
-    });
-    group.bench_function("read a certificate", |bencher| {
-        bencher.iter(|| Certificate::decode(black_box(certificate)));
-    });
-    group.finish();
-    print_rates(&scene);
-    print_pairwise(&scene);
+/// A receiver hears a packet, which it takes or refuses; the receiver is as it was before in every round.
+fn hearing<'a>(name: &'a str, receiver: &'a Station, packet: &'a [u8], is_taken: bool) -> Row<'a> {
+    let turn = move || {
+        let mut receiver = receiver.clone();
+        time(|| {
+            let heard = hear(&mut receiver, after_ms(2), black_box(packet));
+            assert_eq!(heard.is_ok(), is_taken, "{name}");
+        })
+    };
+    (name, Box::new(turn))
 }
 
-/// Signs 64 octets.
-fn signing(key: &SigningKey, data: &[u8]) -> p256::ecdsa::Signature {
-    use p256::ecdsa::signature::Signer;
-    key.sign(data)
+/// What is signed and taken, and how many more packets that are since `ring` verifies them.
+fn take(scene: &Scene) {
+    let key = SigningKey::from_slice(&[1; 32]).expect("a key");
+    let data = [7; 64];
+    let signature: Signature = key.sign(&data);
+    let point = key.verifying_key().to_sec1_point(false);
+    let (ring, fixed) = (
+        UnparsedPublicKey::new(&ECDSA_P256_SHA256_FIXED, point.as_bytes()),
+        signature.to_bytes(),
+    );
+    let certificate = scene.sender.ticket().certificate().octets();
+    let mut sender = scene.sender.clone();
+    let Scene { knowing, new, .. } = scene;
+    let [by_p256, by_ring, open, ..] = print_shortest(
+        "what is signed and taken",
+        1,
+        [
+            (
+                "verify by p256, the curve alone",
+                Box::new(|| time(|| key.verifying_key().verify(black_box(&data), &signature))),
+            ),
+            (
+                "verify by ring, the curve alone",
+                Box::new(|| time(|| ring.verify(black_box(&data), &fixed))),
+            ),
+            hearing("open, signer known", knowing, &scene.by_digest, true),
+            hearing("open, signer new", new, &scene.in_full, true),
+            (
+                "sign, the curve alone",
+                Box::new(|| time(|| -> Signature { key.sign(black_box(&data)) })),
+            ),
+            (
+                "seal",
+                Box::new(move || time(|| sender.seal(after_ms(2), RAM, black_box(&PAYLOAD)))),
+            ),
+            (
+                "read an envelope",
+                Box::new(|| time(|| SignedMessage::decode(black_box(&scene.by_digest)).is_ok())),
+            ),
+            (
+                "read a certificate",
+                Box::new(|| time(|| Certificate::decode(black_box(certificate)))),
+            ),
+        ],
+    );
+    let before = open - by_ring + by_p256;
+    println!(
+        "with p256, a packet of a known signer would take {before:.1} us: {:.2} times as many packets",
+        before / open,
+    );
 }
 
 /// What it costs to refuse a packet, by kind: what an outsider can send as often as the channel carries it.
-fn refuse(criterion: &mut Criterion) {
-    let scene = scene();
+fn refuse(scene: &Scene) {
     let now = after_ms(2);
     let ticket = scene.sender.ticket().certificate().octets().to_vec();
     // A certificate that names the authority and was signed by somebody else.
@@ -159,25 +164,23 @@ fn refuse(criterion: &mut Criterion) {
     let with_authority = with_authority.octets();
     let octet = |at: u32| ((at * 7_919) >> 3).to_le_bytes()[0];
     let garbage: Vec<u8> = (0..400).map(octet).collect();
-    let mut knowing = scene.knowing.clone();
+    let Scene { knowing, new, .. } = scene;
     // Both have been refused before.
     let mut refused_before = knowing.clone();
     for packet in [&wrong_signature, &forged_certificate] {
         let _ = hear(&mut refused_before, now, packet);
     }
-    let _ = hear(&mut knowing, now, &garbage);
-    let mut group = criterion.benchmark_group("refuse");
-    for (name, receiver, packet) in [
-        ("garbage", &knowing, &garbage),
-        ("too old, with a certificate", &knowing, &old),
-        ("signer unknown", &scene.new, &scene.by_digest),
+    let rows = [
+        ("garbage", knowing, &garbage),
+        ("too old, with a certificate", knowing, &old),
+        ("signer unknown", new, &scene.by_digest),
         (
             "signer unknown, with the forged certificate of an authority",
-            &scene.new,
+            new,
             &with_authority,
         ),
-        ("replayed", &knowing, &scene.replayed),
-        ("a forged certificate", &knowing, &forged_certificate),
+        ("replayed", knowing, &scene.replayed),
+        ("a forged certificate", knowing, &forged_certificate),
         (
             "a forged certificate, again",
             &refused_before,
@@ -185,7 +188,7 @@ fn refuse(criterion: &mut Criterion) {
         ),
         (
             "a wrong signature of a known ticket",
-            &knowing,
+            knowing,
             &wrong_signature,
         ),
         (
@@ -193,97 +196,15 @@ fn refuse(criterion: &mut Criterion) {
             &refused_before,
             &wrong_signature,
         ),
-    ] {
-        let shortest = (0..200).map(|_| {
-            let mut receiver = receiver.clone();
-            time(|| assert!(hear(&mut receiver, now, packet).is_err(), "{name}"))
-        });
-        let shortest = shortest.min().unwrap_or_default().as_secs_f64() * 1e6;
-        println!("{name}: {shortest:.2} us, the shortest of 200");
-        group.bench_function(name, |bencher| {
-            bencher.iter_batched_ref(
-                || receiver.clone(),
-                |receiver| hear(receiver, now, black_box(packet)),
-                BatchSize::SmallInput,
-            );
-        });
+    ];
+    let rows = rows.map(|(name, receiver, packet)| hearing(name, receiver, packet, false));
+    print_shortest("what is refused", 1, rows);
+}
+
+fn main() {
+    if is_wanted() {
+        let scene = scene();
+        take(&scene);
+        refuse(&scene);
     }
-    group.finish();
 }
-
-/// Messages per second and core, of many messages in a row as they come from one sender.
-fn print_rates(scene: &Scene) {
-    const MESSAGES: u64 = 2_000;
-    let mut sender = scene.sender.clone();
-    let mut said = Vec::new();
-    let sealing = time(|| {
-        let mut seal = |at| sender.seal(after_ms(3 + at), RAM, &PAYLOAD);
-        said.extend((0..MESSAGES).filter_map(|at| seal(at).ok()));
-    });
-    let mut receiver = scene.knowing.clone();
-    let opening = time(|| {
-        for (at, envelope) in (0..).zip(&said) {
-            assert!(hear(&mut receiver, after_ms(3 + at), envelope).is_ok());
-        }
-    });
-    let mut replays = 0_u64;
-    let last = after_ms(2 + MESSAGES);
-    let rejecting = time(|| {
-        let heard = said
-            .iter()
-            .map(|envelope| hear(&mut receiver, last, envelope));
-        replays = heard
-            .filter(|heard| *heard == Err(Rejected::Replayed))
-            .count() as u64;
-    });
-    assert_eq!(replays, MESSAGES);
-    let per_second = |time: Duration| f64::from(2_000_u32) / time.as_secs_f64();
-    println!(
-        "messages per second and core: {:.0} sealed, {:.0} opened, {:.0} replays rejected",
-        per_second(sealing),
-        per_second(opening),
-        per_second(rejecting),
-    );
-}
-
-/// What the library that verifies makes of a packet, on a machine that does other things as well: in turns, and the
-/// shortest of each, which nothing has interrupted.
-fn print_pairwise(scene: &Scene) {
-    const ROUNDS: usize = 400;
-    let key = SigningKey::from_slice(&[1; 32]).expect("a key");
-    let point = key.verifying_key().to_sec1_point(false);
-    let signature = signing(&key, &[7; 64]);
-    let fixed = signature.to_bytes();
-    let ring = UnparsedPublicKey::new(&ECDSA_P256_SHA256_FIXED, point.as_bytes());
-    let mut shortest = [Duration::MAX; 3];
-    for _ in 0..ROUNDS {
-        let mut receiver = scene.knowing.clone();
-        let times = [
-            time(|| {
-                use p256::ecdsa::signature::Verifier;
-                assert!(key.verifying_key().verify(&[7; 64], &signature).is_ok());
-            }),
-            time(|| assert!(ring.verify(&[7; 64], &fixed).is_ok())),
-            time(|| assert!(hear(&mut receiver, after_ms(2), &scene.by_digest).is_ok())),
-        ];
-        for (shortest, time) in shortest.iter_mut().zip(times) {
-            *shortest = time.min(*shortest);
-        }
-    }
-    let [p256, ring, open] = shortest.map(|time| time.as_secs_f64() * 1e6);
-    let before = open - ring + p256;
-    println!(
-        "shortest of {ROUNDS}, in turns: verify by p256 {p256:.1} us, by ring {ring:.1} us; a packet of a known signer \
-         {open:.1} us, with p256 it would be {before:.1} us: {:.2} times as many packets",
-        before / open,
-    );
-}
-
-fn time(mut work: impl FnMut()) -> Duration {
-    let start = Instant::now();
-    work();
-    start.elapsed()
-}
-
-criterion_group!(benches, bench, refuse);
-criterion_main!(benches);
