@@ -7,8 +7,8 @@
 //!
 //! The types hold any number that fits their Rust type. Whether a value is within its ASN.1 range is
 //! checked where it is [encoded](encode) or [decoded](decode), or converted to the type of the
-//! [core](crate::core), which is what the endpoint has. RAM, RMCM and the basic container convert
-//! both ways.
+//! [core](crate::core), which is what the endpoint has. RAM, RMCM, the basic container and the
+//! shape of a cluster convert both ways.
 //!
 //! Encodings are rasn's as it is: the decoder takes every encoding of a value, as stations on the road
 //! send them (a DEFAULT spelled out, padding that is not zero, extension additions of a newer sender),

@@ -107,15 +107,7 @@ fn cluster_around(
     cluster: &VruClusterInformation,
     robot: &RoadUser,
 ) -> Option<RoadUser> {
-    let middle = match cluster.cluster_bounding_box_shape? {
-        Shape::Circular(circle) => circle.shape_reference_point,
-        Shape::Rectangular(rectangle) => rectangle.shape_reference_point,
-        Shape::Polygonal(polygon) => polygon.shape_reference_point,
-    };
-    let metres = |coordinate: CartesianCoordinate| f64::from(coordinate.0) / 100.0;
-    let [east, north] = middle.map_or([0.0, 0.0], |middle| {
-        [metres(middle.x_coordinate), metres(middle.y_coordinate)]
-    });
+    let [east, north] = middle_of(cluster.cluster_bounding_box_shape?).unwrap_or_default();
     Some(RoadUser {
         identity: identity_of(station, cluster.cluster_id.map(|id| id.0)),
         kind: Kind::Vru,
@@ -127,6 +119,17 @@ fn cluster_around(
         signals: None,
         ..*robot
     })
+}
+
+/// How many metres east and north of its sender the middle of a shape is, if that has one of its own.
+pub(crate) fn middle_of(shape: Shape) -> Option<[f64; 2]> {
+    let middle = match shape {
+        Shape::Circular(circle) => circle.shape_reference_point,
+        Shape::Rectangular(rectangle) => rectangle.shape_reference_point,
+        Shape::Polygonal(polygon) => polygon.shape_reference_point,
+    };
+    let metres = |coordinate: CartesianCoordinate| f64::from(coordinate.0) / 100.0;
+    middle.map(|middle| [middle.x_coordinate, middle.y_coordinate].map(metres))
 }
 
 /// A cluster is not its head, and a head may have several: the id tells them apart.

@@ -1,4 +1,5 @@
-//! RAM and RMCM of the [core](crate::core) and of rasn, converted into each other.
+//! RAM, RMCM and what other messages share with them, of the [core](crate::core) and of rasn, converted into each
+//! other.
 //!
 //! The way from one to the other is the encoding, on which the two agree.
 
@@ -35,3 +36,4 @@ macro_rules! conversion {
 conversion!(ram::RAM);
 conversion!(rmcm::RMCM);
 conversion!(cdd::BasicContainer);
+conversion!(cdd::Shape);

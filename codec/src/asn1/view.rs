@@ -3,7 +3,9 @@
 
 use std::fmt::Write as _;
 
-use serde::de::Error;
+use rasn::types::{BitString, FixedBitString, Ia5String, Integer, NumericString, OctetString};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// The octets of `bits`, first bit first, padded with zero bits.
 fn to_hex(bits: impl Iterator<Item = bool>) -> String {
@@ -24,52 +26,80 @@ fn to_hex(bits: impl Iterator<Item = bool>) -> String {
 }
 
 /// The `length` bits that `text` stands for.
-fn from_hex<E: Error>(text: &str, length: usize) -> Result<impl Iterator<Item = bool>, E> {
+fn from_hex(text: &str, length: usize) -> Result<BitString, String> {
     let digits: Option<Vec<u32>> = text.chars().map(|digit| digit.to_digit(16)).collect();
-    let digits = digits.ok_or_else(|| E::custom("a bit string has hexadecimal digits only"))?;
+    let digits = digits.ok_or("a bit string has hexadecimal digits only")?;
     if digits.len() != length.div_ceil(8) * 2 {
-        return Err(E::custom(format_args!(
-            "a bit string of {length} bits is expected"
-        )));
+        return Err(format!("a bit string of {length} bits is expected"));
     }
-    let bits = digits
-        .into_iter()
-        .flat_map(|digit| (0..4).rev().map(move |bit| digit >> bit & 1 == 1));
+    let bits = digits.into_iter();
+    let bits = bits.flat_map(|digit| (0..4).rev().map(move |bit| digit >> bit & 1 == 1));
     if bits.clone().skip(length).any(|bit| bit) {
-        return Err(E::custom("the padding of a bit string is zero"));
+        return Err("the padding of a bit string is zero".to_owned());
     }
-    Ok(bits.take(length))
+    Ok(bits.take(length).collect())
 }
 
-/// A bit string of fixed size: `"80"`.
-pub(super) mod fixed_bits {
-    use rasn::types::FixedBitString;
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+/// A view as text.
+macro_rules! text {
+    ($(#[$doc:meta])* $view:ident, $type:ident $(<$size:ident>)?, $to_text:expr, $from_text:expr) => {
+        $(#[$doc])*
+        pub(super) mod $view {
+            use super::*;
 
-    pub(in crate::asn1) fn serialize<S: Serializer, const N: usize>(
-        bits: &FixedBitString<N>,
-        serializer: S,
-    ) -> Result<S::Ok, S::Error> {
-        super::to_hex(bits.iter().by_vals().take(N)).serialize(serializer)
-    }
+            pub(in crate::asn1) fn serialize<S: Serializer $(, const $size: usize)?>(
+                value: &$type $(<$size>)?,
+                serializer: S,
+            ) -> Result<S::Ok, S::Error> {
+                let to_text: fn(&$type $(<$size>)?) -> String = $to_text;
+                to_text(value).serialize(serializer)
+            }
 
-    pub(in crate::asn1) fn deserialize<'de, D: Deserializer<'de>, const N: usize>(
-        deserializer: D,
-    ) -> Result<FixedBitString<N>, D::Error> {
-        let text = String::deserialize(deserializer)?;
-        let mut bits = FixedBitString::ZERO;
-        for (index, bit) in super::from_hex(&text, N)?.enumerate() {
-            bits.set(index, bit);
+            pub(in crate::asn1) fn deserialize<'de, D: Deserializer<'de> $(, const $size: usize)?>(
+                deserializer: D,
+            ) -> Result<$type $(<$size>)?, D::Error> {
+                let from_text: fn(&str) -> Result<$type $(<$size>)?, _> = $from_text;
+                let text = String::deserialize(deserializer)?;
+                from_text(&text).map_err(D::Error::custom)
+            }
         }
-        Ok(bits)
+    };
+}
+
+text! {
+    /// A bit string of fixed size: `"80"`.
+    fixed_bits, FixedBitString<N>,
+    |bits| to_hex(bits.iter().by_vals().take(N)),
+    |text| {
+        let mut bits = FixedBitString::ZERO;
+        let read = from_hex(text, N)?;
+        bits[..N].copy_from_bitslice(&read);
+        Ok::<_, String>(bits)
     }
+}
+text! {
+    /// An octet string: `"0280"`.
+    octets, OctetString,
+    |octets| to_hex(BitString::from_slice(octets).iter().by_vals()),
+    |text| from_hex(text, text.len() * 4).map(|bits| bits.into_vec().into())
+}
+text! {
+    /// ASCII.
+    ia5, Ia5String,
+    |text| String::from_utf8_lossy(text.as_iso646_bytes()).into(),
+    |text| Ia5String::from_iso646_bytes(text.as_bytes())
+}
+text! {
+    /// Digits and spaces.
+    numeric, NumericString,
+    |text| String::from_utf8_lossy(text.as_bytes()).into(),
+    |text| NumericString::from_bytes(text.as_bytes())
 }
 
 /// A bit string of any size: `{"value": "80", "length": 1}`.
 pub(super) mod bits {
-    use rasn::types::BitString;
+    use super::{BitString, Deserialize, Deserializer, Serialize, Serializer, from_hex, to_hex};
     use serde::de::Error as _;
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     /// No message has a longer one.
     const LENGTH_MAX: usize = 8 * crate::size::MESSAGE_LEN_MAX;
@@ -85,12 +115,8 @@ pub(super) mod bits {
         bits: &BitString,
         serializer: S,
     ) -> Result<S::Ok, S::Error> {
-        let value = super::to_hex(bits.iter().by_vals());
-        Sized {
-            value,
-            length: bits.len(),
-        }
-        .serialize(serializer)
+        let (value, length) = (to_hex(bits.iter().by_vals()), bits.len());
+        Sized { value, length }.serialize(serializer)
     }
 
     pub(in crate::asn1) fn deserialize<'de, D: Deserializer<'de>>(
@@ -100,37 +126,13 @@ pub(super) mod bits {
         if length > LENGTH_MAX {
             return Err(D::Error::custom("the bit string is too long"));
         }
-        Ok(super::from_hex(&value, length)?.collect())
-    }
-}
-
-/// An octet string: `"0280"`.
-pub(super) mod octets {
-    use rasn::types::OctetString;
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub(in crate::asn1) fn serialize<S: Serializer>(
-        octets: &OctetString,
-        serializer: S,
-    ) -> Result<S::Ok, S::Error> {
-        let bits =
-            (octets.iter()).flat_map(|octet| (0..8).rev().map(move |bit| octet >> bit & 1 == 1));
-        super::to_hex(bits).serialize(serializer)
-    }
-
-    pub(in crate::asn1) fn deserialize<'de, D: Deserializer<'de>>(
-        deserializer: D,
-    ) -> Result<OctetString, D::Error> {
-        let text = String::deserialize(deserializer)?;
-        let bits: rasn::types::BitString = super::from_hex(&text, text.len() * 4)?.collect();
-        Ok(bits.into_vec().into())
+        from_hex(&value, length).map_err(D::Error::custom)
     }
 }
 
 /// An integer without bounds of its own: a number, or as text what no number of 64 bits is.
 pub(super) mod integer {
-    use rasn::types::Integer;
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    use super::{Deserialize, Deserializer, Integer, Serialize, Serializer};
 
     pub(in crate::asn1) fn serialize<S: Serializer>(
         integer: &Integer,
@@ -147,39 +149,4 @@ pub(super) mod integer {
     ) -> Result<Integer, D::Error> {
         i64::deserialize(deserializer).map(Integer::from)
     }
-}
-
-/// Text of some characters only.
-macro_rules! text {
-    ($(#[$doc:meta])* $view:ident, $type:ident, $from_octets:ident, $octets:ident) => {
-        $(#[$doc])*
-        pub(super) mod $view {
-            use rasn::types::$type;
-            use serde::de::Error as _;
-            use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-            pub(in crate::asn1) fn serialize<S: Serializer>(
-                text: &$type,
-                serializer: S,
-            ) -> Result<S::Ok, S::Error> {
-                String::from_utf8_lossy(text.$octets()).serialize(serializer)
-            }
-
-            pub(in crate::asn1) fn deserialize<'de, D: Deserializer<'de>>(
-                deserializer: D,
-            ) -> Result<$type, D::Error> {
-                let text = String::deserialize(deserializer)?;
-                $type::$from_octets(text.as_bytes()).map_err(D::Error::custom)
-            }
-        }
-    };
-}
-
-text! {
-    /// ASCII.
-    ia5, Ia5String, from_iso646_bytes, as_iso646_bytes
-}
-text! {
-    /// Digits and spaces.
-    numeric, NumericString, from_bytes, as_bytes
 }

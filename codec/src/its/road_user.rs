@@ -7,7 +7,7 @@ use crate::asn1::cdd211::ObjectClass211;
 use crate::asn1::cpm::{CartesianCoordinateWithConfidence, ObjectClass, Velocity3dWithConfidence};
 use crate::containers;
 use crate::distance::moved;
-use crate::road_user::{Identity, Kind, RoadUser, identity_of};
+use crate::road_user::{Identity, Kind, RoadUser, identity_of, middle_of};
 use crate::si;
 use crate::state::Position;
 
@@ -105,18 +105,10 @@ impl ItsMessage {
 
 /// The middle of a cluster's bounding shape; the reference position where it has none of its own.
 fn cluster_position(container: &BasicContainer, shape: Option<&Shape>) -> Position {
-    let middle = match shape {
-        Some(Shape::circular(circle)) => circle.shape_reference_point.as_ref(),
-        Some(Shape::rectangular(it)) => it.shape_reference_point.as_ref(),
-        Some(Shape::polygonal(polygon)) => polygon.shape_reference_point.as_ref(),
-        _ => None,
-    };
     let position = position_of(container);
-    let metres = |centimetres: i16| f64::from(centimetres) / 100.0;
-    middle.map_or(position, |middle| {
-        let (east, north) = (middle.x_coordinate.0, middle.y_coordinate.0);
-        moved(&position, metres(east), metres(north))
-    })
+    // The core has the shapes that have a middle.
+    let middle = shape.and_then(|shape| middle_of(shape.try_into().ok()?));
+    middle.map_or(position, |[east, north]| moved(&position, east, north))
 }
 
 fn of_cam(cam: &CAM, now: u64) -> RoadUser {
