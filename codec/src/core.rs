@@ -12,12 +12,12 @@
 //! ```
 //!
 //! - [`cdd`], [`common`], [`vam`], [`ram`] and [`rmcm`] declare the types of the module of that name
-//!   in `asn1/*.asn`, in its notation, and are generated from it. Sizes, names, JSON and arbitrary
-//!   values follow from the same lines.
+//!   in `asn1/*.asn`, in its notation, and are generated from it. Sizes, names and arbitrary values
+//!   follow from the same lines.
 //! - [`laws`] are properties of these types as functions, for Kani, proptest and sweeps alike.
 //!
 //! The rasn types of [`asn1`](crate::asn1) are the reference: differential tests compare the two on
-//! values, on octets and on JSON. An alternative of an ENUMERATED or CHOICE that a newer sender may
+//! values and on octets. JSON is theirs. An alternative of an ENUMERATED or CHOICE that a newer sender may
 //! know is an error, as it is there: a message that says something unknown where the protocol reads
 //! is not half understood.
 
@@ -37,7 +37,6 @@ pub mod cdd;
 pub mod common;
 mod defaults;
 mod error;
-mod json;
 pub mod laws;
 mod list;
 mod notation;

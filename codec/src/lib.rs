@@ -59,7 +59,7 @@
 //!
 //! - `std`, on by default. Without it the crate is `no_std` and needs no heap: RAM, RMCM, their mapping
 //!   and [`geonet`] remain; `encode` and what else needs a vector do not.
-//! - `foreign`, on by default, brings `asn1` and `its`, and with them rasn; it needs `std`.
+//! - `foreign`, on by default, brings `asn1`, `its` and JSON of messages, and with them rasn; it needs `std`.
 //! - `security` brings signatures, and with them elliptic curves; it needs `std`.
 //! - `laws` and `golden` are for proofs and tests; no part of the stable interface.
 

@@ -1,8 +1,6 @@
 //! Whole messages as octets: the header first, then the codec. RAM and RMCM are those of the
 //! [core](crate::core), which is their codec; those of other stations are in `its`.
 
-use serde::{Deserialize, Serialize};
-
 use crate::core::cdd::{ItsPduHeader, MessageId, OrdinalNumber1B};
 use crate::core::ram::RAM;
 use crate::core::rmcm::RMCM;
@@ -198,8 +196,9 @@ pub(crate) fn header<M: Pdu>(
 }
 
 /// A message of the robots, told apart by its header.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "foreign", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "foreign", serde(rename_all = "lowercase"))]
 #[allow(clippy::large_enum_variant, reason = "there is no heap")]
 pub enum Message {
     /// Robot awareness message.

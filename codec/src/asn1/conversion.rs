@@ -3,6 +3,8 @@
 //!
 //! The way from one to the other is the encoding, on which the two agree.
 
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de, ser};
+
 use super::{cdd, ram, rmcm};
 use crate::core;
 use crate::error::{DecodeError, EncodeError};
@@ -37,3 +39,25 @@ conversion!(ram::RAM);
 conversion!(rmcm::RMCM);
 conversion!(cdd::BasicContainer);
 conversion!(cdd::Shape);
+
+/// JSON of RAM and RMCM is that of the reference.
+macro_rules! json {
+    ($module:ident::$name:ident) => {
+        impl Serialize for core::$module::$name {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                let message = $module::$name::try_from(self).map_err(ser::Error::custom)?;
+                message.serialize(serializer)
+            }
+        }
+
+        impl<'de> Deserialize<'de> for core::$module::$name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                let message = $module::$name::deserialize(deserializer)?;
+                Self::try_from(&message).map_err(de::Error::custom)
+            }
+        }
+    };
+}
+
+json!(ram::RAM);
+json!(rmcm::RMCM);

@@ -4,13 +4,12 @@
 //!
 //! Generated from `asn1/Crossguard-Common.asn` by `tests/generated`; do not edit.
 
-use super::cdd::StationId;
 use super::notation::prelude::*;
 
 asn1! {
     /// A coordination session: the station that opened it and leads it, and its number for it.
     CoordinationSession ::= SEQUENCE {
-        leader_station_id StationId "leaderStationID",
+        leader_station_id StationId,
         session_number    SessionNumber
     }
 }

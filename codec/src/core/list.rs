@@ -1,11 +1,7 @@
 //! SEQUENCE OF, with a capacity and without heap.
 
 use core::fmt;
-use core::marker::PhantomData;
 use core::ops::Deref;
-
-use serde::de::{SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 use super::error::{Fault, Field};
 use super::reader::{Faults, Reader};
@@ -75,55 +71,6 @@ impl<T: fmt::Debug, const MIN: usize, const MAX: usize, const CAPACITY: usize, c
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_list().entries(self.iter()).finish()
-    }
-}
-
-impl<T: Serialize, const MIN: usize, const MAX: usize, const CAPACITY: usize, const E: bool>
-    Serialize for SequenceOf<T, MIN, MAX, CAPACITY, E>
-{
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.iter())
-    }
-}
-
-impl<'de, T, const MIN: usize, const MAX: usize, const CAPACITY: usize, const E: bool>
-    Deserialize<'de> for SequenceOf<T, MIN, MAX, CAPACITY, E>
-where
-    T: Uper + Deserialize<'de>,
-{
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_seq(Items(PhantomData))
-    }
-}
-
-/// Expects the items of a list.
-struct Items<L>(PhantomData<L>);
-
-impl<'de, T, const MIN: usize, const MAX: usize, const CAPACITY: usize, const E: bool> Visitor<'de>
-    for Items<SequenceOf<T, MIN, MAX, CAPACITY, E>>
-where
-    T: Uper + Deserialize<'de>,
-{
-    type Value = SequenceOf<T, MIN, MAX, CAPACITY, E>;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "a list of {MIN} to {CAPACITY} items")
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Self::Value, A::Error> {
-        let mut list = Self::Value::LOWEST;
-        list.length = 0;
-        while let Some(item) = items.next_element()? {
-            let Some(slot) = list.items.get_mut(list.length) else {
-                return Err(de::Error::invalid_length(list.length + 1, &self));
-            };
-            *slot = item;
-            list.length += 1;
-        }
-        if list.length < MIN {
-            return Err(de::Error::invalid_length(list.length, &self));
-        }
-        Ok(list)
     }
 }
 

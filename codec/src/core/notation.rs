@@ -4,15 +4,16 @@
 //! implementation of it: encoding, decoding, largest size, field names, arbitrary values. A type reads
 //! as in `asn1/*.asn`, but for
 //!
-//! - names, which are in Rust's spelling, with that of ASN.1 behind them where it does not follow:
-//!   `station_id StationId "stationID"`; and `bool` and `Null` for BOOLEAN and NULL;
+//! - names, which are in Rust's spelling; those of values of an ENUMERATED have that of ASN.1 behind them where it does
+//!   not follow: `Alt001_00 "alt-001-00"`; and `bool` and `Null` for BOOLEAN and NULL;
 //! - what holds the value in Rust: `INTEGER (..) as i16`, or `is u8` when every `u8` is a value;
 //! - lists inside of other types, which have a type of their own, `AT MOST` as long as their message
 //!   allows;
 //! - alternatives that an inner subtype constraint leaves out, of which the number is given:
 //!   `3 ABSENT`.
 //!
-//! JSON has the names of ASN.1. The declarations are generated from the modules by `tests/generated`.
+//! The values of an ENUMERATED have the names of ASN.1 in JSON; JSON of whole messages is that of the rasn types. The
+//! declarations are generated from the modules by `tests/generated`.
 
 /// The Rust type of one ASN.1 type assignment, and its encoding.
 macro_rules! asn1 {
@@ -111,19 +112,6 @@ macro_rules! asn1 {
                 Self(source.integer($min.into(), $max.into()) as $rust)
             }
         }
-
-        impl Serialize for $name {
-            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                self.0.serialize(serializer)
-            }
-        }
-
-        impl<'de> Deserialize<'de> for $name {
-            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                let number = json::number(deserializer, $min.into(), $max.into())?;
-                Ok(Self(number as $rust))
-            }
-        }
     };
 
     // BIT STRING of fixed size.
@@ -171,19 +159,6 @@ macro_rules! asn1 {
 
             fn arbitrary<S: Source>(source: &mut S) -> Self {
                 Self(source.integer(0, Self::MASK.into()) as $rust)
-            }
-        }
-
-        impl Serialize for $name {
-            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                json::write_bits(u32::from(self.0).reverse_bits(), $size, serializer)
-            }
-        }
-
-        impl<'de> Deserialize<'de> for $name {
-            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                let first_highest = json::read_bits(deserializer, $size)?;
-                Ok(Self(first_highest.reverse_bits() as $rust))
             }
         }
     };
@@ -249,23 +224,18 @@ macro_rules! asn1 {
     };
 
     // SEQUENCE.
-    ($(#[$meta:meta])* $name:ident ::= SEQUENCE { $($field:ident $type:ident $($keyword:ident $($default:ident)?)? $($json:literal)?),+ }) => {
-        asn1!(@sequence [$(#[$meta])*] $name [$($field [$type $($keyword $($default)?)?] [$($json)?] [$($($default)?)?])+] false);
+    ($(#[$meta:meta])* $name:ident ::= SEQUENCE { $($field:ident $type:ident $($keyword:ident $($default:ident)?)?),+ }) => {
+        asn1!(@sequence [$(#[$meta])*] $name [$($field [$type $($keyword $($default)?)?])+] false);
     };
-    ($(#[$meta:meta])* $name:ident ::= SEQUENCE { $($field:ident $type:ident $($keyword:ident $($default:ident)?)? $($json:literal)?),+, ... }) => {
-        asn1!(@sequence [$(#[$meta])*] $name [$($field [$type $($keyword $($default)?)?] [$($json)?] [$($($default)?)?])+] true);
+    ($(#[$meta:meta])* $name:ident ::= SEQUENCE { $($field:ident $type:ident $($keyword:ident $($default:ident)?)?),+, ... }) => {
+        asn1!(@sequence [$(#[$meta])*] $name [$($field [$type $($keyword $($default)?)?])+] true);
     };
-    (@sequence [$(#[$meta:meta])*] $name:ident [$($field:ident $kind:tt [$($json:literal)?] [$($default:ident)?])+] $extensible:literal) => {
+    (@sequence [$(#[$meta:meta])*] $name:ident [$($field:ident $kind:tt)+] $extensible:literal) => {
         $(#[$meta])*
         #[allow(missing_docs, reason = "a component is what its type says")]
-        #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
-        #[serde(rename_all = "camelCase")]
+        #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
         pub struct $name {
-            $(
-                $(#[serde(rename = $json)])?
-                $(#[doc = concat!("`", stringify!($default), "` where JSON leaves it out.")] #[serde(default)])?
-                pub $field: component!(type $kind),
-            )+
+            $(pub $field: component!(type $kind),)+
         }
 
         const _: () = {
@@ -341,8 +311,7 @@ macro_rules! asn1 {
         $(#[$meta])*
         #[allow(missing_docs, reason = "an alternative is what its type says")]
         #[allow(clippy::large_enum_variant, reason = "there is no heap")]
-        #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
-        #[serde(rename_all = "camelCase")]
+        #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
         pub enum $name {
             $($variant($type),)+
             $($addition($addition_type),)*
@@ -497,12 +466,14 @@ pub(super) mod prelude {
     pub(in crate::core) use super::{asn1, component, longest, read_defaulted, read_optional};
     pub(in crate::core) use crate::core::error::{FIELDS_MAX, Fault, Field};
     pub(in crate::core) use crate::core::list::SequenceOf;
+    pub(in crate::core) use crate::core::open_type;
     pub(in crate::core) use crate::core::reader::{Faults, Reader};
     pub(in crate::core) use crate::core::source::Source;
     pub(in crate::core) use crate::core::writer::Writer;
     pub(in crate::core) use crate::core::{Null, Uper, width};
-    pub(in crate::core) use crate::core::{json, open_type};
-    pub(in crate::core) use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    // Types of one module use those of others.
+    pub(in crate::core) use crate::core::{cdd::*, common::*, vam::*};
+    pub(in crate::core) use serde::{Deserialize, Serialize};
 }
 
 pub(super) use {asn1, component};

@@ -5,17 +5,7 @@
 //!
 //! Generated from `asn1/Crossguard-RAM.asn` by `tests/generated`; do not edit.
 
-use super::cdd::{
-    AccelerationComponent, BasicContainer, Curvature, DriveDirection, ExteriorLights,
-    GenerationDeltaTime, ItsPduHeader, MapReference, ObjectDimensionValue, PathPoint, Speed,
-    StationId, Wgs84Angle, YawRate,
-};
-use super::common::{
-    CoordinationSession, OfferNumber, RequestId, SessionNumber, TaskProgression, TaskSet,
-    UnavailabilityReason,
-};
 use super::notation::prelude::*;
-use super::vam::{VruClusterInformationContainer, VruMotionPredictionContainer};
 
 asn1! {
     /// Robot awareness message.
@@ -287,7 +277,7 @@ asn1! {
 asn1! {
     /// A follower, and its offer that the leader accepts.
     ConfirmedFollower ::= SEQUENCE {
-        station_id   StationId "stationID",
+        station_id   StationId,
         offer_number OfferNumber
     }
 }
@@ -307,7 +297,7 @@ asn1! {
     /// How far a follower is with a command. The status container's `taskProgression` says the
     /// same.
     CommandReport ::= SEQUENCE {
-        request_id RequestId "requestID",
+        request_id RequestId,
         progress   CommandProgress
     }
 }

@@ -5,13 +5,6 @@
 //!
 //! Generated from `asn1/Crossguard-RMCM.asn` by `tests/generated`; do not edit.
 
-use super::cdd::{
-    BasicContainer, DeltaReferencePosition, GenerationDeltaTime, GeoPosition, ItsPduHeader,
-    LanePosition, MapReference, SpeedValue, StandardLength9b, StationId, Wgs84AngleValue,
-};
-use super::common::{
-    CoordinationSession, RequestId, TaskProgression, TaskType, UnavailabilityReason,
-};
 use super::notation::prelude::*;
 
 asn1! {
@@ -67,8 +60,8 @@ asn1! {
 asn1! {
     /// Command to one follower. `validityDuration` counts from the generation of the message.
     ManeuverCommand ::= SEQUENCE {
-        request_id                 RequestId "requestID",
-        target_follower_station_id StationId "targetFollowerStationID",
+        request_id                 RequestId,
+        target_follower_station_id StationId,
         task_type                  TaskType,
         target                     ManeuverTarget OPTIONAL,
         target_heading             Wgs84AngleValue OPTIONAL,
@@ -107,7 +100,7 @@ asn1! {
     /// A follower's answer to the command whose `requestID` equals `jobAdviceID`.
     FollowerManeuverContainer ::= SEQUENCE {
         session                      CoordinationSession,
-        job_advice_id                RequestId "jobAdviceID",
+        job_advice_id                RequestId,
         response                     ManeuverResponse,
         execution_status             TaskProgression,
         estimated_time_to_completion ManeuverDuration OPTIONAL,

@@ -4,11 +4,6 @@
 //!
 //! Generated from `asn1/Crossguard-VAM.asn` by `tests/generated`; do not edit.
 
-use super::cdd::{
-    AccelerationChangeIndication, HeadingChangeIndication, PathHistory, PathPredicted,
-    SequenceOfSafeDistanceIndication, SequenceOfTrajectoryInterceptionIndication,
-    StabilityChangeIndication, VruClusterInformation,
-};
 use super::notation::prelude::*;
 
 asn1! {

@@ -4,13 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use rasn_compiler::prelude::ir::{
-    ASN1Type, ASN1Value, BitString, Choice, Constraint, Enumerated, Integer, Optionality,
-    SequenceOrSet, SequenceOrSetMember, SequenceOrSetOf, ToplevelTypeDefinition,
+    ASN1Type, ASN1Value, BitString, Choice, ChoiceOption, Constraint, Enumerated, Integer,
+    Optionality, SequenceOrSet, SequenceOrSetMember, SequenceOrSetOf, ToplevelTypeDefinition,
 };
 
 use super::notation::{
-    WIDTH, camel_of_pascal, camel_of_snake, doc, filled, import, number, pascal, screaming, snake,
-    wrapped,
+    WIDTH, camel_of_pascal, doc, filled, number, pascal, screaming, snake, wrapped,
 };
 use super::syntax::{Module, absent, range, reference};
 use super::table::{LIMITS, MESSAGES, NAMED};
@@ -33,7 +32,7 @@ pub(crate) fn generate(modules: &[Module]) -> Vec<(String, String)> {
         .collect();
     let files = used.iter().map(|module| {
         let file = file_of(module.name);
-        (format!("src/core/{file}.rs"), core.file(module, &used))
+        (format!("src/core/{file}.rs"), core.file(module))
     });
     let mut files: Vec<_> = files.collect();
     files.push(("tests/it/support/types.rs".into(), core.list(&used)));
@@ -116,14 +115,14 @@ impl<'a> Core<'a> {
     }
 
     /// One file of the core.
-    fn file(&self, module: &'a Module, modules: &[&'a Module]) -> String {
+    fn file(&self, module: &'a Module) -> String {
         let name = module.name;
         let mut text = doc(&module.about, "", "//!");
         let _ = writeln!(
             text,
-            "//!\n//! Generated from `asn1/Crossguard-{name}.asn` by `tests/generated`; do not edit.\n"
+            "//!\n//! Generated from `asn1/Crossguard-{name}.asn` by `tests/generated`; do not edit.\n\n\
+             use super::notation::prelude::*;"
         );
-        text += &self.imports(module, modules);
         for limit in &LIMITS {
             if self.types_of(module).any(|one| one.name == limit.list) {
                 let doc = doc(limit.doc, "", "///");
@@ -144,44 +143,6 @@ impl<'a> Core<'a> {
             text += &self.declaration(definition);
         }
         text
-    }
-
-    fn imports(&self, module: &'a Module, modules: &[&'a Module]) -> String {
-        let mut names = BTreeSet::new();
-        for definition in self.types_of(module) {
-            names.extend(self.references(definition));
-        }
-        let mut imports = vec![("notation", "use super::notation::prelude::*;\n".to_owned())];
-        for other in modules.iter().filter(|other| other.name != module.name) {
-            let types: BTreeSet<_> = other.types.iter().map(|one| one.name.as_str()).collect();
-            let names: Vec<_> = names.intersection(&types).copied().collect();
-            if !names.is_empty() {
-                let text = import(&file_of(other.name), &names);
-                imports.push((other.name, text));
-            }
-        }
-        imports.sort_by_key(|(module, _)| file_of(module));
-        imports.into_iter().map(|(_, text)| text).collect()
-    }
-
-    /// The types that a type names.
-    fn references(&self, definition: &'a ToplevelTypeDefinition) -> Vec<&'a str> {
-        let left_out = &self.used[definition.name.as_str()];
-        let types: Vec<&'a ASN1Type> = match &definition.ty {
-            ASN1Type::Sequence(sequence) => sequence.members.iter().map(|one| &one.ty).collect(),
-            ASN1Type::SequenceOf(list) => vec![&*list.element_type],
-            ASN1Type::Choice(choice) => {
-                let there = choice.options.iter();
-                let there = there.filter(|option| !left_out.contains(option.name.as_str()));
-                there.map(|option| &option.ty).collect()
-            }
-            _ => Vec::new(),
-        };
-        let elements = types.into_iter().map(|ty| match ty {
-            ASN1Type::SequenceOf(list) => &*list.element_type,
-            ty => ty,
-        });
-        elements.filter_map(reference).collect()
     }
 
     fn declaration(&self, definition: &ToplevelTypeDefinition) -> String {
@@ -239,8 +200,6 @@ impl<'a> Core<'a> {
 
     /// A component in Rust's spelling, and its type.
     fn component(&self, sequence: &str, member: &SequenceOrSetMember) -> (String, String) {
-        let rust = snake(&member.name);
-        let json = json_name(&member.name, &camel_of_snake(&rust));
         let ty = match type_of(&member.ty) {
             Some(ty) => ty,
             None => named(sequence, &member.name).0,
@@ -261,7 +220,7 @@ impl<'a> Core<'a> {
                 other => panic!("asn1! has no DEFAULT for {}", other.as_str()),
             },
         };
-        (rust, format!("{ty}{keyword}{json}"))
+        (snake(&member.name), format!("{ty}{keyword}"))
     }
 
     /// The list of types that the tests go through.
@@ -399,8 +358,11 @@ fn enumerated(enumerated: &Enumerated, name: &str) -> String {
     assert!(in_order, "asn1! counts the values of an ENUMERATED from 0");
     let values = members.iter().map(|member| {
         let rust = pascal(&member.name);
-        let json = json_name(&member.name, &camel_of_pascal(&rust));
-        rust + &json
+        // The name in ASN.1, where that in Rust does not tell.
+        match member.name.as_str() {
+            name if name == camel_of_pascal(&rust) => rust,
+            name => format!("{rust} \"{name}\""),
+        }
     });
     let mut values: Vec<_> = values.collect();
     values.extend(enumerated.extensible.map(|_| "...".to_owned()));
@@ -429,19 +391,9 @@ fn choice(choice: &Choice, left_out: &BTreeSet<&str>) -> String {
             .all(|option| left_out.contains(option.name.as_str())),
         "asn1! leaves out the last alternatives of the root only"
     );
-    let row = |option: &rasn_compiler::prelude::ir::ChoiceOption| {
-        let rust = pascal(&option.name);
-        assert_eq!(
-            camel_of_pascal(&rust),
-            option.name,
-            "an alternative's name in JSON"
-        );
-        (
-            rust,
-            type_of(&option.ty)
-                .expect("an alternative with a name")
-                .to_owned(),
-        )
+    let row = |option: &ChoiceOption| {
+        let ty = type_of(&option.ty).expect("an alternative with a name");
+        (pascal(&option.name), ty.to_owned())
     };
     let mut rows: Vec<_> = there.iter().map(row).collect();
     if !gone.is_empty() {
@@ -453,15 +405,6 @@ fn choice(choice: &Choice, left_out: &BTreeSet<&str>) -> String {
         return braces("CHOICE", rows, false);
     }
     braces("CHOICE", rows, choice.extensible.is_some())
-}
-
-/// The name in ASN.1, where `derived` from that in Rust is another one.
-fn json_name(name: &str, derived: &str) -> String {
-    if name == derived {
-        String::new()
-    } else {
-        format!(" \"{name}\"")
-    }
 }
 
 /// Rows of two columns between braces, with an extension marker.

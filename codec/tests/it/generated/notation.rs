@@ -39,14 +39,7 @@ pub(crate) fn pascal(name: &str) -> String {
     pascal
 }
 
-/// The name that serde makes of a component in Rust's spelling: `station_id` as `stationId`.
-pub(crate) fn camel_of_snake(name: &str) -> String {
-    let mut words = name.split('_');
-    let first = words.next().unwrap_or_default().to_owned();
-    words.fold(first, |camel, word| camel + &pascal(word))
-}
-
-/// The name that serde makes of an alternative in Rust's spelling: `InPosition` as `inPosition`.
+/// The name that serde makes of a value in Rust's spelling: `InPosition` as `inPosition`.
 pub(crate) fn camel_of_pascal(name: &str) -> String {
     let (first, rest) = name.split_at(1);
     first.to_lowercase() + rest
@@ -114,17 +107,4 @@ fn code(before: &str, word: &str) -> String {
     } else {
         word.to_owned()
     }
-}
-
-/// `use` of these names of a module of the core, as rustfmt writes it.
-pub(crate) fn import(module: &str, names: &[&str]) -> String {
-    if let [name] = names {
-        return format!("use super::{module}::{name};\n");
-    }
-    let line = format!("use super::{module}::{{{}}};\n", names.join(", "));
-    if line.len() <= WIDTH + 1 {
-        return line;
-    }
-    let names: Vec<_> = names.iter().map(|name| (*name).to_owned()).collect();
-    format!("use super::{module}::{{\n{},\n}};\n", filled(&names, 4))
 }
