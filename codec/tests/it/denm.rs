@@ -58,12 +58,9 @@ fn an_event_is_told_to_people_by_its_names() {
 
 /// The golden DENM with `instead` in the place of these bits.
 fn with_bits(at: std::ops::Range<usize>, instead: &str) -> Vec<u8> {
-    let bits = to_bits(&d1());
-    from_bits(&format!(
-        "{}{instead}{}",
-        &bits[..at.start],
-        &bits[at.end..]
-    ))
+    let mut bits = to_bits(&d1());
+    bits.replace_range(at, instead);
+    from_bits(&bits)
 }
 
 /// Whatever the octets spell out, they say the same as the golden DENM.
@@ -137,15 +134,8 @@ fn a_number_out_of_its_range_is_refused_by_its_name() {
 fn a_cause_beyond_those_of_release_2_is_read_as_release_1_tells_it() {
     let bits = to_bits(&d1());
     assert_eq!(&bits[CAUSE..CAUSE + 8], format!("{:08b}", 97));
-    let with_cause = |cause: u8| {
-        from_bits(&format!(
-            "{}{cause:08b}{}",
-            &bits[..CAUSE],
-            &bits[CAUSE + 8..]
-        ))
-    };
     for cause in [128, 129, 255] {
-        let octets = with_cause(cause);
+        let octets = with_bits(CAUSE..CAUSE + 8, &format!("{cause:08b}"));
         let received = read(&octets).unwrap().message;
         let event = received.denm.situation.as_ref().unwrap();
         assert_eq!(event.event_type.cause_code, cause);

@@ -4,13 +4,11 @@
 use std::fmt::Debug;
 
 use crate::support::core::{Random, mutate, octets_of};
-use crate::support::{arbitrary, from_bits, samples, to_bits};
-use crossguard_codec::Identifiers;
+use crate::support::{arbitrary, from_bits, to_bits};
 use crossguard_codec::asn1;
 use crossguard_codec::asn1::cdd as reference;
 use crossguard_codec::core::{Fault, Source, Uper, cdd, decode};
 use proptest::prelude::*;
-use rasn::types::FixedBitString;
 
 /// The octets of a value of the core are a value of the reference, with the same octets: its decoder
 /// encodes again and compares.
@@ -120,45 +118,6 @@ const CASES: u32 = 64;
 mod every_type {
     use super::{CASES, ProptestConfig, agree, proptest};
     crate::for_all_types!(agreement);
-}
-
-// Values, component by component, where equal octets might hide that two names are swapped.
-
-#[test]
-fn a_value_means_the_same_to_both() {
-    let identifiers = Identifiers::default();
-    let of_core = samples::largest_ram(&identifiers);
-    let of_reference = asn1::ram::RAM::try_from(&of_core).unwrap();
-    let (core, rasn) = (of_core.ram.ram_parameters, of_reference.ram.ram_parameters);
-    let (core, rasn) = (
-        core.basic_container.reference_position,
-        rasn.basic_container.reference_position,
-    );
-    assert_eq!(core.latitude.get(), rasn.latitude.0);
-    assert_eq!(core.longitude.get(), rasn.longitude.0);
-    let (core, rasn) = (
-        core.position_confidence_ellipse,
-        rasn.position_confidence_ellipse,
-    );
-    assert_eq!(
-        core.semi_major_axis_length.get(),
-        rasn.semi_major_axis_length.0
-    );
-    assert_eq!(
-        core.semi_minor_axis_length.get(),
-        rasn.semi_minor_axis_length.0
-    );
-}
-
-#[test]
-fn bit_n_of_a_set_is_bit_n_of_the_string() {
-    for bit in 0..8 {
-        let mut string = FixedBitString::<8>::ZERO;
-        string.set(bit, true);
-        let octets = asn1::encode(&reference::ExteriorLights(string)).unwrap();
-        let (lights, _) = decode::<cdd::ExteriorLights>(&octets).unwrap();
-        assert_eq!(lights.bits(), 1 << bit);
-    }
 }
 
 // The known differences. All are rules that the encoding does not show, and that hold in a RAM.

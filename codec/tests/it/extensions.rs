@@ -78,15 +78,6 @@ fn unknown_additions_are_skipped_wherever_they_are() {
 }
 
 #[test]
-fn an_addition_of_more_than_127_octets_is_skipped() {
-    let bits = bits();
-    let octets = "10100101".repeat(300);
-    let long = format!("0000000 1 10 {:014b} {octets}", 300);
-    let extended = extend(&bits, PARAMETERS_MARKER, bits.len(), &long);
-    assert_eq!(decode_bits(&extended).unwrap().extended, 1);
-}
-
-#[test]
 fn additions_that_are_announced_and_missing_are_refused() {
     let bits = bits();
     let extended = |additions| extend(&bits, PARAMETERS_MARKER, bits.len(), additions);

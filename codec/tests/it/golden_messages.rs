@@ -3,7 +3,7 @@
 //! asn1c, asn1tools and pycrate have compiled the modules and made the same octets of them. After a
 //! deliberate change, `cargo xtask bless messages.json` writes the file.
 
-use crate::support::{blessed, from_hex, samples, to_hex};
+use crate::support::{blessed, samples, to_hex};
 use crossguard_codec::{Identifiers, Message};
 use serde::{Deserialize, Serialize};
 
@@ -29,31 +29,15 @@ fn golden() -> Vec<Golden> {
 }
 
 #[test]
-fn the_samples_are_the_golden_messages() {
-    let samples = samples::golden(&Identifiers::default());
-    let golden = golden();
+fn the_samples_are_the_golden_messages_and_have_their_octets() {
+    let identifiers = Identifiers::default();
+    let (samples, golden) = (samples::golden(&identifiers), golden());
     assert_eq!(golden.len(), samples.len());
     for (golden, (name, sample)) in golden.iter().zip(&samples) {
-        assert_eq!(&golden.name, name);
-        assert_eq!(&golden.message, sample, "{name}");
-    }
-}
-
-#[test]
-fn every_golden_message_has_its_octets() {
-    let identifiers = Identifiers::default();
-    for Golden {
-        name,
-        octets,
-        message,
-    } in golden()
-    {
-        assert_eq!(
-            to_hex(&message.encode(&identifiers).unwrap()),
-            octets,
-            "{name}"
-        );
-        let received = Message::decode(&identifiers, &from_hex(&octets)).unwrap();
-        assert_eq!(received.message, message, "{name}");
+        assert_eq!((&golden.name[..], &golden.message), (*name, sample));
+        let octets = sample.encode(&identifiers).unwrap();
+        assert_eq!(to_hex(&octets), golden.octets, "{name}");
+        let received = Message::decode(&identifiers, &octets).unwrap();
+        assert_eq!(received.message, *sample, "{name}");
     }
 }

@@ -6,10 +6,10 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::support::reference::Reference;
-use crate::support::{arbitrary, flipped, from_hex, its_vectors, on, to_hex};
+use crate::support::core::{Random, octets_of};
+use crate::support::{arbitrary, flipped, from_hex, its_vectors, on, samples, to_hex};
 use crossguard_codec::asn1::denm::DENM;
-use crossguard_codec::asn1::rmcm;
+use crossguard_codec::core::{Uper, ram::RAM, rmcm::RMCM};
 use crossguard_codec::its::ItsMessage;
 use crossguard_codec::{Dictionary, Identifiers, encode};
 
@@ -19,17 +19,23 @@ const MESSAGES: u64 = 2_000;
 /// Any RAM and RMCM, each as type and octets.
 fn of_robots() -> Vec<(&'static str, Vec<u8>)> {
     let identifiers = Identifiers::default();
-    (0..MESSAGES)
-        .flat_map(|seed| {
-            let ram = arbitrary::ram(&identifiers, seed).to_message().unwrap();
-            let rmcm = arbitrary::message::<rmcm::RMCM>(&identifiers, seed);
-            let rmcm = rmcm.to_message().unwrap();
-            [
-                ("RAM", encode(&identifiers, &ram).unwrap()),
-                ("RMCM", encode(&identifiers, &rmcm).unwrap()),
-            ]
-        })
-        .collect()
+    let [ram, rmcm] = [
+        samples::typical_ram(&identifiers).header,
+        samples::typical_rmcm(&identifiers).header,
+    ];
+    let messages = (0..MESSAGES).flat_map(|seed| {
+        let random = &mut Random(seed);
+        let ram = RAM {
+            header: ram,
+            ..Uper::arbitrary(random)
+        };
+        let rmcm = RMCM {
+            header: rmcm,
+            ..Uper::arbitrary(random)
+        };
+        [("RAM", octets_of(&ram)), ("RMCM", octets_of(&rmcm))]
+    });
+    messages.collect()
 }
 
 /// Any DENM that fits into a packet.

@@ -11,7 +11,6 @@ mod generated;
 mod geonet;
 mod golden_its;
 mod golden_messages;
-mod golden_vam;
 mod heard;
 mod json;
 mod judges;

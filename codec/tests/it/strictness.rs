@@ -2,10 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::support::{flips, from_bits, samples, to_bits};
-use crossguard_codec::{
-    DecodeError, Fault, Identifiers, MESSAGE_LEN_MAX, Message, core, decode, encode,
-};
+use crate::support::{flips, samples};
+use crossguard_codec::{DecodeError, Identifiers, MESSAGE_LEN_MAX, Message, core, decode, encode};
 
 fn identifiers() -> Identifiers {
     Identifiers::default()
@@ -40,62 +38,6 @@ fn what_is_wrong_is_named_with_its_field() {
             "{error}\nis not among\n{errors:#?}"
         );
     }
-}
-
-#[test]
-fn a_number_is_refused_from_the_first_one_beyond_its_range() {
-    let bits = to_bits(&typical());
-    // Behind header, generation time, extension and presence bits, and the station type.
-    let (start, width) = (64 + 5 + 1 + 8, 31);
-    let with_latitude = |number: i32| {
-        let offset = u32::try_from(number + 900_000_000).unwrap();
-        let (before, after) = (&bits[..start], &bits[start + width..]);
-        decode::<core::ram::RAM>(
-            &identifiers(),
-            &from_bits(&format!("{before}{offset:031b}{after}")),
-        )
-    };
-    assert!(with_latitude(900_000_001).is_ok());
-    let error = with_latitude(900_000_002).unwrap_err();
-    let DecodeError::Malformed { field, bit, fault } = error else {
-        panic!("{error}");
-    };
-    assert_eq!((field.names().last(), bit), (Some("latitude"), start));
-    let (min, max) = (-900_000_000, 900_000_001);
-    assert_eq!(
-        fault,
-        Fault::Value {
-            number: 900_000_002,
-            min,
-            max
-        }
-    );
-}
-
-#[test]
-fn a_component_that_spells_out_its_default_is_refused() {
-    // The altitude of a target is "unavailable" by default. With 8000 m it is spelled out ...
-    let mut parameters = samples::parameters();
-    parameters.target = Some(crossguard_codec::Target::Position {
-        latitude: 48.0,
-        longitude: 9.0,
-        altitude: Some(8_000.0),
-    });
-    let commands = [(samples::command(), parameters)];
-    let position = samples::position();
-    let rmcm = crossguard_codec::rmcm_from_commands(&identifiers(), &position, &commands, 0);
-    let octets = encode(&identifiers(), &rmcm.unwrap()).unwrap();
-    // ... as 800000, and the next number is 800001, unavailable.
-    let bits = to_bits(&octets);
-    let (altitude, unavailable) = (format!("{:020b}", 900_000), format!("{:020b}", 900_001));
-    assert_eq!(bits.matches(&altitude).count(), 1);
-    let octets = from_bits(&bits.replace(&altitude, &unavailable));
-    let error = decode::<core::rmcm::RMCM>(&identifiers(), &octets).unwrap_err();
-    let DecodeError::Malformed { field, fault, .. } = error else {
-        panic!("{error}");
-    };
-    assert_eq!(fault, Fault::DefaultSpelledOut);
-    assert_eq!(field.names().last(), Some("altitude"));
 }
 
 #[test]

@@ -1,37 +1,34 @@
-//! What the protocol says arrives as it was said, and nothing contradictory arrives.
+//! Nothing contradictory is said or understood, and each contradiction has its name. That everything else arrives as it
+//! was said is what the laws of the mapping say, in `view_laws.rs`.
 
-use crate::support::{samples, views};
-use crossguard_codec::core::common;
+use crate::support::samples;
 use crossguard_codec::core::ram::{
     CommandProgress, ConfirmedFollowers, CrossingNumber, CrossingReference, HelpStatus, LeaderRole,
     RAM, SessionRole,
 };
 use crossguard_codec::core::rmcm::{ManeuverCommands, ManeuverContainer, RMCM};
 use crossguard_codec::{
-    ExecutionStatus, Identifiers, MapPlace, Target, TaskParameters, TaskProgression, ViewError,
-    decode, encode, execution_of, ram_from, rmcm_from_answer, rmcm_from_commands,
-    task_parameters_of, view_of_ram, views_of_rmcm,
+    Identifiers, MapPlace, Target, TaskParameters, TaskProgression, ViewError, ram_from,
+    rmcm_from_commands, task_parameters_of, view_of_ram, views_of_rmcm,
 };
 use crossguard_protocol::{
-    Availability, Command, Coordination, Failure, Farewell, Heartbeat, Millis, OfferNumber, Place,
-    Progress, Ram, RequestId, SessionId, StationId,
+    Availability, Command, Confirmation, Coordination, Failure, Farewell, Heartbeat, HelpRequest,
+    Millis, OfferNumber, Place, Progress, Ram, SessionId, StationId, TaskSet, Urgency,
 };
 
-fn identifiers() -> Identifiers {
-    Identifiers::default()
-}
-
-/// The message as a receiver has it.
-fn over_the_air<M: crossguard_codec::Pdu>(message: &M) -> M {
-    let octets = encode(&identifiers(), message).expect("what is mapped can be encoded");
-    decode(&identifiers(), &octets)
-        .expect("what is encoded can be decoded")
-        .message
-}
+const LEADER: StationId = samples::LEADER;
+const FOLLOWER: StationId = samples::FOLLOWER;
 
 fn ram(view: &Ram) -> Result<RAM, ViewError> {
-    let available = Availability::Available;
-    ram_from(&identifiers(), &samples::state(), view, available, 0, false)
+    let (ids, available) = (Identifiers::default(), Availability::Available);
+    ram_from(&ids, &samples::state(), view, available, 0, false)
+}
+
+/// Commands of one message.
+type Commands = [(Command, TaskParameters)];
+
+fn rmcm(commands: &Commands) -> Result<RMCM, ViewError> {
+    rmcm_from_commands(&Identifiers::default(), &samples::position(), commands, 0)
 }
 
 /// What a robot says with this part in a session.
@@ -44,174 +41,11 @@ fn says(station: StationId, coordination: Coordination) -> Ram {
     }
 }
 
-fn leader_role(ram: &mut RAM) -> &mut LeaderRole {
-    let operation = ram
-        .ram
-        .ram_parameters
-        .robot_leader_follower_operation_container
-        .as_mut();
-    let Some(SessionRole::Leader(role)) = operation.and_then(|o| o.role.as_mut()) else {
-        panic!("not a leader");
-    };
-    role
-}
-
-#[test]
-fn what_a_robot_says_of_itself_is_said_by_no_other() {
-    let sent = ram(&samples::follower_view()).unwrap();
-    assert_eq!(view_of_ram(&sent), Ok(samples::follower_view()));
-
-    // The same octets with another sender, who then follows itself.
-    let mut forged = sent;
-    forged.header.station_id.0 = samples::LEADER.0;
-    assert_eq!(
-        view_of_ram(&forged),
-        Err(ViewError::OwnSession(samples::LEADER))
-    );
-}
-
-#[test]
-fn nobody_leads_the_session_of_another() {
-    let identifiers = identifiers();
-    let mut forged = samples::largest_ram(&identifiers);
-    assert!(view_of_ram(&forged).is_ok());
-    forged.header.station_id.0 = 5;
-    let error = ViewError::NotOwnSession {
-        sender: StationId(5),
-        session: samples::session(),
-    };
-    assert_eq!(view_of_ram(&forged), Err(error));
-
-    let mut forged = samples::typical_rmcm(&identifiers);
-    forged.header.station_id.0 = 5;
-    assert_eq!(views_of_rmcm(&forged), Err(error));
-}
-
-#[test]
-fn the_help_status_goes_with_the_role() {
-    let mut ram = ram(&samples::follower_view()).unwrap();
-    let status = &mut ram.ram.ram_parameters.robot_status_container;
-    status.help_status = HelpStatus::None;
-    let (found, expected) = (HelpStatus::None, HelpStatus::RoleConfirmed);
-    assert_eq!(
-        view_of_ram(&ram),
-        Err(ViewError::HelpStatus { found, expected })
-    );
-
-    ram.ram
-        .ram_parameters
-        .robot_leader_follower_operation_container = None;
-    assert_eq!(view_of_ram(&ram).unwrap().coordination, Coordination::None);
-}
-
-#[test]
-fn the_task_progression_goes_with_the_report() {
-    let mut ram = ram(&samples::follower_view()).unwrap();
-    assert_eq!(
-        ram.ram
-            .ram_parameters
-            .robot_status_container
-            .task_progression,
-        common::TaskProgression::Executing
-    );
-    samples::set_progress(&mut ram, CommandProgress::Completed(()));
-    let (found, expected) = (TaskProgression::Executing, TaskProgression::Completed);
-    assert_eq!(
-        view_of_ram(&ram),
-        Err(ViewError::TaskProgression { found, expected })
-    );
-}
-
-#[test]
-fn the_leaders_execution_limit_is_nothing_a_follower_can_report() {
-    let mut view = samples::failed_view();
-    let Coordination::Follower {
-        last: Some(report), ..
-    } = &mut view.coordination
-    else {
-        panic!("not a report");
-    };
-    report.progress = Progress::Failed(Failure::ExecutionLimit);
-    assert_eq!(ram(&view), Err(ViewError::ExecutionLimit));
-}
-
-#[test]
-fn a_leader_names_every_follower_once_and_not_itself() {
-    let view = view_of_ram(&samples::largest_ram(&identifiers())).unwrap();
-    let with_followers = |stations: &[u32]| {
-        let mut coordination = view.coordination;
-        let Coordination::Leader { followers, .. } = &mut coordination else {
-            panic!("not a leader");
-        };
-        let offer = followers.iter().next().unwrap().offer;
-        let confirm = |&id: &u32| crossguard_protocol::Confirmation {
-            station: StationId(id),
-            offer,
-        };
-        *followers = stations.iter().map(confirm).collect();
-        ram(&Ram {
-            coordination,
-            ..view
-        })
-        .map(drop)
-    };
-    assert_eq!(with_followers(&[1, 2]), Ok(()));
-    assert_eq!(with_followers(&[]), Err(ViewError::NoFollowers));
-    assert_eq!(
-        with_followers(&[1, 2, 1]),
-        Err(ViewError::NamedTwice(StationId(1)))
-    );
-    let leader = samples::LEADER;
-    assert_eq!(
-        with_followers(&[1, leader.0]),
-        Err(ViewError::OwnFollower(leader))
-    );
-
-    // And a receiver says the same to one that does.
-    let mut forged = samples::largest_ram(&identifiers());
-    let role = leader_role(&mut forged);
-    let mut followers = role.followers.to_vec();
-    followers[1].station_id = followers[0].station_id;
-    role.followers = ConfirmedFollowers::new(&followers).unwrap();
-    assert_eq!(
-        view_of_ram(&forged),
-        Err(ViewError::NamedTwice(StationId(1)))
-    );
-}
-
-#[test]
-fn nobody_says_farewell_to_the_session_that_it_takes_part_in() {
-    let offer = OfferNumber(samples::number(9, 4));
-    let farewell = |session| Ram {
-        farewell: Some(Farewell::Left(session, offer)),
-        ..samples::follower_view()
-    };
-    let present = samples::session();
-    assert_eq!(
-        ram(&farewell(present)),
-        Err(ViewError::FarewellToPresent(present))
-    );
-    let own = SessionId {
-        leader: samples::FOLLOWER,
-        ..present
-    };
-    assert_eq!(
-        ram(&farewell(own)),
-        Err(ViewError::OwnSession(samples::FOLLOWER))
-    );
-    let past = SessionId {
-        leader: StationId(9),
-        ..present
-    };
-    assert!(ram(&farewell(past)).is_ok());
-}
-
-#[test]
-fn a_request_is_for_1_to_16_followers() {
-    let request = crossguard_protocol::HelpRequest {
-        urgency: crossguard_protocol::Urgency::High,
-        followers: 17,
-        tasks: crossguard_protocol::TaskSet(7),
+fn asks(followers: u8) -> Ram {
+    let request = HelpRequest {
+        urgency: Urgency::High,
+        followers,
+        tasks: TaskSet(7),
         place: Place::UNKNOWN,
     };
     let coordination = Coordination::NeedHelp {
@@ -219,117 +53,264 @@ fn a_request_is_for_1_to_16_followers() {
         heartbeat: Heartbeat(0),
         request,
     };
-    assert_eq!(
-        ram(&says(samples::LEADER, coordination)),
-        Err(ViewError::FollowerCount(17))
-    );
+    says(LEADER, coordination)
 }
 
-#[test]
-fn a_safety_timeout_is_from_1_ms_to_one_day() {
-    let offers = |t_safety| {
-        let coordination = Coordination::OfferHelp {
-            session: samples::session(),
-            offer: OfferNumber(samples::number(9, 4)),
-            capabilities: crossguard_protocol::TaskSet(7),
-            echo: Heartbeat(u16::MAX),
-            t_safety,
-        };
-        let view = says(samples::FOLLOWER, coordination);
-        ram(&view).map(|ram| assert_eq!(view_of_ram(&over_the_air(&ram)), Ok(view)))
+fn offer() -> OfferNumber {
+    OfferNumber(samples::number(9, 4))
+}
+
+fn offers(t_safety: Millis) -> Ram {
+    let coordination = Coordination::OfferHelp {
+        session: samples::session(),
+        offer: offer(),
+        capabilities: TaskSet(7),
+        echo: Heartbeat(u16::MAX),
+        t_safety,
     };
-    for told in [Millis(1), Millis(2_000), Millis::MAX_TIMER] {
-        assert_eq!(offers(told), Ok(()));
+    says(FOLLOWER, coordination)
+}
+
+fn leads(stations: &[u32], place: Place) -> Ram {
+    let confirm = |&id: &u32| Confirmation {
+        station: StationId(id),
+        offer: offer(),
+    };
+    let coordination = Coordination::Leader {
+        number: samples::session().number,
+        heartbeat: Heartbeat(1),
+        followers: stations.iter().map(confirm).collect(),
+        urgency: Urgency::Low,
+        place,
+        yields: false,
+    };
+    says(LEADER, coordination)
+}
+
+/// A follower that says that it has left a session of this leader.
+fn has_left(leader: StationId) -> Ram {
+    let session = SessionId {
+        leader,
+        ..samples::session()
+    };
+    Ram {
+        farewell: Some(Farewell::Left(session, offer())),
+        ..samples::follower_view()
     }
-    for untold in [Millis(0), Millis(Millis::MAX_TIMER.0 + 1)] {
-        assert_eq!(offers(untold), Err(ViewError::SafetyTimeout(untold)));
-    }
 }
 
 #[test]
-fn an_unknown_crossing_is_absent_and_never_spelled_out() {
-    let at = |place| {
-        let mut view = view_of_ram(&samples::largest_ram(&identifiers())).unwrap();
-        let Coordination::Leader { place: of_view, .. } = &mut view.coordination else {
-            panic!("not a leader");
-        };
-        *of_view = place;
-        let said = over_the_air(&ram(&view).unwrap());
-        assert_eq!(view_of_ram(&said), Ok(view));
-        said
-    };
-    let crossing = |regulator, intersection| {
-        Some(CrossingReference {
-            regulator: CrossingNumber(regulator),
-            intersection: CrossingNumber(intersection),
-        })
-    };
-    assert_eq!(
-        leader_role(&mut at(Place(1 << 16))).crossing,
-        crossing(1, 0)
-    );
-    assert_eq!(
-        leader_role(&mut at(Place(0xfffe))).crossing,
-        crossing(0, 0xfffe)
-    );
-    let mut forged = at(Place::UNKNOWN);
-    assert_eq!(leader_role(&mut forged).crossing, None);
-    // On the wire it can be spelled out, and that is refused.
-    leader_role(&mut forged).crossing = crossing(0, 0);
-    let error = view_of_ram(&over_the_air(&forged)).unwrap_err();
-    assert_eq!(
-        (error, error.cause()),
-        (ViewError::UnknownCrossing, "crossing 0:0")
-    );
-}
-
-#[test]
-fn a_duty_is_told_without_a_part_in_a_session() {
-    let view = Ram {
+fn what_contradicts_itself_is_not_said() {
+    let (followers, timeout) = (|of: &[u32]| leads(of, Place(1)), ViewError::SafetyTimeout);
+    let execution_limit = samples::progress_view(Progress::Failed(Failure::ExecutionLimit));
+    let on_duty = Ram {
         on_duty: true,
-        ..says(samples::FOLLOWER, Coordination::None)
+        ..says(FOLLOWER, Coordination::None)
     };
-    let said = over_the_air(&ram(&view).unwrap());
-    let parameters = &said.ram.ram_parameters;
-    assert_eq!(parameters.robot_leader_follower_operation_container, None);
-    assert_eq!(view_of_ram(&said), Ok(view));
+    let day = Millis::MAX_TIMER;
+    let longer = Millis(day.0 + 1);
+    for (name, view, expected) in [
+        ("a report", samples::follower_view(), Ok(())),
+        ("a duty without a part in a session", on_duty, Ok(())),
+        ("16 followers are asked for", asks(16), Ok(())),
+        ("17 of them", asks(17), Err(ViewError::FollowerCount(17))),
+        ("none of them", asks(0), Err(ViewError::FollowerCount(0))),
+        ("safety within 1 ms", offers(Millis(1)), Ok(())),
+        ("safety within a day", offers(day), Ok(())),
+        ("safety at once", offers(Millis(0)), Err(timeout(Millis(0)))),
+        ("safety later", offers(longer), Err(timeout(longer))),
+        ("two followers", followers(&[1, 2]), Ok(())),
+        ("no follower", followers(&[]), Err(ViewError::NoFollowers)),
+        (
+            "a follower twice",
+            followers(&[1, 2, 1]),
+            Err(ViewError::NamedTwice(StationId(1))),
+        ),
+        (
+            "a leader that follows itself",
+            followers(&[1, LEADER.0]),
+            Err(ViewError::OwnFollower(LEADER)),
+        ),
+        (
+            "farewell to another session",
+            has_left(StationId(9)),
+            Ok(()),
+        ),
+        (
+            "farewell to the present session",
+            has_left(LEADER),
+            Err(ViewError::FarewellToPresent(samples::session())),
+        ),
+        (
+            "an own session that was left",
+            has_left(FOLLOWER),
+            Err(ViewError::OwnSession(FOLLOWER)),
+        ),
+        (
+            "the leader's execution limit, in a report",
+            execution_limit,
+            Err(ViewError::ExecutionLimit),
+        ),
+    ] {
+        let said = ram(&view);
+        assert_eq!(said.map(drop), expected, "{name}");
+        let Ok(said) = said else { continue };
+        assert_eq!(view_of_ram(&said), Ok(view), "{name}");
+        let container = said
+            .ram
+            .ram_parameters
+            .robot_leader_follower_operation_container;
+        let is_part = view.coordination != Coordination::None || view.farewell.is_some();
+        assert_eq!(container.is_some(), is_part, "{name}");
+    }
+}
+
+fn leader_role(ram: &mut RAM) -> &mut LeaderRole {
+    let operation = &mut ram
+        .ram
+        .ram_parameters
+        .robot_leader_follower_operation_container;
+    match operation.as_mut().and_then(|it| it.role.as_mut()) {
+        Some(SessionRole::Leader(role)) => role,
+        other => panic!("{other:?} is no leader"),
+    }
+}
+
+fn crossing(regulator: u16, intersection: u16) -> Option<CrossingReference> {
+    Some(CrossingReference {
+        regulator: CrossingNumber(regulator),
+        intersection: CrossingNumber(intersection),
+    })
 }
 
 #[test]
-fn in_position_stands_in_report_and_status() {
-    let view = samples::progress_view(Progress::InPosition);
-    let mut said = ram(&view).unwrap();
-    let status = &said.ram.ram_parameters.robot_status_container;
-    assert_eq!(status.task_progression, common::TaskProgression::InPosition);
-    assert_eq!(view_of_ram(&over_the_air(&said)), Ok(view));
+fn a_forged_ram_is_refused() {
+    let progression = |found, expected| ViewError::TaskProgression { found, expected };
+    let cases: [(&str, Ram, fn(&mut RAM), ViewError); 7] = [
+        (
+            "a follower of itself",
+            samples::follower_view(),
+            |ram| ram.header.station_id.0 = LEADER.0,
+            ViewError::OwnSession(LEADER),
+        ),
+        (
+            "a leader of the session of another",
+            leads(&[1, 2], Place(1)),
+            |ram| ram.header.station_id.0 = 5,
+            ViewError::NotOwnSession {
+                sender: StationId(5),
+                session: samples::session(),
+            },
+        ),
+        (
+            "a follower that is named twice",
+            leads(&[1, 2], Place(1)),
+            |ram| {
+                let role = leader_role(ram);
+                let follower = role.followers[0];
+                role.followers = ConfirmedFollowers::new(&[follower; 2]).unwrap();
+            },
+            ViewError::NamedTwice(StationId(1)),
+        ),
+        (
+            "an unknown crossing that is spelled out",
+            leads(&[1, 2], Place::UNKNOWN),
+            |ram| leader_role(ram).crossing = crossing(0, 0),
+            ViewError::UnknownCrossing,
+        ),
+        (
+            "a role without its help status",
+            samples::follower_view(),
+            |ram| {
+                let status = &mut ram.ram.ram_parameters.robot_status_container;
+                status.help_status = HelpStatus::None;
+            },
+            ViewError::HelpStatus {
+                found: HelpStatus::None,
+                expected: HelpStatus::RoleConfirmed,
+            },
+        ),
+        (
+            "a task in execution that is reported as completed",
+            samples::follower_view(),
+            |ram| samples::set_progress(ram, CommandProgress::Completed(())),
+            progression(TaskProgression::Executing, TaskProgression::Completed),
+        ),
+        (
+            "a robot in position that is reported as on its way",
+            samples::progress_view(Progress::InPosition),
+            |ram| samples::set_progress(ram, CommandProgress::Executing(())),
+            progression(TaskProgression::InPosition, TaskProgression::Executing),
+        ),
+    ];
+    for (name, view, forge, expected) in cases {
+        let mut forged = ram(&view).expect(name);
+        forge(&mut forged);
+        assert_eq!(view_of_ram(&forged), Err(expected), "{name}");
+    }
+    assert_eq!(ViewError::UnknownCrossing.cause(), "crossing 0:0");
+}
 
-    samples::set_progress(&mut said, CommandProgress::Executing(()));
-    let (found, expected) = (TaskProgression::InPosition, TaskProgression::Executing);
-    assert_eq!(
-        view_of_ram(&said),
-        Err(ViewError::TaskProgression { found, expected })
-    );
+#[test]
+fn a_forged_rmcm_is_refused() {
+    let ids = Identifiers::default();
+    let cases: [(&str, RMCM, fn(&mut RMCM), ViewError); 3] = [
+        (
+            "a command in the session of another",
+            samples::typical_rmcm(&ids),
+            |rmcm| rmcm.header.station_id.0 = 5,
+            ViewError::NotOwnSession {
+                sender: StationId(5),
+                session: samples::session(),
+            },
+        ),
+        (
+            "a follower that is commanded twice",
+            samples::largest_rmcm(&ids),
+            |rmcm| {
+                let container = &mut rmcm.rmcm.rmcm_parameters.maneuver_container;
+                let ManeuverContainer::LeaderManeuverContainer(leader) = container else {
+                    panic!("not a leader");
+                };
+                let mut commands = leader.commands.to_vec();
+                commands[3].target_follower_station_id.0 = 2;
+                leader.commands = ManeuverCommands::new(&commands).unwrap();
+            },
+            ViewError::NamedTwice(StationId(2)),
+        ),
+        (
+            "an answer to itself",
+            samples::answer_rmcm(&ids),
+            |rmcm| rmcm.header.station_id.0 = LEADER.0,
+            ViewError::OwnSession(LEADER),
+        ),
+    ];
+    for (name, mut forged, forge, expected) in cases {
+        forge(&mut forged);
+        assert_eq!(views_of_rmcm(&forged), Err(expected), "{name}");
+    }
+}
+
+#[test]
+fn an_unknown_crossing_is_absent() {
+    for (place, expected) in [
+        (Place(1 << 16), crossing(1, 0)),
+        (Place(0xfffe), crossing(0, 0xfffe)),
+        (Place::UNKNOWN, None),
+    ] {
+        let mut said = ram(&leads(&[1], place)).unwrap();
+        assert_eq!(leader_role(&mut said).crossing, expected);
+    }
 }
 
 #[test]
 fn the_commands_of_a_message_belong_together() {
-    let rmcm = |commands: &[(Command, TaskParameters)]| {
-        rmcm_from_commands(&identifiers(), &samples::position(), commands, 0).map(drop)
-    };
     let parameters = samples::parameters();
     let first = samples::command();
     let other = |to| Command {
         to: StationId(to),
         ..first
     };
-    assert_eq!(rmcm(&[(first, parameters), (other(2), parameters)]), Ok(()));
-    assert_eq!(rmcm(&[]), Err(ViewError::CommandCount(0)));
-    let crowd: Vec<_> = (1..=17).map(|to| (other(to), parameters)).collect();
-    assert_eq!(rmcm(&crowd), Err(ViewError::CommandCount(17)));
-    let twice = [(first, parameters), (first, parameters)];
-    assert_eq!(rmcm(&twice), Err(ViewError::NamedTwice(first.to)));
-    let own = [(other(samples::LEADER.0), parameters)];
-    assert_eq!(rmcm(&own), Err(ViewError::OwnFollower(samples::LEADER)));
     let session = SessionId {
         leader: StationId(9),
         ..first.session
@@ -339,74 +320,66 @@ fn the_commands_of_a_message_belong_together() {
         ..other(2)
     };
     let region = None;
-    let segment = |id| views::at(Some(MapPlace::RoadSegment { region, id }), parameters);
-    let places = [(first, segment(1)), (other(2), segment(2))];
-    assert_eq!(rmcm(&places), Err(ViewError::MapPlacesDiffer(StationId(2))));
-    let error = ViewError::SessionsDiffer(first.session, session);
-    assert_eq!(
-        rmcm(&[(first, parameters), (elsewhere, parameters)]),
-        Err(error)
-    );
-}
-
-#[test]
-fn a_message_that_commands_a_follower_twice_is_refused() {
-    let mut forged: RMCM = samples::largest_rmcm(&identifiers());
-    let container = &mut forged.rmcm.rmcm_parameters.maneuver_container;
-    let ManeuverContainer::LeaderManeuverContainer(leader) = container else {
-        panic!("not a leader");
+    let segment = |id| TaskParameters {
+        map_place: Some(MapPlace::RoadSegment { region, id }),
+        ..parameters
     };
-    let mut commands = leader.commands.to_vec();
-    commands[3].target_follower_station_id.0 = 2;
-    leader.commands = ManeuverCommands::new(&commands).unwrap();
-    assert_eq!(
-        views_of_rmcm(&forged),
-        Err(ViewError::NamedTwice(StationId(2)))
-    );
-}
-
-#[test]
-fn nobody_answers_itself() {
-    let mut forged = samples::answer_rmcm(&identifiers());
-    forged.header.station_id.0 = samples::LEADER.0;
-    assert_eq!(
-        views_of_rmcm(&forged),
-        Err(ViewError::OwnSession(samples::LEADER))
-    );
+    let crowd: Vec<_> = (1..=17).map(|to| (other(to), parameters)).collect();
+    let cases: [(&str, &Commands, Result<(), ViewError>); 7] = [
+        (
+            "two",
+            &[(first, parameters), (other(2), parameters)],
+            Ok(()),
+        ),
+        ("none", &[], Err(ViewError::CommandCount(0))),
+        ("too many", &crowd, Err(ViewError::CommandCount(17))),
+        (
+            "to one follower",
+            &[(first, parameters); 2],
+            Err(ViewError::NamedTwice(first.to)),
+        ),
+        (
+            "to the leader",
+            &[(other(LEADER.0), parameters)],
+            Err(ViewError::OwnFollower(LEADER)),
+        ),
+        (
+            "at two places",
+            &[(first, segment(1)), (other(2), segment(2))],
+            Err(ViewError::MapPlacesDiffer(StationId(2))),
+        ),
+        (
+            "in two sessions",
+            &[(first, parameters), (elsewhere, parameters)],
+            Err(ViewError::SessionsDiffer(first.session, session)),
+        ),
+    ];
+    for (name, commands, expected) in cases {
+        assert_eq!(rmcm(commands).map(drop), expected, "{name}");
+    }
 }
 
 #[test]
 fn a_target_that_cannot_be_expressed_is_not_left_out() {
-    let targets = [
-        Target::Position {
-            latitude: f64::NAN,
-            longitude: 9.0,
-            altitude: None,
-        },
-        Target::Position {
-            latitude: 48.0,
-            longitude: 190.0,
-            altitude: None,
-        },
-        Target::Offset {
-            latitude: 0.02,
-            longitude: 0.0,
-            altitude: None,
-        },
-        Target::Lane(15),
-    ];
-    for target in targets {
+    let altitude = None;
+    let position = |latitude, longitude| Target::Position {
+        latitude,
+        longitude,
+        altitude,
+    };
+    let offset = Target::Offset {
+        latitude: 0.02,
+        longitude: 0.0,
+        altitude,
+    };
+    let targets = [position(f64::NAN, 9.0), position(48.0, 190.0), offset];
+    for target in targets.into_iter().chain([Target::Lane(15)]) {
         let parameters = TaskParameters {
             target: Some(target),
             ..TaskParameters::default()
         };
-        let commands = [(samples::command(), parameters)];
-        let rmcm = rmcm_from_commands(&identifiers(), &samples::position(), &commands, 0);
-        assert_eq!(
-            rmcm,
-            Err(ViewError::Target(samples::FOLLOWER)),
-            "{target:?}"
-        );
+        let rmcm = rmcm(&[(samples::command(), parameters)]);
+        assert_eq!(rmcm, Err(ViewError::Target(FOLLOWER)), "{target:?}");
     }
 }
 
@@ -418,26 +391,7 @@ fn a_limit_that_is_no_number_is_no_limit() {
         minimum_pedestrian_distance: Some(f64::NAN),
         ..TaskParameters::default()
     };
-    let commands = [(samples::command(), parameters)];
-    let rmcm = rmcm_from_commands(&identifiers(), &samples::position(), &commands, 0);
-    let read = task_parameters_of(&rmcm.unwrap(), samples::FOLLOWER);
+    let rmcm = rmcm(&[(samples::command(), parameters)]).unwrap();
+    let read = task_parameters_of(&rmcm, FOLLOWER);
     assert_eq!(read, Some(TaskParameters::default()));
-}
-
-#[test]
-fn durations_saturate_at_one_day() {
-    let status = ExecutionStatus {
-        time_to_completion: Some(crossguard_protocol::Millis(u32::MAX)),
-        ..ExecutionStatus::default()
-    };
-    let answer = crossguard_protocol::Answer {
-        from: samples::FOLLOWER,
-        session: samples::session(),
-        request: RequestId(0),
-        verdict: crossguard_protocol::Verdict::Accepted,
-    };
-    let position = samples::position();
-    let rmcm = rmcm_from_answer(&identifiers(), &position, &answer, status, 0).unwrap();
-    let time = execution_of(&rmcm).unwrap().time_to_completion;
-    assert_eq!(time, Some(crossguard_protocol::Millis::MAX_TIMER));
 }

@@ -1,12 +1,13 @@
 //! The laws of the mapping, called with random input. Kani calls the same functions with all input.
 
 use crate::support::core::Random;
-use crate::support::views;
-use crossguard_codec::TaskParameters;
 use crossguard_codec::core::{Source, Uper, ram, rmcm};
 use crossguard_codec::view::laws;
+use crossguard_codec::{ExecutionStatus, MapPlace, TaskParameters, TaskProgression};
 use crossguard_protocol::laws::arbitrary;
-use crossguard_protocol::{Config, Coordination, MAX_FOLLOWERS, Millis, Role};
+use crossguard_protocol::{
+    Availability, Config, Coordination, MAX_FOLLOWERS, Millis, Role, Unavailability,
+};
 use proptest::prelude::*;
 
 /// Random numbers for the protocol's values, mostly values that make a whole of them.
@@ -61,12 +62,33 @@ fn rmcm_of(random: &mut Random) -> rmcm::RMCM {
     rmcm
 }
 
+fn availability(random: &mut Random) -> Availability {
+    let why = [
+        Unavailability::LowBattery,
+        Unavailability::Teleoperated,
+        Unavailability::EmergencyStop,
+        Unavailability::LocalFault,
+        Unavailability::NotSafe,
+    ];
+    let why = why.get(random.index(0, why.len())).copied();
+    why.map_or(Availability::Available, Availability::Unavailable)
+}
+
+fn place(random: &mut Random) -> MapPlace {
+    let region = random.flip().then_some(7);
+    if random.flip() {
+        MapPlace::RoadSegment { region, id: 12 }
+    } else {
+        MapPlace::Intersection { region, id: 12 }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(4_096))]
 
     #[test]
     fn rams_keep_the_view(seed: u64, kind in 0_u32..5) {
-        let availability = views::availability(&mut Random(!seed));
+        let availability = availability(&mut Random(!seed));
         let view = arbitrary::ram(&mut Hinted(Random(seed)), kind, true);
         laws::rams_keep_the_view(&view, availability);
     }
@@ -87,14 +109,15 @@ proptest! {
     #[test]
     fn commands_keep_the_view(seed: u64, count in 0..6_usize, same_session: bool, placed: bool) {
         let source = &mut Hinted(Random(seed));
-        let place = placed.then(|| views::place(&mut source.0));
+        let place = placed.then(|| place(&mut source.0));
         let commands: Vec<_> = (0..count).map(|_| arbitrary::command(source)).collect();
         let first = commands.first().copied();
         let told = |mut command: crossguard_protocol::Command| {
             if let Some(first) = first.filter(|_| same_session) {
                 command.session = first.session;
             }
-            (command, views::at(place, TaskParameters::default()))
+            let map_place = place;
+            (command, TaskParameters { map_place, ..TaskParameters::default() })
         };
         let commands: Vec<_> = commands.into_iter().map(told).collect();
         laws::commands_keep_the_view(&commands);
@@ -104,9 +127,9 @@ proptest! {
     fn answers_keep_the_view(seed: u64, time in prop::option::of(any::<u32>())) {
         let source = &mut Hinted(Random(seed));
         let answer = arbitrary::answer(source);
-        let mut status = views::execution(&mut source.0);
-        laws::answers_keep_the_view(&answer, status);
-        status.time_to_completion = time.map(Millis);
+        let progression = TaskProgression::arbitrary(&mut source.0);
+        let time_to_completion = time.map(Millis);
+        let status = ExecutionStatus { progression, time_to_completion };
         laws::answers_keep_the_view(&answer, status);
     }
 

@@ -91,12 +91,9 @@ fn what_nobody_would_take_is_not_issued() {
     let by_another = issue::ticket(&pki.authority, &key(77), holder, &ticket_terms());
     assert!(matches!(by_another, Err(IssueError::Rejected(_))));
     let powerless = Terms {
+        permissions: ticket_terms().permissions,
         issue_permissions: Vec::new(),
         ..root_terms()
-    };
-    let powerless = Terms {
-        permissions: ticket_terms().permissions,
-        ..powerless
     };
     assert!(matches!(
         issue::root(&key(1), &powerless),

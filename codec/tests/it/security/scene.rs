@@ -6,14 +6,11 @@ use crossguard_codec::{Identifiers, RobotState, Service, encode, ram_from};
 use crossguard_protocol::{Availability, Robot, StationId};
 
 use super::forge::{Envelope, Terms, issue_permissions, location, permissions};
-use super::pki::{NOW, NOW_S};
+use super::pki::{CAM, NOW, NOW_S, RAM, RMCM};
 
 /// ITS-AIDs.
-pub(crate) const CAM: u32 = 36;
 pub(crate) const DENM: u32 = 37;
 pub(crate) const VAM: u32 = 638;
-pub(crate) const RAM: u32 = 16_480;
-pub(crate) const RMCM: u32 = 16_481;
 pub(crate) const ALL: [u32; 5] = [CAM, DENM, VAM, RAM, RMCM];
 /// Where receiver and senders are, in 10^-7 degree, and a place on its other side.
 pub(crate) const HERE: (i32, i32) = (487_654_321, 91_234_567);

@@ -11,10 +11,10 @@ use serde_json::{Value, json};
 
 use super::forge::{Terms, opaque};
 use super::listed::vectors;
-use super::pki::{NOW, after_ms};
+use super::pki::{CAM, NOW, RAM, RMCM, after_ms};
 use super::scene::{
-    AUTHORITY, CAM, DENM, HERE, Heard, Pki, RAM, RECEIVER, RMCM, ROOT, SENDER, VAM, Vector,
-    Vectors, authority_terms, ego, envelope, identifiers, secured, terms,
+    AUTHORITY, DENM, HERE, Heard, Pki, RECEIVER, ROOT, SENDER, VAM, Vector, Vectors,
+    authority_terms, ego, envelope, identifiers, secured, terms,
 };
 use crate::support::{blessed, from_hex, to_hex};
 

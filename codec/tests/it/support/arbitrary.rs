@@ -1,33 +1,22 @@
 //! Arbitrary values of the generated types: a `rasn::Decoder` that makes its values up.
 //!
 //! Every value that it makes is valid by its ASN.1 type, with sizes and numbers before extension
-//! markers only. Rules beyond the types are [`lawful`]'s.
+//! markers only.
 
-use crossguard_codec::asn1::cdd::Shape;
-use crossguard_codec::asn1::ram::RAM;
 use crossguard_codec::core::Source as _;
-use crossguard_codec::{Identifiers, PATH_HISTORY_MAX, PATH_PREDICTION_MAX, Pdu};
+use crossguard_codec::{Identifiers, Pdu};
 use rasn::de::Error as _;
 use rasn::error::DecodeError;
 use rasn::types::{self, Constraints, Constructed, DecodeChoice, Enumerated, Tag, TagTree};
 use rasn::{Codec, Decode};
 
 use super::core::Random;
-use super::reference::Reference;
 
 type Result<T> = std::result::Result<T, DecodeError>;
 
-/// A message that `seed` stands for, with the header that `identifiers` give it.
-pub fn message<M: Reference>(identifiers: &Identifiers, seed: u64) -> M {
-    with_header(M::Message::expected_header(identifiers), seed)
-}
-
-/// The same of another station than a robot.
+/// A message of another station than a robot that `seed` stands for, with its header.
 pub fn foreign<M: Decode + Pdu>(seed: u64) -> M {
-    with_header(M::expected_header(&Identifiers::default()), seed)
-}
-
-fn with_header<M: Decode>((protocol_version, message_id): (u8, u8), seed: u64) -> M {
+    let (protocol_version, message_id) = M::expected_header(&Identifiers::default());
     // The first two numbers of a message are those of its header.
     let forced = vec![message_id.into(), protocol_version.into()];
     M::decode(&mut Imagination::new(seed, forced)).expect("every type is supported")
@@ -36,34 +25,6 @@ fn with_header<M: Decode>((protocol_version, message_id): (u8, u8), seed: u64) -
 /// A value of any type that `seed` stands for.
 pub fn any<T: Decode>(seed: u64) -> T {
     T::decode(&mut Imagination::new(seed, Vec::new())).expect("every type is supported")
-}
-
-/// The RAM that `seed` stands for, cut down to what the rules allow.
-pub fn ram(identifiers: &Identifiers, seed: u64) -> RAM {
-    lawful(message(identifiers, seed))
-}
-
-/// Cuts a RAM down to what the rules allow.
-pub fn lawful(mut ram: RAM) -> RAM {
-    let parameters = &mut ram.ram.ram_parameters;
-    if let Some(prediction) = &mut parameters.vru_motion_prediction_container {
-        if let Some(points) = &mut prediction.path_history {
-            points.0.truncate(PATH_HISTORY_MAX);
-        }
-        if let Some(points) = &mut prediction.path_prediction {
-            points.0.truncate(PATH_PREDICTION_MAX);
-        }
-    }
-    if let Some(cluster) = &mut parameters.vru_cluster_information_container {
-        let shape = &mut cluster.vru_cluster_information.cluster_bounding_box_shape;
-        if matches!(
-            shape,
-            Some(Shape::elliptical(_) | Shape::radial(_) | Shape::radialShapes(_))
-        ) {
-            *shape = None;
-        }
-    }
-    ram
 }
 
 struct Imagination {

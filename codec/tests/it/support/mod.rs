@@ -9,10 +9,8 @@ pub mod arbitrary;
 pub mod core;
 #[path = "../../../src/golden.rs"]
 pub mod golden;
-pub mod reference;
 pub mod samples;
 pub mod types;
-pub mod views;
 
 use std::path::Path;
 use std::sync::Mutex;

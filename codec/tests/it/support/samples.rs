@@ -3,10 +3,12 @@
 use crossguard_codec::core::cdd::{
     AltitudeConfidence, DeltaAltitude, PathPointPredicted, PathPredicted,
 };
-use crossguard_codec::core::ram::RAM;
+use crossguard_codec::core::ram::{
+    CommandProgress, CommandReport, RAM, RobotLeaderFollowerOperationContainer, SessionRole,
+};
 use crossguard_codec::core::rmcm::RMCM;
 use crossguard_codec::core::vam::VruMotionPredictionContainer;
-use crossguard_codec::core::{Source, Uper, common, ram};
+use crossguard_codec::core::{Source, Uper, common};
 use crossguard_codec::{
     Battery, Capabilities, ConfidenceEllipse, ControlMode, Dimensions, DriveDirection, Identifiers,
     JobRole, Lights, MapPlace, Measurement, Message, PATH_PREDICTION_MAX, PastPosition, Position,
@@ -14,10 +16,9 @@ use crossguard_codec::{
     TaskParameters, TaskProgression, ram_from, rmcm_from_answer, rmcm_from_commands,
 };
 use crossguard_protocol::{
-    Answer, Availability, Command, Confirmation, Coordination, Ending, Failure, Farewell,
-    Heartbeat, HelpRequest, Millis, OfferNumber, Place, Progress, Ram, Rejection, Report,
-    RequestId, SessionId, SessionNumber, StationId, TaskSet, TaskType, Unavailability,
-    UniqueNumber, Urgency, Verdict,
+    Answer, Availability, Command, Confirmation, Coordination, Ending, Farewell, Heartbeat,
+    HelpRequest, Millis, OfferNumber, Place, Progress, Ram, Rejection, Report, RequestId,
+    SessionId, SessionNumber, StationId, TaskSet, TaskType, UniqueNumber, Urgency, Verdict,
 };
 
 pub const LEADER: StationId = StationId(123_456_789);
@@ -114,13 +115,10 @@ pub fn follower_view() -> Ram {
 
 /// A follower with this progress of command 3.
 pub fn progress_view(progress: Progress) -> Ram {
-    reporting(Heartbeat(700), RequestId(3), progress)
-}
-
-fn reporting(echo: Heartbeat, request: RequestId, progress: Progress) -> Ram {
+    let request = RequestId(3);
     let coordination = Coordination::Follower {
         session: session(),
-        echo,
+        echo: Heartbeat(700),
         last: Some(Report { request, progress }),
     };
     Ram {
@@ -206,54 +204,32 @@ fn rmcm_of_verdict(
 
 /// A RAM with everything in it, every list full, and of every CHOICE the longest alternative.
 pub fn largest_ram(identifiers: &Identifiers) -> RAM {
-    let mut state = state();
-    state.curvature = Some(measurement(0.01, 0.01));
-    state.lateral_acceleration = Some(measurement(0.1, 0.1));
-    state.vertical_acceleration = Some(measurement(0.1, 0.1));
-    state.orientation = Some(measurement(180.0, 1.0));
-    let step = slow_state().path[0];
-    state.slow = Some(SlowState {
-        path: vec![step; 23],
-        ..slow_state()
-    });
-    let follower = |id| Confirmation {
-        station: StationId(id),
-        offer: OfferNumber(number(u16::MAX, u16::MAX)),
+    let header = typical_ram(identifiers).header;
+    let mut ram = RAM {
+        header,
+        ..highest()
     };
-    let coordination = Coordination::Leader {
-        number: session().number,
-        heartbeat: Heartbeat(u16::MAX),
-        followers: (1..16).chain([u32::MAX]).map(follower).collect(),
-        urgency: Urgency::Emergency,
-        place: Place(u32::MAX),
-        yields: true,
-    };
-    let other = SessionId {
-        leader: FOLLOWER,
-        ..session()
-    };
-    let farewell = Some(Farewell::Left(other, OfferNumber(number(5, 1))));
-    let view = Ram {
-        station: LEADER,
-        coordination,
-        farewell,
-        on_duty: true,
-    };
-    let unavailable = Availability::Unavailable(Unavailability::NotSafe);
-    let mut ram = ram_from(identifiers, &state, &view, unavailable, u16::MAX, true).unwrap();
     let parameters = &mut ram.ram.ram_parameters;
-    parameters.vru_cluster_information_container = Some(Uper::arbitrary(&mut Highest));
+    let operation = RobotLeaderFollowerOperationContainer {
+        role: Some(SessionRole::Leader(highest())),
+        ..highest()
+    };
+    parameters.robot_leader_follower_operation_container = Some(operation);
     // Whatever is not its default takes room.
     let point = PathPointPredicted {
         delta_altitude: DeltaAltitude::new(-12_700).unwrap(),
         altitude_confidence: AltitudeConfidence::OutOfRange,
-        ..Uper::arbitrary(&mut Highest)
+        ..highest()
     };
     parameters.vru_motion_prediction_container = Some(VruMotionPredictionContainer {
         path_prediction: PathPredicted::new(&[point; PATH_PREDICTION_MAX]),
-        ..Uper::arbitrary(&mut Highest)
+        ..highest()
     });
     ram
+}
+
+fn highest<T: Uper>() -> T {
+    T::arbitrary(&mut Highest)
 }
 
 /// Makes every number the highest, every list full, of every CHOICE the last alternative, and leaves nothing out.
@@ -263,12 +239,6 @@ impl Source for Highest {
     fn integer(&mut self, _: i64, high: i64) -> i64 {
         high
     }
-}
-
-/// The follower's RAM whose report is the longest.
-pub fn failed_view() -> Ram {
-    let failure = Failure::Unavailable(Unavailability::LowBattery);
-    reporting(Heartbeat(0), RequestId(255), Progress::Failed(failure))
 }
 
 /// An RMCM with everything in it.
@@ -407,18 +377,18 @@ fn golden_views() -> [(&'static str, Ram); 8] {
 }
 
 /// Changes the last command of a follower's RAM without changing its status.
-pub fn set_progress(ram: &mut RAM, progress: ram::CommandProgress) {
+pub fn set_progress(ram: &mut RAM, progress: CommandProgress) {
     let operation = ram
         .ram
         .ram_parameters
         .robot_leader_follower_operation_container
         .as_mut();
-    let Some(ram::SessionRole::Follower(follower)) =
+    let Some(SessionRole::Follower(follower)) =
         operation.and_then(|operation| operation.role.as_mut())
     else {
         panic!("not the RAM of a follower");
     };
-    follower.last_command = Some(ram::CommandReport {
+    follower.last_command = Some(CommandReport {
         request_id: common::RequestId(3),
         progress,
     });
