@@ -176,17 +176,20 @@ fn leader_role(ram: &mut RAM) -> &mut LeaderRole {
     }
 }
 
-fn crossing(regulator: u16, intersection: u16) -> Option<CrossingReference> {
-    Some(CrossingReference {
+fn crossing(regulator: u16, intersection: u16) -> CrossingReference {
+    CrossingReference {
         regulator: CrossingNumber(regulator),
         intersection: CrossingNumber(intersection),
-    })
+    }
 }
+
+/// A message with its name, what is changed in it, and the contradiction that this is.
+type Forged<S, M> = (&'static str, S, fn(&mut M), ViewError);
 
 #[test]
 fn a_forged_ram_is_refused() {
     let progression = |found, expected| ViewError::TaskProgression { found, expected };
-    let cases: [(&str, Ram, fn(&mut RAM), ViewError); 7] = [
+    let cases: [Forged<Ram, RAM>; 7] = [
         (
             "a follower of itself",
             samples::follower_view(),
@@ -215,7 +218,7 @@ fn a_forged_ram_is_refused() {
         (
             "an unknown crossing that is spelled out",
             leads(&[1, 2], Place::UNKNOWN),
-            |ram| leader_role(ram).crossing = crossing(0, 0),
+            |ram| leader_role(ram).crossing = Some(crossing(0, 0)),
             ViewError::UnknownCrossing,
         ),
         (
@@ -254,7 +257,7 @@ fn a_forged_ram_is_refused() {
 #[test]
 fn a_forged_rmcm_is_refused() {
     let ids = Identifiers::default();
-    let cases: [(&str, RMCM, fn(&mut RMCM), ViewError); 3] = [
+    let cases: [Forged<RMCM, RMCM>; 3] = [
         (
             "a command in the session of another",
             samples::typical_rmcm(&ids),
@@ -294,8 +297,8 @@ fn a_forged_rmcm_is_refused() {
 #[test]
 fn an_unknown_crossing_is_absent() {
     for (place, expected) in [
-        (Place(1 << 16), crossing(1, 0)),
-        (Place(0xfffe), crossing(0, 0xfffe)),
+        (Place(1 << 16), Some(crossing(1, 0))),
+        (Place(0xfffe), Some(crossing(0, 0xfffe))),
         (Place::UNKNOWN, None),
     ] {
         let mut said = ram(&leads(&[1], place)).unwrap();
