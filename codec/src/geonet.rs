@@ -251,15 +251,22 @@ impl TrafficClass {
 }
 
 impl Lifetime {
+    /// The bases in the order of their numbers in the basic header, with their milliseconds.
+    const BASES: [(LifetimeBase, u32); 4] = [
+        (LifetimeBase::FiftyMilliseconds, 50),
+        (LifetimeBase::OneSecond, 1_000),
+        (LifetimeBase::TenSeconds, 10_000),
+        (LifetimeBase::HundredSeconds, 100_000),
+    ];
+
     /// The smallest lifetime that is not shorter than this many milliseconds; saturates at 6300 s.
     #[must_use]
     pub const fn of_milliseconds(milliseconds: u32) -> Self {
-        let (base, unit) = match milliseconds {
-            0..=3_150 => (LifetimeBase::FiftyMilliseconds, 50),
-            3_151..=63_000 => (LifetimeBase::OneSecond, 1_000),
-            63_001..=630_000 => (LifetimeBase::TenSeconds, 10_000),
-            _ => (LifetimeBase::HundredSeconds, 100_000),
-        };
+        let mut index = 0;
+        while index < 3 && milliseconds > 63 * Self::BASES[index].1 {
+            index += 1;
+        }
+        let (base, unit) = Self::BASES[index];
         let multiplier = milliseconds.div_ceil(unit);
         #[expect(clippy::cast_possible_truncation, reason = "at most 63")]
         let multiplier = if multiplier < 63 {
@@ -273,12 +280,6 @@ impl Lifetime {
     /// The lifetime in milliseconds.
     #[must_use]
     pub const fn milliseconds(self) -> u32 {
-        let base = match self.base {
-            LifetimeBase::FiftyMilliseconds => 50,
-            LifetimeBase::OneSecond => 1_000,
-            LifetimeBase::TenSeconds => 10_000,
-            LifetimeBase::HundredSeconds => 100_000,
-        };
-        self.multiplier as u32 * base
+        self.multiplier as u32 * Self::BASES[self.base as usize].1
     }
 }

@@ -189,19 +189,9 @@ fn put(octets: &[u8], buffer: &mut [u8]) -> Result<usize, EncodeError> {
     Ok(octets.len())
 }
 
-/// The codec of messages that are one rasn type.
-macro_rules! by_rasn {
+/// What every message has beside its codec.
+macro_rules! pdu {
     ($message:ident, $name:literal, $header:expr) => {
-        impl Sealed for $message {
-            fn write(&self, buffer: &mut [u8]) -> Result<usize, EncodeError> {
-                put(&asn1::encode(self)?, buffer)
-            }
-
-            fn read(_: &Identifiers, octets: &[u8]) -> Result<Received<Self>, DecodeError> {
-                Ok(Received::of_another(asn1::decode(octets)?))
-            }
-        }
-
         impl Pdu for $message {
             const NAME: &'static str = $name;
             const LEN_MAX: usize = MESSAGE_LEN_MAX;
@@ -215,7 +205,25 @@ macro_rules! by_rasn {
     };
 }
 
+/// The codec of messages that are one rasn type.
+macro_rules! by_rasn {
+    ($message:ident, $name:literal, $header:expr) => {
+        impl Sealed for $message {
+            fn write(&self, buffer: &mut [u8]) -> Result<usize, EncodeError> {
+                put(&asn1::encode(self)?, buffer)
+            }
+
+            fn read(_: &Identifiers, octets: &[u8]) -> Result<Received<Self>, DecodeError> {
+                Ok(Received::of_another(asn1::decode(octets)?))
+            }
+        }
+
+        pdu!($message, $name, $header);
+    };
+}
+
 by_rasn!(CAM, "CAM", CAM_HEADER);
 by_rasn!(DENM, "DENM", DENM_HEADER);
 by_rasn!(VAM, "VAM", VAM_HEADER);
 by_rasn!(VAM211, "VAM", VAM_HEADER);
+pdu!(CPM, "CPM", CPM_HEADER);

@@ -10,16 +10,20 @@
 
 use crossguard_protocol::{Coordination, Farewell, Ram, Rmcm, StationId};
 
+use crate::named;
+
 /// Version of the bitmap of service specific permissions.
 pub const SSP_VERSION: u8 = 1;
 
-/// A part in a session that needs a permission.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub enum Part {
-    /// Asks for help, leads, commands: the first bit.
-    Lead,
-    /// Offers help, follows, answers: the second bit.
-    Help,
+named! {
+    /// A part in a session that needs a permission.
+    #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+    pub enum Part {
+        /// Asks for help, leads, commands: the first bit.
+        Lead = "lead",
+        /// Offers help, follows, answers: the second bit.
+        Help = "help",
+    }
 }
 
 impl Part {
@@ -52,15 +56,6 @@ impl Part {
                 Some(StationId(u32::from_be_bytes([*a, *b, *c, *d])))
             }
             _ => None,
-        }
-    }
-
-    /// What it is called in messages to people.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Lead => "lead",
-            Self::Help => "help",
         }
     }
 

@@ -7,7 +7,7 @@
 
 use super::{
     Address, Area, BASIC_LEN, BasicHeader, GeonetError, HEADERS_LEN_MAX, HeaderField, Headers,
-    Lifetime, LifetimeBase, LongPositionVector, NextHeader, Shape, TrafficClass, Transport,
+    Lifetime, LongPositionVector, NextHeader, Shape, TrafficClass, Transport,
 };
 
 /// Version 1, common header next.
@@ -335,25 +335,15 @@ impl Shape {
 
 impl Lifetime {
     const fn of_octet(octet: u8) -> Self {
-        let base = match octet & 0b11 {
-            0 => LifetimeBase::FiftyMilliseconds,
-            1 => LifetimeBase::OneSecond,
-            2 => LifetimeBase::TenSeconds,
-            _ => LifetimeBase::HundredSeconds,
-        };
-        let multiplier = octet >> 2;
-        Self { multiplier, base }
+        Self {
+            multiplier: octet >> 2,
+            base: Self::BASES[(octet & 0b11) as usize].0,
+        }
     }
 
     fn octet(self) -> Result<u8, GeonetError> {
         fitting(HeaderField::Lifetime, self.multiplier.into(), 6)?;
-        let base = match self.base {
-            LifetimeBase::FiftyMilliseconds => 0,
-            LifetimeBase::OneSecond => 1,
-            LifetimeBase::TenSeconds => 2,
-            LifetimeBase::HundredSeconds => 3,
-        };
-        Ok(self.multiplier << 2 | base)
+        Ok(self.multiplier << 2 | self.base as u8)
     }
 }
 

@@ -1,7 +1,5 @@
 //! What can be wrong with headers.
 
-use core::fmt;
-
 /// A field of the headers, or a group of fields that are read together.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
@@ -58,24 +56,18 @@ pub enum HeaderField {
     PortInfo,
 }
 
-impl fmt::Display for HeaderField {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Debug::fmt(self, f)
-    }
-}
-
 /// Why octets are not the headers of a packet, or headers have no octets.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum GeonetError {
     /// The packet ends within the field.
-    #[error("the packet ends within {field}")]
+    #[error("the packet ends within {field:?}")]
     Truncated {
         /// The field.
         field: HeaderField,
     },
     /// The field has a value that it cannot have, or that this crate does not know.
-    #[error("{field} is {found:#x}, which is not possible or not supported")]
+    #[error("{field:?} is {found:#x}, which is not possible or not supported")]
     Value {
         /// The field.
         field: HeaderField,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CPM_HEADER, core_header, put};
+use super::put;
 use crate::asn1::cdd211::PerceivedObjectContainer211;
 use crate::asn1::cpm::{
     CollectivePerceptionMessage, CpmContainerData, CpmContainerId, CpmPayload, ManagementContainer,
@@ -11,12 +11,10 @@ use crate::asn1::cpm::{
     WrappedCpmContainers,
 };
 use crate::asn1::{self, cdd};
-use crate::core::cdd::ItsPduHeader;
 use crate::error::{DecodeError, EncodeError};
 use crate::identifiers::{Dictionary, Identifiers};
+use crate::message::Received;
 use crate::message::sealed::Sealed;
-use crate::message::{Pdu, Received};
-use crate::size::MESSAGE_LEN_MAX;
 
 /// A collective perception message.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -144,16 +142,5 @@ impl Sealed for CPM {
             extended: 0,
             is_canonical,
         })
-    }
-}
-
-impl Pdu for CPM {
-    const NAME: &'static str = "CPM";
-    const LEN_MAX: usize = MESSAGE_LEN_MAX;
-    fn header(&self) -> ItsPduHeader {
-        core_header(&self.header)
-    }
-    fn expected_header(_: &Identifiers) -> (u8, u8) {
-        CPM_HEADER
     }
 }

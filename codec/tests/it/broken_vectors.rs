@@ -4,13 +4,14 @@
 
 use std::error::Error;
 
-use crate::support::{canonical, flips, from_hex, golden, its_vectors, without_reserved_bits};
+use crate::support::{
+    canonical, flips, from_hex, golden, its_vectors, samples, without_reserved_bits,
+};
 use crossguard_codec::geonet::Headers;
 use crossguard_codec::{DecodeError, Identifiers};
-use serde_json::Value;
 
 struct Vector {
-    name: String,
+    name: &'static str,
     octets: Vec<u8>,
     identifiers: Identifiers,
     is_packet: bool,
@@ -18,8 +19,8 @@ struct Vector {
 
 /// All vectors of `golden/`.
 fn vectors() -> Vec<Vector> {
-    let vector = |name: &str, identifiers, octets| Vector {
-        name: name.to_owned(),
+    let vector = |name, identifiers, octets| Vector {
+        name,
         octets,
         identifiers,
         is_packet: false,
@@ -30,16 +31,10 @@ fn vectors() -> Vec<Vector> {
         is_packet: name.starts_with('G'),
         ..vector(name, Identifiers::default(), from_hex(digits))
     });
-    let of_robots: Vec<Value> =
-        serde_json::from_str(include_str!("../golden/messages.json")).unwrap();
-    let of_robots = of_robots.iter().map(|golden| {
-        let text = |key: &str| golden[key].as_str().unwrap();
-        vector(
-            text("name"),
-            Identifiers::default(),
-            from_hex(text("octets")),
-        )
-    });
+    let ids = Identifiers::default();
+    let of_robots = samples::golden(&ids).into_iter();
+    let of_robots =
+        of_robots.map(|(name, message)| vector(name, ids, message.encode(&ids).unwrap()));
     of_others.chain(packets).chain(of_robots).collect()
 }
 
@@ -62,7 +57,7 @@ fn check(vector: &Vector, octets: &[u8]) -> Result<(), Box<dyn Error>> {
 fn all_vectors_are_there_and_whole() {
     let all = vectors();
     for vector in &all {
-        check(vector, &vector.octets).expect(&vector.name);
+        check(vector, &vector.octets).expect(vector.name);
     }
     // CAM 4, DENM 1, CPM 2, VAM 11 and 4 on the older dictionary; packets 2 and the messages in them;
     // RAM and RMCM 11.
@@ -97,7 +92,7 @@ fn every_flipped_bit_is_refused_or_comes_back() {
 #[test]
 fn every_truncation_is_refused() {
     for vector in vectors() {
-        let name = &vector.name;
+        let name = vector.name;
         for length in 0..vector.octets.len() {
             let error = check(&vector, &vector.octets[..length]).expect_err(name);
             let is_truncation = match error.downcast_ref::<DecodeError>() {
@@ -113,7 +108,7 @@ fn every_truncation_is_refused() {
 fn an_octet_behind_it_is_refused() {
     for vector in vectors() {
         let longer = [&vector.octets[..], &[0]].concat();
-        let error = check(&vector, &longer).expect_err(&vector.name);
+        let error = check(&vector, &longer).expect_err(vector.name);
         if !vector.is_packet {
             let expected = DecodeError::TrailingOctets { count: 1 };
             assert_eq!(error.downcast_ref(), Some(&expected), "{}", vector.name);
