@@ -10,6 +10,7 @@ use super::Options;
 const PORTS: std::ops::RangeInclusive<u16> = 47_401..=65_500;
 
 /// The first of so many free ports in a row, from the usual one on; that one where there are none.
+#[must_use]
 pub fn free_ports(robots: usize) -> u16 {
     let is_free = |port| UdpSocket::bind((Ipv4Addr::LOCALHOST, port)).is_ok();
     let mut starts = PORTS.step_by(robots.max(1));

@@ -130,7 +130,7 @@ impl Sensed<'_> {
     /// Calls `tell` with everything that the leader takes in, in order.
     pub(super) fn each(&self, mut tell: impl FnMut(Input<'_>)) {
         for (age, seen) in self.frames {
-            tell_frame(*age, seen, &mut tell);
+            tell_frame(*age, *seen, &mut tell);
         }
         if let Some(vehicle) = self.vehicle {
             tell(Input::Vehicle(vehicle, Millis::ZERO));
@@ -139,13 +139,13 @@ impl Sensed<'_> {
 
     /// Calls `tell` with what the follower sees.
     pub(super) fn now(&self, mut tell: impl FnMut(Input<'_>)) {
-        if let Some(seen) = &self.now {
+        if let Some(seen) = self.now {
             tell_frame(0, seen, &mut tell);
         }
     }
 }
 
-fn tell_frame(age: u8, seen: &Seen, tell: &mut impl FnMut(Input<'_>)) {
+fn tell_frame(age: u8, seen: Seen, tell: &mut impl FnMut(Input<'_>)) {
     let people = seen.iter().enumerate();
     let people = people.filter_map(|(number, it)| Some(sighting(number, (*it)?)));
     let sightings: Vec<_> = people.collect();
