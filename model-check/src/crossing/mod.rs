@@ -12,7 +12,8 @@
 //! carriageway under go alone, and are then on it for as long as they like, also beside the crossing. A vehicle, changes of
 //! ids, hangs, blindness and drifts are bounded for a run, and no run is as long as `T_lock` or `T_exec`; nothing else is
 //! bounded. In [`Watch::Guard`] the follower's machine is alone: what leads has none, and its application says anything at any
-//! time, as often as the [`Street`] allows. `truth` judges, and shares nothing with the machine. P4, about escorts, needs finer geometry and is not here.
+//! time, as often as the [`Street`] allows. `truth` judges, and shares nothing with the machine. P4, about escorts, needs finer
+//! geometry and is not here.
 
 mod rules;
 mod street;

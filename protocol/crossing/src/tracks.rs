@@ -8,9 +8,10 @@
 //! ```
 //!
 //! A track is a chain of observations that one body could have walked. An id of a source only helps to choose between
-//! tracks that are within reach; an id that jumps is somebody else. Another id continues the track of somebody who stands there,
-//! for trackers rename people; elsewhere it is somebody else, for one of two who stand beside each other may be missed. Tracks decide who waits. Whether the road is clear is decided
-//! by [`occupancy`](crate::occupancy) alone: tracks may delay that, and never bring it about.
+//! tracks that are within reach; an id that jumps is somebody else. Another id continues the track of somebody who stands
+//! there, for trackers rename people; elsewhere it is somebody else, for one of two who stand beside each other may be
+//! missed. Tracks decide who waits. Whether the road is clear is decided by [`occupancy`](crate::occupancy) alone: tracks
+//! may delay that, and never bring it about.
 //!
 //! A false call costs a few robots a moment. A missed person stands alone at the road, which costs more. A road user waits
 //! to cross when all of these rules hold:
