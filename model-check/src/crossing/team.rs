@@ -59,6 +59,13 @@ struct Turn<'a> {
     is_leader_deaf: bool,
 }
 
+impl Turn<'_> {
+    /// Whether a member has a crossing machine. What leads a guard that is on its own has none.
+    fn has_machine(&self, member: usize) -> bool {
+        member == FOLLOWER || self.rules.watch != Watch::Guard
+    }
+}
+
 impl Team {
     pub(super) fn new() -> Self {
         let member = |station| Member {
@@ -155,8 +162,7 @@ impl Team {
     }
 
     fn tell(&mut self, member: usize, input: Input<'_>, turn: &mut Turn<'_>) {
-        // An application that says anything has no machine.
-        if member == LEADER && turn.rules.watch == Watch::Guard {
+        if !turn.has_machine(member) {
             return;
         }
         let setup = &turn.rules.setups[member];
@@ -221,19 +227,17 @@ impl Team {
                     self.body.leave_task(true);
                     self.tell(member, Input::FellBack(maneuver, policy), turn);
                 }
-                // The sign of a leader whose application says anything shows what the protocol says.
+                // Without a machine, the sign shows what the protocol says.
                 Said::CorridorOpened(left) | Said::CorridorExtended(left)
-                    if turn.rules.watch == Watch::Guard =>
+                    if !turn.has_machine(member) =>
                 {
                     turn.sign.left = left.0;
                 }
+                Said::CorridorClosed(_) if !turn.has_machine(member) => turn.sign.left = 0,
                 Said::CorridorOpened(left) | Said::CorridorExtended(left) => {
                     self.tell(member, Input::CorridorOpen(left), turn);
                 }
-                Said::CorridorClosed(_) => {
-                    turn.sign.left = 0;
-                    self.tell(member, Input::CorridorClosed, turn);
-                }
+                Said::CorridorClosed(_) => self.tell(member, Input::CorridorClosed, turn),
                 Said::Notify(notice) => self.tell(member, Input::Notice(notice), turn),
                 _ => {}
             }
@@ -242,7 +246,7 @@ impl Team {
         if is_call && out.ignored().is_some() {
             self.tell(member, Input::CallIgnored, turn);
         }
-        if member == LEADER && turn.rules.watch == Watch::Guard {
+        if !turn.has_machine(member) {
             return;
         }
         let Member { robot, crossing } = &mut self.members[member];
