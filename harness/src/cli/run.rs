@@ -415,7 +415,7 @@ impl Console<'_> {
     }
 
     fn texts(&mut self, record: &Record) -> Vec<String> {
-        let mut texts: Vec<_> = self.drops.over(record.at_us).into_iter().collect();
+        let mut texts = self.drops.over(record.at_us);
         match &record.entry {
             Entry::Step {
                 input,

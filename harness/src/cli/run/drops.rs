@@ -5,9 +5,9 @@ use crossguard_endpoint::counters::CauseName;
 /// How long an instant is.
 const INSTANT_US: u64 = 100_000;
 
-/// The drop that was said last.
+/// The drops that were said last, one of each cause.
 #[derive(Default)]
-pub(super) struct Drops(Option<Said>);
+pub(super) struct Drops(Vec<Said>);
 
 struct Said {
     cause: CauseName,
@@ -19,19 +19,21 @@ struct Said {
 impl Drops {
     /// Whether a drop at this time is to be said: it is not the same thing again.
     pub(super) fn is_news(&mut self, at_us: u64, cause: &CauseName) -> bool {
-        if let Some(said) = self.0.as_mut().filter(|said| said.cause == *cause) {
+        if let Some(said) = self.0.iter_mut().find(|said| said.cause == *cause) {
             said.more += 1;
             return false;
         }
         let (cause, more) = (cause.clone(), 0);
-        self.0 = Some(Said { cause, at_us, more });
+        self.0.push(Said { cause, at_us, more });
         true
     }
 
-    /// What is to be said of an instant that is over by this time.
-    pub(super) fn over(&mut self, at_us: u64) -> Option<String> {
-        let said = self.0.take_if(|said| at_us >= said.at_us + INSTANT_US)?;
-        (said.more > 0).then(|| format!("dropped, {}: {} more", said.cause, said.more))
+    /// What is to be said of instants that are over by this time.
+    pub(super) fn over(&mut self, at_us: u64) -> Vec<String> {
+        let is_over = |said: &mut Said| at_us >= said.at_us + INSTANT_US;
+        let over = self.0.extract_if(.., is_over).filter(|said| said.more > 0);
+        over.map(|said| format!("dropped, {}: {} more", said.cause, said.more))
+            .collect()
     }
 }
 
@@ -47,15 +49,15 @@ mod tests {
         let said: Vec<_> = (0..28)
             .filter(|at_us| drops.is_news(*at_us, &late))
             .collect();
-        assert_eq!((said, drops.over(99_999)), (vec![0], None));
+        // Another cause in the same instant takes nothing away.
+        let other = Cause::InboxFull.into();
+        assert!(drops.is_news(28, &other));
+        assert_eq!((said, drops.over(99_999)), (vec![0], vec![]));
         let over = drops.over(100_000);
-        assert_eq!(
-            over.as_deref(),
-            Some("dropped, inbox: waited too long: 27 more")
-        );
+        assert_eq!(over, ["dropped, inbox: waited too long: 27 more"]);
         // One alone is not said again, and the next one is.
         assert!(drops.is_news(200_000, &late));
-        assert_eq!(drops.over(400_000), None);
+        assert_eq!(drops.over(400_000), [""; 0]);
         assert!(drops.is_news(400_000, &late));
     }
 }
