@@ -30,7 +30,7 @@ use crossguard_protocol::{Millis, Urgency};
 
 use crate::ground::{Point, Way};
 use crate::input::{RoadUser, Sighting};
-use crate::setup::{Setup, WaitingRules};
+use crate::setup::Setup;
 
 /// For how long an observation holds.
 pub const FRESH: Millis = Millis(1_000);
@@ -235,12 +235,8 @@ impl Track {
 
 /// How far somebody who stands may be from where they have stood.
 fn sway_cm(setup: &Setup) -> u32 {
-    let WaitingRules {
-        speed_max_cmps: pace,
-        dwell,
-        ..
-    } = setup.waiting;
-    u32::from(setup.sensors.error_cm) + u32::from(pace).saturating_mul(dwell.0) / 1_000
+    let (rules, error) = (&setup.waiting, u32::from(setup.sensors.error_cm));
+    error + u32::from(rules.speed_max_cmps).saturating_mul(rules.dwell.0) / 1_000
 }
 
 /// Whether somebody at a place who goes on like this is on the road soon.
