@@ -217,7 +217,7 @@ impl Watch {
             }
             Self::Both => "both robots take in the same frames at the same time",
             Self::Guard => {
-                "people count whom the guard saw on the road while it guarded: somebody who steps on it unseen while its leader ends the session is the leader's concern"
+                "P1 counts a person once the guard has seen them on the road while it guarded; a person who steps on the road unseen, while the leader ends the session, is not counted"
             }
         }
     }

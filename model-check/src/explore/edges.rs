@@ -94,7 +94,7 @@ impl Edges {
         self.classes.as_ref().map(set).unwrap_or_default()
     }
 
-    /// The successors of a state by transitions that are marked, or by those that are not; where no marks are kept, none is.
+    /// The successors of a state by its marked transitions, or by its other ones. Without marks that are kept, all are other ones.
     pub(super) fn targets_with_mark(
         &self,
         state: usize,
