@@ -147,19 +147,15 @@ mod tests {
 
     #[test]
     fn what_was_forgotten_is_not_new_when_the_clock_is_put_back() {
-        let terms = Terms {
-            name: None,
-            validity: Validity {
-                start: 0,
-                duration: Duration::years(1),
-            },
-            region: None,
-            permissions: vec![Permission {
-                its_aid: 16_480,
-                ssp: Ssp::Default,
-            }],
-            issue_permissions: Vec::new(),
+        let validity = Validity {
+            start: 0,
+            duration: Duration::years(1),
         };
+        let permission = Permission {
+            its_aid: 16_480,
+            ssp: Ssp::Default,
+        };
+        let terms = Terms::of_ticket(validity, vec![permission]);
         let key = PrivateKey::of_octets(&[1; 32]).unwrap();
         let issued = issue::certificate(Issuer::Itself, &[], &key, key.public_key(), &terms);
         let ticket = issued.unwrap();

@@ -29,6 +29,23 @@ pub struct Terms {
     pub permissions: Vec<Permission>,
     /// What certificates its holder may issue.
     pub issue_permissions: Vec<IssuePermission>,
+    /// The key to encrypt for its holder with, by ECIES and AES-128: authorities have one (TS 103 097, clause 7.2.4).
+    pub encryption_key: Option<PublicKey>,
+}
+
+impl Terms {
+    /// The terms of a pseudonym, which is valid everywhere.
+    #[must_use]
+    pub const fn of_ticket(validity: Validity, permissions: Vec<Permission>) -> Self {
+        Self {
+            name: None,
+            validity,
+            region: None,
+            permissions,
+            issue_permissions: Vec::new(),
+            encryption_key: None,
+        }
+    }
 }
 
 /// Why a certificate cannot be issued.
@@ -141,6 +158,7 @@ fn to_be_signed(
         region,
         permissions,
         issue_permissions,
+        encryption_key,
     } = terms;
     let permissions: Vec<_> = permissions.iter().map(permission).collect();
     let issue: Vec<_> = issue_permissions.iter().map(issue_permission).collect();
@@ -155,6 +173,10 @@ fn to_be_signed(
         .maybe_region(region.as_ref().map(region_of).transpose()?)
         .maybe_app_permissions(some(permissions).map(base::SequenceOfPsidSsp))
         .maybe_cert_issue_permissions(some(issue).map(dot2::SequenceOfPsidGroupPermissions))
+        .maybe_encryption_key(encryption_key.map(|key| base::PublicEncryptionKey {
+            supported_symm_alg: base::SymmAlgorithm::Aes128Ccm,
+            public_key: base::BasePublicEncryptionKey::EciesNistP256(point(key)),
+        }))
         .verify_key_indicator(dot2::VerificationKeyIndicator::VerificationKey(
             base::PublicVerificationKey::EcdsaNistP256(point(holder)),
         ))

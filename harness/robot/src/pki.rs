@@ -1,7 +1,7 @@
 //! A PKI for tests, in memory and in folders: a root, an authority, and pseudonyms.
 //!
 //! ```text
-//!  FOLDER/root.cert  root.key  authority.cert  authority.key
+//!  FOLDER/root.cert  root.key  authority.cert  authority.key  authority-encryption.key
 //!        /robots/NAME/root.cert  authority.cert
 //!                    /tickets/HASHEDID8.cert  HASHEDID8.key
 //! ```
@@ -18,8 +18,8 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use crossguard_codec::security::issue::{self, IssueError, Terms};
 use crossguard_codec::security::{
     Certificate, Duration, IssuePermission, Issuer, NoHashedId8, NoKey, Permission, PrivateKey,
-    Region, Rejected, SspRange, Subjects, Ticket, Time64, TrustStore, Unsigned, Untrusted,
-    Validity,
+    PublicKey, Region, Rejected, Ssp, SspRange, Subjects, Ticket, Time64, TrustStore, Unsigned,
+    Untrusted, Validity,
 };
 use crossguard_codec::si::timestamp_its;
 use crossguard_codec::{Identifiers, Part};
@@ -32,7 +32,9 @@ mod permissions;
 mod revoked;
 mod starts;
 
-pub use files::{certificates_in, folders_in, read_certificate, sync_folder, write_certificate};
+pub use files::{
+    certificates_in, folders_in, read_certificate, sync_folder, write_certificate, write_key,
+};
 pub use revoked::{REVOKED_LIST, RevokedList, add_revoked};
 
 pub use permissions::{its_aids, robot_permissions};
@@ -88,30 +90,35 @@ impl Term {
     }
 }
 
-/// The terms of somebody who issues for these services, with chains of this many certificates below.
-fn issuing(
-    name: &str,
-    term: Term,
-    region: Option<Region>,
-    its_aids: &[u32],
-    min_chain_length: i8,
-) -> Terms {
-    let these = its_aids.iter().map(|its_aid| (*its_aid, SspRange::All));
-    Terms {
-        name: Some(name.to_owned()),
-        validity: term.validity(),
-        region,
-        permissions: Vec::new(),
-        issue_permissions: vec![IssuePermission {
-            subjects: Subjects::These(these.collect()),
-            min_chain_length,
-            chain_length_range: 0,
-            for_applications: true,
-        }],
+/// The ITS-AIDs of what roots and authorities sign besides certificates, with the permissions that TS 102 941 v2.2.1,
+/// annex B, gives them: revocation lists; trust lists of authorities and distribution centres; requests for the
+/// validation of an authorization, and responses to requests for one.
+const REVOCATION_LIST: (u32, [u8; 1]) = (622, [1]);
+const TRUST_LIST: (u32, [u8; 2]) = (624, [1, 0x38]);
+const CERTIFICATE_REQUEST: (u32, [u8; 2]) = (623, [1, 0x30]);
+
+fn signs<const N: usize>((its_aid, bits): (u32, [u8; N])) -> Permission {
+    let ssp = Ssp::Bitmap(bits.to_vec());
+    Permission { its_aid, ssp }
+}
+
+/// A permission to issue for these services, with chains of this many certificates below.
+const fn issues(these: Vec<(u32, SspRange)>, min_chain_length: i8) -> IssuePermission {
+    IssuePermission {
+        subjects: Subjects::These(these),
+        min_chain_length,
+        chain_length_range: 0,
+        for_applications: true,
     }
 }
 
-/// A new root, which lets authorities issue pseudonyms for these services.
+/// All permissions of these services.
+fn all_of(its_aids: &[u32]) -> Vec<(u32, SspRange)> {
+    let these = its_aids.iter().map(|its_aid| (*its_aid, SspRange::All));
+    these.collect()
+}
+
+/// A new root, which lets authorities issue pseudonyms for these services (TS 103 097, clause 7.2.3).
 ///
 /// # Errors
 /// Why there can be none.
@@ -131,12 +138,29 @@ fn root_with(
     region: Option<Region>,
     its_aids: &[u32],
 ) -> Result<Holder, IssueError> {
-    let terms = issuing(name, term, region, its_aids, 2);
+    let (requests, [version, bits]) = CERTIFICATE_REQUEST;
+    let of_authorities = SspRange::Bitmap {
+        value: vec![version, bits],
+        mask: vec![0xff, !bits],
+    };
+    let terms = Terms {
+        name: Some(name.to_owned()),
+        region,
+        issue_permissions: vec![
+            issues(all_of(its_aids), 2),
+            issues(vec![(requests, of_authorities)], 1),
+        ],
+        ..Terms::of_ticket(
+            term.validity(),
+            vec![signs(REVOCATION_LIST), signs(TRUST_LIST)],
+        )
+    };
     let certificate = issue::root(&key, &terms)?;
     Ok(Holder { certificate, key })
 }
 
-/// A new authority below a root, which issues pseudonyms for these services.
+/// A new authority below a root, which issues pseudonyms for these services, and with whose `encryption` key requests
+/// can be encrypted for it (TS 103 097, clause 7.2.4).
 ///
 /// # Errors
 /// Why the root cannot have it.
@@ -146,20 +170,27 @@ pub fn new_authority(
     term: Term,
     region: Option<Region>,
     its_aids: &[u32],
+    encryption: PublicKey,
 ) -> Result<Holder, IssueError> {
-    let key = PrivateKey::generate();
-    authority_with(key, root, name, term, region, its_aids)
+    let keys = (PrivateKey::generate(), encryption);
+    authority_with(keys, root, name, term, region, its_aids)
 }
 
 fn authority_with(
-    key: PrivateKey,
+    (key, encryption): (PrivateKey, PublicKey),
     root: &Holder,
     name: &str,
     term: Term,
     region: Option<Region>,
     its_aids: &[u32],
 ) -> Result<Holder, IssueError> {
-    let terms = issuing(name, term, region, its_aids, 1);
+    let terms = Terms {
+        name: Some(name.to_owned()),
+        region,
+        issue_permissions: vec![issues(all_of(its_aids), 1)],
+        encryption_key: Some(encryption),
+        ..Terms::of_ticket(term.validity(), vec![signs(CERTIFICATE_REQUEST)])
+    };
     let certificate = issue::authority(&root.certificate, &root.key, key.public_key(), &terms)?;
     Ok(Holder { certificate, key })
 }
@@ -185,11 +216,8 @@ fn ticket_with(
     permissions: Vec<Permission>,
 ) -> Result<Holder, IssueError> {
     let terms = Terms {
-        name: None,
-        validity: term.validity(),
         region,
-        permissions,
-        issue_permissions: Vec::new(),
+        ..Terms::of_ticket(term.validity(), permissions)
     };
     let holder = key.public_key();
     let certificate = issue::ticket(&authority.certificate, &authority.key, holder, &terms)?;
@@ -222,7 +250,9 @@ impl Pki {
         let its_aids = its_aids(identifiers);
         let root = root_with(keys(), "test root", term, None, &its_aids)?;
         let name = "test authority";
-        let authority = authority_with(keys(), &root, name, term, None, &its_aids)?;
+        // Nobody sends it requests, so nobody needs the private half of the other one.
+        let keys = (keys(), keys().public_key());
+        let authority = authority_with(keys, &root, name, term, None, &its_aids)?;
         Ok(Self { root, authority })
     }
 

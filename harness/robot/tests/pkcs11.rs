@@ -83,18 +83,17 @@ fn a_key_in_a_token_signs_and_does_not_leave_it() {
     assert!(said.contains("1 passed"), "{said}");
 }
 
+fn valid_for(duration: Duration) -> Validity {
+    Validity {
+        start: NOW_S,
+        duration,
+    }
+}
+
 /// A ticket for the holder of a public key.
 fn ticket(pki: &Pki, key: impl SigningKey + 'static) -> Result<Ticket, Unsigned> {
-    let terms = Terms {
-        name: None,
-        validity: Validity {
-            start: NOW_S,
-            duration: Duration::hours(1),
-        },
-        region: None,
-        permissions: pki::robot_permissions(&Identifiers::default(), &[Part::Help], None),
-        issue_permissions: Vec::new(),
-    };
+    let permissions = pki::robot_permissions(&Identifiers::default(), &[Part::Help], None);
+    let terms = Terms::of_ticket(valid_for(Duration::hours(1)), permissions);
     let (authority, holder) = (&pki.authority, key.public_key());
     let certificate = issue::ticket(&authority.certificate, &authority.key, holder, &terms);
     Ticket::new(certificate.unwrap(), key)
@@ -136,13 +135,8 @@ fn inside() {
     let of_root = token.key("root").unwrap();
     let terms = Terms {
         name: Some("root in a token".to_owned()),
-        validity: Validity {
-            start: NOW_S,
-            duration: Duration::years(1),
-        },
         issue_permissions: pki.root.certificate.content().issue_permissions.clone(),
-        region: None,
-        permissions: Vec::new(),
+        ..Terms::of_ticket(valid_for(Duration::years(1)), Vec::new())
     };
     issue::root(&of_root, &terms).unwrap();
 

@@ -5,7 +5,7 @@ mod shown;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use crossguard_codec::security::{Certificate, Duration, Permission, Time64};
+use crossguard_codec::security::{Certificate, Duration, Permission, PrivateKey, Time64};
 use crossguard_codec::{Identifiers, Part};
 use crossguard_protocol::StationId;
 use crossguard_robot::pki::{self, Holder, PkiError, Term};
@@ -191,6 +191,7 @@ fn init(folder: &Path, robots: &[Named], pseudonyms: &Pseudonyms) -> Result<Vec<
         "root.key",
         "authority.cert",
         "authority.key",
+        "authority-encryption.key",
         "robots",
     ];
     if let Some(taken) = taken
@@ -236,8 +237,11 @@ fn init_in(
     let its_aids = pki::its_aids(&Identifiers::default());
     let root = pki::new_root("test root", term(10), None, &its_aids).map_err(Failure::input)?;
     let below = within(term(3), &root.certificate);
-    let authority = pki::new_authority(&root, "test authority", below, None, &its_aids);
+    let encryption = PrivateKey::generate();
+    let public = encryption.public_key();
+    let authority = pki::new_authority(&root, "test authority", below, None, &its_aids, public);
     let authority = authority.map_err(Failure::input)?;
+    pki::write_key(&encryption, folder, "authority-encryption").map_err(Failure::input)?;
     let mut files = vec![
         write(&root, folder, "root")?,
         write(&authority, folder, "authority")?,

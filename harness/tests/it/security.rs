@@ -90,19 +90,11 @@ fn expired(pki: &Pki) -> Vec<u8> {
     let now = pki::now();
     let start = u32::try_from(now.0 / 1_000_000).unwrap() - 30;
     let age_ms = now.0 / 1_000 - u64::from(start) * 1_000;
-    let terms = issue::Terms {
-        name: None,
-        validity: Validity {
-            start,
-            duration: Duration {
-                number: u16::try_from(age_ms).unwrap() - 20,
-                unit: Unit::Milliseconds,
-            },
-        },
-        region: None,
-        permissions: both_parts(),
-        issue_permissions: Vec::new(),
+    let duration = Duration {
+        number: u16::try_from(age_ms).unwrap() - 20,
+        unit: Unit::Milliseconds,
     };
+    let terms = issue::Terms::of_ticket(Validity { start, duration }, both_parts());
     let key = PrivateKey::generate();
     let authority = &pki.authority;
     let holder = key.public_key();

@@ -141,22 +141,21 @@ fn bitmap(its_aid: u32, bits: &[u8]) -> Permission {
     }
 }
 
-fn ticket_terms() -> Terms {
-    Terms {
-        name: None,
-        validity: Validity {
-            start: 694_690_801,
-            duration: Duration::hours(168),
-        },
-        region: None,
-        permissions: vec![
-            bitmap(CAM, &[1, 0, 0]),
-            bitmap(638, &[1]),
-            bitmap(16_480, &[1]),
-            bitmap(16_481, &[1]),
-        ],
-        issue_permissions: Vec::new(),
+fn valid_for(duration: Duration) -> Validity {
+    Validity {
+        start: 694_690_801,
+        duration,
     }
+}
+
+fn ticket_terms() -> Terms {
+    let permissions = vec![
+        bitmap(CAM, &[1, 0, 0]),
+        bitmap(638, &[1]),
+        bitmap(16_480, &[1]),
+        bitmap(16_481, &[1]),
+    ];
+    Terms::of_ticket(valid_for(Duration::hours(168)), permissions)
 }
 
 #[test]
@@ -180,18 +179,16 @@ fn the_same_certificates_are_issued() {
     ];
     let root = Terms {
         name: Some("TEST-ROOT".to_owned()),
-        validity: Validity {
-            start: 694_690_801,
-            duration: Duration::years(3),
-        },
-        region: None,
-        permissions: vec![bitmap(622, &[1]), bitmap(624, &[1, 0xfe])],
         issue_permissions: vec![IssuePermission {
             subjects: Subjects::These(these),
             min_chain_length: 2,
             chain_length_range: 0,
             for_applications: true,
         }],
+        ..Terms::of_ticket(
+            valid_for(Duration::years(3)),
+            vec![bitmap(622, &[1]), bitmap(624, &[1, 0xfe])],
+        )
     };
     assert_eq!(
         issue::root(&key(ROOT_KEY), &root).unwrap(),

@@ -50,10 +50,8 @@ pub(crate) fn permission(its_aid: u32) -> Permission {
 pub(crate) fn root_terms() -> Terms {
     Terms {
         name: Some("root".to_owned()),
-        validity: validity(NOW_S - 3_600, Duration::years(10)),
-        region: None,
-        permissions: Vec::new(),
         issue_permissions: vec![issue_for(&[CAM, RAM, RMCM], 2)],
+        ..Terms::of_ticket(validity(NOW_S - 3_600, Duration::years(10)), Vec::new())
     }
 }
 
@@ -67,13 +65,8 @@ pub(crate) fn authority_terms() -> Terms {
 }
 
 pub(crate) fn ticket_terms() -> Terms {
-    Terms {
-        name: None,
-        validity: validity(NOW_S - 60, Duration::hours(168)),
-        region: None,
-        permissions: vec![permission(RAM), permission(RMCM)],
-        issue_permissions: Vec::new(),
-    }
+    let permissions = vec![permission(RAM), permission(RMCM)];
+    Terms::of_ticket(validity(NOW_S - 60, Duration::hours(168)), permissions)
 }
 
 /// A root and an authority.

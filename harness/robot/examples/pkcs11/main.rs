@@ -55,16 +55,12 @@ fn run(module: &Path, label: &str, pin: &Path, name: &str) -> Result<(), Box<dyn
     let (identifiers, now) = (Identifiers::default(), pki::now());
     let pki = Pki::for_a_day(&identifiers, now)?;
     let start = u32::try_from(now.0 / 1_000_000)?;
-    let terms = Terms {
-        name: None,
-        validity: Validity {
-            start,
-            duration: Duration::hours(1),
-        },
-        region: None,
-        permissions: pki::robot_permissions(&identifiers, &[Part::Help], None),
-        issue_permissions: Vec::new(),
+    let validity = Validity {
+        start,
+        duration: Duration::hours(1),
     };
+    let permissions = pki::robot_permissions(&identifiers, &[Part::Help], None);
+    let terms = Terms::of_ticket(validity, permissions);
     let Pki { authority, .. } = &pki;
     let holder = key.public_key();
     let certificate = issue::ticket(&authority.certificate, &authority.key, holder, &terms)?;

@@ -31,13 +31,7 @@ impl Holder {
     /// # Errors
     /// When one of the files exists, or cannot be written.
     pub fn write(&self, folder: &Path, name: &str) -> Result<(), PkiError> {
-        make_folder(folder).map_err(at(folder))?;
-        let path = folder.join(format!("{name}.key"));
-        let pem = self.key.to_pem().map_err(|cause| PkiError::Key {
-            path: path.clone(),
-            cause,
-        })?;
-        create(&path, pem.as_ref().as_bytes(), 0o600).map_err(at(&path))?;
+        write_key(&self.key, folder, name)?;
         write_certificate(&self.certificate, folder, name)
     }
 
@@ -51,6 +45,20 @@ impl Holder {
         let key = read_key(&path)?;
         Ok(Self { certificate, key })
     }
+}
+
+/// Writes a key to `folder/name.key`, for its owner only.
+///
+/// # Errors
+/// When the file exists, or cannot be written.
+pub fn write_key(key: &PrivateKey, folder: &Path, name: &str) -> Result<(), PkiError> {
+    make_folder(folder).map_err(at(folder))?;
+    let path = folder.join(format!("{name}.key"));
+    let pem = key.to_pem().map_err(|cause| PkiError::Key {
+        path: path.clone(),
+        cause,
+    })?;
+    create(&path, pem.as_ref().as_bytes(), 0o600).map_err(at(&path))
 }
 
 /// Reads a key. Who may read it is asked of the open file, so that it is not exchanged in between.
