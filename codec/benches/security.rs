@@ -130,9 +130,12 @@ fn refuse(scene: &Scene) {
         name: None,
         start: NOW_S - 60,
         hours: 24,
+        unit: 4,
         region: Vec::new(),
+        assurance: Vec::new(),
         permissions: permissions(&[RAM]),
         issue: Vec::new(),
+        encryption: Vec::new(),
         additions: Vec::new(),
         key: 20,
     };
@@ -145,8 +148,12 @@ fn refuse(scene: &Scene) {
         fields: Vec::new(),
         additions: Vec::new(),
         certificate: certificate.to_vec(),
-        in_full,
-        r_forms: [0x80; 2],
+        sent: if in_full {
+            certificate.to_vec()
+        } else {
+            Vec::new()
+        },
+        r_form: 0x80,
         key,
     };
     let wrong_signature = envelope(&ticket, false, now.0, 21).octets();

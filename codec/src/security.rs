@@ -27,8 +27,7 @@
 //!
 //! What is not here: enrolment and authorization requests, trust lists and revocation lists of TS 102 941,
 //! encryption, other curves than NIST P-256, implicit certificates, polygons and countries as
-//! regions, and certificates or signatures in another form than the canonical one. What needs one of
-//! them is rejected.
+//! regions. What needs one of them is rejected: `codec/doc/departures.md` has each choice of the standards.
 
 mod cache;
 mod certificate;

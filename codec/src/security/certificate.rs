@@ -82,24 +82,32 @@ impl Certificate {
 
     pub(super) fn read(reader: &mut OerReader) -> Result<Self, Rejected> {
         let all = reader.rest();
-        // A signature is present, version 3, type explicit.
-        reader.expect(0x80, "certificate")?;
+        // A signature is present.
+        let preamble = reader.octet("certificate")?;
         reader.expect(3, "certificate.version")?;
-        reader.expect(0, "certificate.type")?;
+        match (preamble, reader.octet("certificate.type")?) {
+            (0x80, 0) => {}
+            (_, 1) => return Err(Rejected::Unsupported("an implicit certificate")),
+            (found, _) => {
+                let field = "certificate";
+                return Err(Malformed::Value { field, found }.into());
+            }
+        }
         let issuer = read_issuer(reader)?;
-        let before = reader.rest();
-        let content = Content::read(reader, issuer)?;
-        let to_be_signed = consumed(before, reader);
-        let unsigned = consumed(all, reader);
+        let head = all.len() - reader.rest().len();
+        let mut canonical = Canonical::new(all);
+        let content = Content::read(reader, issuer, &mut canonical)?;
+        canonical.take(reader);
+        let mut octets = canonical.octets;
+        let to_be_signed = crypto::sha256(&octets[head..]);
         let signature = Signature::read(reader)?;
-        // Its digest, and with it its name, is that of the canonical form (IEEE 1609.2, 6.4.3).
-        let octets = [unsigned, &signature.octets()].concat();
+        octets.extend(signature.octets());
         if octets.len() > CERTIFICATE_LEN_MAX {
             return Err(Malformed::TooMany("certificate").into());
         }
         Ok(Self {
             digest: crypto::sha256(&octets),
-            to_be_signed: crypto::sha256(to_be_signed),
+            to_be_signed,
             octets: octets.into(),
             signature,
             content,
@@ -171,6 +179,42 @@ impl Certificate {
     }
 }
 
+/// A certificate in canonical form, as far as it was read. Its digest, and with it its name and signature, is that of
+/// the form in which points are compressed and `rSig` is x alone (IEEE 1609.2, 6.4.3 and 6.4.8).
+struct Canonical<'a> {
+    octets: Vec<u8>,
+    /// What is not in `octets` yet.
+    rest: &'a [u8],
+}
+
+impl<'a> Canonical<'a> {
+    fn new(all: &'a [u8]) -> Self {
+        Self {
+            octets: Vec::with_capacity(all.len().min(CERTIFICATE_LEN_MAX)),
+            rest: all,
+        }
+    }
+
+    /// Takes what `reader` has read.
+    fn take(&mut self, reader: &OerReader<'a>) {
+        self.octets.extend(consumed(self.rest, reader));
+        self.rest = reader.rest();
+    }
+
+    /// Reads a point.
+    fn point(
+        &mut self,
+        reader: &mut OerReader<'a>,
+        field: &'static str,
+    ) -> Result<PublicKey, Malformed> {
+        self.take(reader);
+        let point = PublicKey::read(reader, field)?;
+        self.octets.extend(point.octets());
+        self.rest = reader.rest();
+        Ok(point)
+    }
+}
+
 /// What `reader` has read since `before` was yet to be read.
 pub(super) fn consumed<'a>(before: &'a [u8], reader: &OerReader<'a>) -> &'a [u8] {
     &before[..before.len() - reader.rest().len()]
@@ -202,7 +246,11 @@ mod present {
 }
 
 impl Content {
-    fn read(reader: &mut OerReader, issuer: Issuer) -> Result<Self, Rejected> {
+    fn read<'a>(
+        reader: &mut OerReader<'a>,
+        issuer: Issuer,
+        canonical: &mut Canonical<'a>,
+    ) -> Result<Self, Rejected> {
         let preamble = reader.octet("toBeSigned")?;
         let has = |bit| preamble & bit != 0;
         if has(present::REQUEST | present::ROLLOVER) {
@@ -224,9 +272,9 @@ impl Content {
         let permissions = list(has(present::PERMISSIONS), reader, read_permission)?;
         let issue_permissions = list(has(present::ISSUE), reader, read_issue_permission)?;
         if has(present::ENCRYPTION) {
-            skip_encryption_key(reader)?;
+            skip_encryption_key(reader, canonical)?;
         }
-        let key = read_verification_key(reader)?;
+        let key = read_verification_key(reader, canonical)?;
         Ok(Self {
             issuer,
             name,
@@ -417,23 +465,24 @@ fn read_range(reader: &mut OerReader) -> Result<(u32, SspRange), Rejected> {
 }
 
 /// The kit does not encrypt; a key for it is passed over.
-fn skip_encryption_key(reader: &mut OerReader) -> Result<(), Rejected> {
+fn skip_encryption_key<'a>(
+    reader: &mut OerReader<'a>,
+    canonical: &mut Canonical<'a>,
+) -> Result<(), Rejected> {
     let field = "encryptionKey";
     reader.octet(field)?;
     match reader.octet(field)? {
         0x80 | 0x81 => {}
         _ => return Err(Rejected::Unsupported("an encryption key but ECIES")),
     }
-    let length = match reader.octet(field)? {
-        0x82 | 0x83 => 32,
-        0x84 => 64,
-        found => return Err(Malformed::Value { field, found }.into()),
-    };
-    reader.take(length, field)?;
+    canonical.point(reader, field)?;
     Ok(())
 }
 
-fn read_verification_key(reader: &mut OerReader) -> Result<PublicKey, Rejected> {
+fn read_verification_key<'a>(
+    reader: &mut OerReader<'a>,
+    canonical: &mut Canonical<'a>,
+) -> Result<PublicKey, Rejected> {
     let field = "verifyKeyIndicator";
     match reader.octet(field)? {
         0x80 => {}
@@ -441,7 +490,7 @@ fn read_verification_key(reader: &mut OerReader) -> Result<PublicKey, Rejected> 
         found => return Err(Malformed::Value { field, found }.into()),
     }
     match reader.octet(field)? {
-        0x80 => PublicKey::read(reader, field),
+        0x80 => Ok(canonical.point(reader, field)?),
         0x81..=0x84 => Err(Rejected::Unsupported("a curve other than NIST P-256")),
         found => Err(Malformed::Value { field, found }.into()),
     }

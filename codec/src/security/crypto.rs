@@ -27,6 +27,7 @@ const NIST_P256: u8 = 0x80;
 const X_ONLY: u8 = 0x80;
 const COMPRESSED_Y_0: u8 = 0x82;
 const COMPRESSED_Y_1: u8 = 0x83;
+const UNCOMPRESSED: u8 = 0x84;
 
 pub(super) fn sha256(octets: &[u8]) -> Digest {
     use p256::ecdsa::signature::digest::Digest as _;
@@ -143,17 +144,25 @@ impl PublicKey {
         Self(octets)
     }
 
-    /// Reads an `EccP256CurvePoint` in compressed form, the canonical one.
-    pub(super) fn read(reader: &mut OerReader, field: &'static str) -> Result<Self, Rejected> {
-        let parity = match reader.octet(field)? {
+    /// Reads an `EccP256CurvePoint` with both coordinates, or with x and the parity of y.
+    pub(super) fn read(reader: &mut OerReader, field: &'static str) -> Result<Self, Malformed> {
+        let form = reader.octet(field)?;
+        let mut point = [0; 33];
+        point[1..].copy_from_slice(&reader.array::<32>(field)?);
+        point[0] = match form {
             COMPRESSED_Y_0 => 2,
             COMPRESSED_Y_1 => 3,
-            0x84 => return Err(Rejected::Unsupported("a key that is not compressed")),
-            found => return Err(Malformed::Value { field, found }.into()),
+            UNCOMPRESSED => 2 | reader.array::<32>(field)?[31] & 1,
+            found => return Err(Malformed::Value { field, found }),
         };
-        let mut point = [parity; 33];
-        point[1..].copy_from_slice(&reader.array::<32>(field)?);
         Ok(Self(point))
+    }
+
+    /// The octets of an `EccP256CurvePoint` in compressed form, the canonical one.
+    pub(super) const fn octets(&self) -> [u8; 33] {
+        let mut octets = self.0;
+        octets[0] |= 0x80;
+        octets
     }
 
     /// Whether y is odd, and the x coordinate.
@@ -189,8 +198,8 @@ impl Signature {
         ecdsa::Signature::from_slice(octets).map(Self).ok()
     }
 
-    /// Reads a `Signature`, whose `rSig` may be x alone or a compressed point (IEEE 1609.2, 6.3.29). The parity of y
-    /// only saves time to a verifier that makes use of it, and no signature covers it: it is dropped.
+    /// Reads a `Signature`, whose `rSig` may be x alone or a point (IEEE 1609.2, 6.3.29). What is said of y only saves
+    /// time to a verifier that makes use of it, and no signature covers it: it is dropped.
     pub(super) fn read(reader: &mut OerReader) -> Result<Self, Rejected> {
         match reader.octet("signature")? {
             NIST_P256 => {}
@@ -200,15 +209,17 @@ impl Signature {
                 return Err(Malformed::Value { field, found }.into());
             }
         }
-        match reader.octet("rSig")? {
-            X_ONLY | COMPRESSED_Y_0 | COMPRESSED_Y_1 => {}
-            0x84 => return Err(Rejected::Unsupported("rSig as an uncompressed point")),
+        let y_len = match reader.octet("rSig")? {
+            X_ONLY | COMPRESSED_Y_0 | COMPRESSED_Y_1 => 0,
+            UNCOMPRESSED => 32,
             found => {
                 let field = "rSig";
                 return Err(Malformed::Value { field, found }.into());
             }
-        }
-        let (r, s) = (reader.array("rSig")?, reader.array("sSig")?);
+        };
+        let r = reader.array("rSig")?;
+        reader.take(y_len, "rSig")?;
+        let s = reader.array("sSig")?;
         let signature = ecdsa::Signature::from_scalars(r, s);
         Ok(Self(
             signature.map_err(|_| Malformed::NotOnCurve("signature"))?,

@@ -92,7 +92,7 @@ impl<'a> SignedMessage<'a> {
         reader.expect(3, "protocolVersion")?;
         match reader.octet("content")? {
             0x81 => {}
-            0x80 | 0x82 | 0x83 => return Err(Rejected::NotSigned),
+            0x80 | 0x82..=0x84 => return Err(Rejected::NotSigned),
             found => {
                 let field = "content";
                 return Err(Malformed::Value { field, found }.into());
@@ -177,7 +177,7 @@ impl Header<'_> {
 fn read_payload<'a>(reader: &mut OerReader<'a>) -> Result<&'a [u8], Rejected> {
     match reader.octet("payload")? {
         0x40 => {}
-        _ => return Err(Rejected::Unsupported("a payload that is only hashed")),
+        _ => return Err(Rejected::Unsupported("a payload but data alone")),
     }
     reader.expect(3, "payload.protocolVersion")?;
     match reader.octet("payload.content")? {

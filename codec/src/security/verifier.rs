@@ -362,14 +362,15 @@ impl Verifier {
         if self.missing.is_empty() {
             return;
         }
-        let id = HashedId8::of(&crypto::sha256(octets));
+        let authority = Certificate::decode(octets);
+        let named = |_: &Rejected| HashedId8::of(&crypto::sha256(octets));
+        let id = authority.as_ref().map_or_else(named, Certificate::id);
         if !self.missing.contains(&id) || !self.authorities.spend(now, AUTHORITIES_PER_S) {
             return;
         }
         self.missing.retain(|missing| *missing != id);
         self.signatures += 1;
-        let learnt =
-            Certificate::decode(octets).map(|authority| self.trust.learn_authority(authority, now));
+        let learnt = authority.map(|authority| self.trust.learn_authority(authority, now));
         // One that there was no room for may be asked for again.
         if !matches!(learnt, Ok(Ok(()) | Err(Untrusted::TooMany(_)))) {
             self.untrusted.remember(id);

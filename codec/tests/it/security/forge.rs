@@ -79,23 +79,37 @@ pub(crate) struct Terms {
     pub(crate) name: Option<&'static str>,
     pub(crate) start: u32,
     pub(crate) hours: u16,
+    /// Which alternative of `Duration`: 4 for hours.
+    pub(crate) unit: u8,
     /// `GeographicRegion`; nothing where there is none.
     pub(crate) region: Vec<u8>,
     pub(crate) permissions: Vec<u8>,
     pub(crate) issue: Vec<u8>,
+    /// `assuranceLevel`; nothing where there is none.
+    pub(crate) assurance: Vec<u8>,
+    /// The algorithms of `encryptionKey`, which is that of the receiver; nothing where there is none.
+    pub(crate) encryption: Vec<u8>,
     /// The bitmap of additions and what follows it; nothing where there are none.
     pub(crate) additions: Vec<u8>,
     pub(crate) key: u8,
 }
 
+/// The public key of this number, as a compressed point or as one with both coordinates.
+fn point(number: u8, is_compressed: bool) -> Vec<u8> {
+    let point = key(number).verifying_key().to_sec1_point(is_compressed);
+    [&[0x80 | point.as_bytes()[0]], &point.as_bytes()[1..]].concat()
+}
+
 impl Terms {
-    fn octets(&self) -> Vec<u8> {
+    fn octets(&self, is_compressed: bool) -> Vec<u8> {
         let bit = |part: &[u8], bit: u8| if part.is_empty() { 0 } else { bit };
         let mut octets = vec![
             bit(&self.additions, 0x80)
                 | bit(&self.region, 0x40)
+                | bit(&self.assurance, 0x20)
                 | bit(&self.permissions, 0x10)
-                | bit(&self.issue, 0x08),
+                | bit(&self.issue, 0x08)
+                | bit(&self.encryption, 0x01),
         ];
         match self.name {
             Some(name) => {
@@ -106,21 +120,30 @@ impl Terms {
         }
         octets.extend([0; 5]);
         octets.extend(self.start.to_be_bytes());
-        octets.push(0x84);
+        octets.push(0x80 | self.unit);
         octets.extend(self.hours.to_be_bytes());
         octets.extend(&self.region);
+        octets.extend(&self.assurance);
         octets.extend(&self.permissions);
         octets.extend(&self.issue);
-        let point = key(self.key).verifying_key().to_sec1_point(true);
-        octets.extend([0x80, 0x80, 0x80 | point.as_bytes()[0]]);
-        octets.extend(&point.as_bytes()[1..]);
+        if !self.encryption.is_empty() {
+            octets.extend(&self.encryption);
+            octets.extend(point(11, is_compressed));
+        }
+        octets.extend([0x80, 0x80]);
+        octets.extend(point(self.key, is_compressed));
         octets.extend(&self.additions);
         octets
     }
 
     /// The certificate, signed by `issuer` with the key of this number; by itself without one.
     pub(crate) fn signed(&self, issuer: Option<&[u8]>, by: u8) -> Vec<u8> {
-        let to_be_signed = self.octets();
+        self.sent(issuer, by, true)
+    }
+
+    /// The same, sent with points in this form. What is signed has compressed ones (IEEE 1609.2, 6.4.8).
+    pub(crate) fn sent(&self, issuer: Option<&[u8]>, by: u8, is_compressed: bool) -> Vec<u8> {
+        let to_be_signed = self.octets(true);
         let mut octets = vec![0x80, 3, 0];
         match issuer {
             Some(issuer) => {
@@ -129,7 +152,7 @@ impl Terms {
             }
             None => octets.extend([0x81, 0]),
         }
-        octets.extend(&to_be_signed);
+        octets.extend(self.octets(is_compressed));
         octets.extend(sign(&key(by), &to_be_signed, issuer.unwrap_or_default()));
         octets
     }
@@ -149,16 +172,33 @@ pub(crate) struct Envelope {
     pub(crate) additions: Vec<u8>,
     /// In canonical form.
     pub(crate) certificate: Vec<u8>,
-    pub(crate) in_full: bool,
+    /// As it goes along; nothing where its digest does.
+    pub(crate) sent: Vec<u8>,
     pub(crate) key: u8,
-    /// Which alternatives of `EccP256CurvePoint` `rSig` of the envelope and of a certificate in full are.
-    pub(crate) r_forms: [u8; 2],
+    /// Which alternative of `EccP256CurvePoint` `rSig` is.
+    pub(crate) r_form: u8,
 }
 
-/// The same octets, which end with a signature, with another alternative for its `rSig`.
-fn with_r_form(mut octets: Vec<u8>, form: u8) -> Vec<u8> {
+/// The same octets, which end with a signature, with another alternative for its `rSig`. Nobody looks at y.
+pub(crate) fn with_r_form(mut octets: Vec<u8>, form: u8) -> Vec<u8> {
     let at = octets.len() - 65;
     octets[at] = form;
+    if form == 0x84 {
+        let s = octets.split_off(at + 33);
+        octets.extend([0x55; 32]);
+        octets.extend(s);
+    }
+    octets
+}
+
+/// The same octets, which end with a signature, with n - s for its s.
+pub(crate) fn mirrored(mut octets: Vec<u8>) -> Vec<u8> {
+    let at = octets.len() - 64;
+    let (r, s) = Signature::from_slice(&octets[at..])
+        .unwrap()
+        .split_scalars();
+    let mirrored = Signature::from_scalars(r, -s).unwrap();
+    octets[at..].copy_from_slice(&mirrored.to_bytes());
     octets
 }
 
@@ -173,14 +213,14 @@ impl Envelope {
         signed.extend(&self.fields);
         signed.extend(&self.additions);
         let mut octets = [&[3, 0x81, 0][..], &signed].concat();
-        if self.in_full {
-            octets.extend([0x81, 1, 1]);
-            octets.extend(with_r_form(self.certificate.clone(), self.r_forms[1]));
-        } else {
+        if self.sent.is_empty() {
             octets.push(0x80);
             octets.extend(hashed_id8(&self.certificate));
+        } else {
+            octets.extend([0x81, 1, 1]);
+            octets.extend(&self.sent);
         }
         octets.extend(sign(&key(self.key), &signed, &self.certificate));
-        with_r_form(octets, self.r_forms[0])
+        with_r_form(octets, self.r_form)
     }
 }

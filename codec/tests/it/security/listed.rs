@@ -3,7 +3,9 @@
 use crossguard_codec::Service;
 use crossguard_codec::security::Time64;
 
-use super::forge::{Envelope, Terms, issue_permissions, permissions};
+use super::forge::{
+    Envelope, Terms, issue_permissions, location, mirrored, permissions, with_r_form,
+};
 use super::pki::{NOW, NOW_S, after_ms};
 use super::scene::{
     ALL, ANTIPODE, AUTHORITY, HERE, Heard, Pki, SENDER, STRANGER, Vector, Vectors, authority_terms,
@@ -26,6 +28,7 @@ pub(crate) fn vectors() -> Vectors {
             let at = after_ms(later.parse().unwrap());
             let packet = match (said, heard.last()) {
                 ("again", Some(before)) => before.packet.clone(),
+                ("again, mirrored", Some(before)) => mirrored(before.packet.clone()),
                 _ => packet(&pki, said, at),
             };
             let refused = (pair[1] != "taken").then_some(pair[1]);
@@ -55,8 +58,9 @@ fn packet(pki: &Pki, said: &'static str, at: Time64) -> Vec<u8> {
     let mut envelope = envelope(pki, service, at);
     let mut ticket = Ticket {
         terms: terms(SENDER),
-        issuer: pki.authority.clone(),
+        issuer: Some(pki.authority.clone()),
         by: AUTHORITY,
+        is_uncompressed: false,
     };
     for change in &changes {
         match &change[..] {
@@ -64,7 +68,14 @@ fn packet(pki: &Pki, said: &'static str, at: Time64) -> Vec<u8> {
             change => envelope.change(service, change),
         }
     }
-    envelope.certificate = ticket.terms.signed(Some(&ticket.issuer), ticket.by);
+    let issuer = ticket.issuer.as_deref();
+    envelope.certificate = ticket.terms.signed(issuer, ticket.by);
+    if !envelope.sent.is_empty() {
+        let sent = ticket
+            .terms
+            .sent(issuer, ticket.by, !ticket.is_uncompressed);
+        envelope.sent = with_r_form(sent, envelope.r_form);
+    }
     let mut octets = envelope.octets();
     for change in &changes {
         garble(&mut octets, change);
@@ -104,13 +115,13 @@ impl Envelope {
                 self.is_said(service, time(us), HERE);
             }
             ["expires", us] => self.expires(time(us).0),
-            ["digest"] => self.in_full = false,
+            ["digest"] => self.sent.clear(),
             ["preamble", bits] => self.preamble = from_hex(bits)[0],
             ["additions", octets] => self.additions = from_hex(octets),
             ["permission", other] => self.its_aid = self::service(other).its_aid(&identifiers()),
             ["signed", "by", "stranger"] => self.key = STRANGER,
-            ["rSig", form] => self.r_forms = [from_hex(form)[0]; 2],
-            ["octet" | "append" | "cut" | "zeros", ..] => {}
+            ["rSig", form] => self.r_form = from_hex(form)[0],
+            ["octet" | "append" | "cut" | "zeros" | "mirrored", ..] => {}
             _ => panic!("{change:?} is no change of an envelope"),
         }
     }
@@ -119,9 +130,10 @@ impl Envelope {
 /// The ticket of a sender, and who issues it.
 struct Ticket {
     terms: Terms,
-    issuer: Vec<u8>,
+    issuer: Option<Vec<u8>>,
     /// The key that signs it.
     by: u8,
+    is_uncompressed: bool,
 }
 
 impl Ticket {
@@ -129,6 +141,21 @@ impl Ticket {
         let terms = &mut self.terms;
         match change {
             ["region", at] => terms.region = circle(place(at), 500),
+            // About a degree to each side of it.
+            ["region", "rectangle", at] => {
+                let ((north, east), degree) = (place(at), 10_000_000);
+                let corners = [
+                    (north + degree, east - degree),
+                    (north - degree, east + degree),
+                ];
+                terms.region = [vec![0x81, 1, 1], corners.map(location).concat()].concat();
+            }
+            ["region", "octets", octets] => terms.region = from_hex(octets),
+            ["assurance", level] => terms.assurance = from_hex(level),
+            ["encryption", algorithms] => terms.encryption = from_hex(algorithms),
+            ["uncompressed"] => self.is_uncompressed = true,
+            ["unit", unit] => terms.unit = unit.parse().expect(unit),
+            ["permissions", octets] => terms.permissions = from_hex(octets),
             ["additions", octets] => terms.additions = from_hex(octets),
             ["issues", "with", "default"] => terms.issue = issue_permissions(0x20, &ALL, &[0x80]),
             ["name", name] => terms.name = Some(name),
@@ -139,8 +166,9 @@ impl Ticket {
                 terms.permissions = permissions(&its_aids.collect::<Vec<_>>());
             }
             ["below", "stranger"] => {
-                self.issuer = authority_terms().signed(Some(&[1, 2, 3]), STRANGER);
+                self.issuer = Some(authority_terms().signed(Some(&[1, 2, 3]), STRANGER));
             }
+            ["itself"] => (self.issuer, self.by) = (None, SENDER),
             ["signed", "by", "stranger"] => self.by = STRANGER,
             _ => panic!("{change:?} is no change of a ticket"),
         }
@@ -156,6 +184,15 @@ fn garble(octets: &mut Vec<u8>, change: &[&str]) {
             let at = octets.windows(4).position(|it| it == head).unwrap();
             octets[at] = from_hex(octet)[0];
         }
+        // Of the certificate that goes along, and of the tag and the quantity in front of it.
+        ["octet", at, "of", "the", "certificate", "=", octet] => {
+            let start = octets
+                .windows(6)
+                .position(|it| it == [0x81, 1, 1, 0x80, 3, 0]);
+            let at: isize = at.parse().expect(at);
+            octets[(start.unwrap() + 3).strict_add_signed(at)] = from_hex(octet)[0];
+        }
+        ["mirrored"] => *octets = mirrored(std::mem::take(octets)),
         ["octet", at, "=", octet] => {
             let at: isize = at.parse().expect(at);
             let from = if at < 0 { end } else { 0 };

@@ -1,6 +1,7 @@
 //! Secured messages: golden vectors, and everything that must not be believed.
 
 mod costs;
+mod departures;
 mod forge;
 mod golden;
 mod hostile;

@@ -136,25 +136,6 @@ impl Pki {
     }
 }
 
-/// The order of NIST P-256.
-const ORDER: [u8; 32] = [
-    0xff, 0xff, 0xff, 0xff, 0, 0, 0, 0, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xbc, 0xe6,
-    0xfa, 0xad, 0xa7, 0x17, 0x9e, 0x84, 0xf3, 0xb9, 0xca, 0xc2, 0xfc, 0x63, 0x25, 0x51,
-];
-
-/// The certificate with n - s in the place of s in its signature: it is signed as well, and has another digest.
-pub(crate) fn mirrored(certificate: &Certificate) -> Certificate {
-    let mut octets = certificate.octets().to_vec();
-    let at = octets.len() - ORDER.len();
-    let mut borrow = 0;
-    for (digit, of_order) in octets[at..].iter_mut().zip(ORDER).rev() {
-        let difference = i16::from(of_order) - i16::from(*digit) - borrow;
-        borrow = i16::from(difference < 0);
-        *digit = u8::try_from(difference.rem_euclid(256)).unwrap();
-    }
-    Certificate::decode(&octets).unwrap()
-}
-
 /// Hears an envelope.
 pub(crate) fn hear(
     station: &mut Station,

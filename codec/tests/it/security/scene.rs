@@ -49,9 +49,12 @@ pub(crate) fn terms(key: u8) -> Terms {
         name: None,
         start: NOW_S - 60,
         hours: 24,
+        unit: 4,
         region: Vec::new(),
+        assurance: Vec::new(),
         permissions: permissions(&ALL),
         issue: Vec::new(),
+        encryption: Vec::new(),
         additions: Vec::new(),
         key,
     }
@@ -133,8 +136,8 @@ pub(crate) fn envelope(pki: &Pki, service: Service, at: Time64) -> Envelope {
         fields: Vec::new(),
         additions: Vec::new(),
         certificate: pki.ticket.clone(),
-        in_full: true,
-        r_forms: [0x80; 2],
+        sent: pki.ticket.clone(),
+        r_form: 0x80,
         key: SENDER,
     }
 }

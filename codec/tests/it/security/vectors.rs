@@ -9,7 +9,7 @@ use crossguard_codec::security::{Certificate, Station, Ticket, Time64, Tolerance
 use crossguard_protocol::StationId;
 use serde_json::{Value, json};
 
-use super::forge::{Terms, opaque};
+use super::forge::{Terms, opaque, with_r_form};
 use super::listed::vectors;
 use super::pki::{CAM, NOW, RAM, RMCM, after_ms};
 use super::scene::{
@@ -138,7 +138,7 @@ fn an_authority_is_taken_when_it_was_asked_for() {
     let say = |at, in_full, brings: Option<&[u8]>| {
         let mut it = envelope(&pki, Service::Ram, at);
         it.certificate = ticket.clone();
-        it.in_full = in_full;
+        it.sent = if in_full { ticket.clone() } else { Vec::new() };
         it.additions = brings.map_or(Vec::new(), |certificate| {
             [&[2, 4, 0x40][..], &opaque(certificate)].concat()
         });
@@ -158,7 +158,8 @@ fn an_authority_is_taken_when_it_was_asked_for() {
     assert_eq!(hear(NOW, &say(NOW, false, Some(&pki.authority))).1, 0);
     // A forged one, which has the name that was asked for, cannot be made: that takes its digest.
     let at = after_ms(100);
-    let asked = say(at, false, Some(&authority));
+    // It comes in another form than the one that its name is the digest of.
+    let asked = say(at, false, Some(&with_r_form(authority.clone(), 0x83)));
     assert_eq!(hear(at, &asked), (Some("unknown certificate"), 1));
     let at = after_ms(200);
     assert_eq!(hear(at, &say(at, true, None)), (None, 3));
