@@ -82,16 +82,18 @@ impl Certificate {
 
     pub(super) fn read(reader: &mut OerReader) -> Result<Self, Rejected> {
         let all = reader.rest();
-        // A signature is present.
-        let preamble = reader.octet("certificate")?;
+        let value = |field, found| Malformed::Value { field, found };
+        match reader.octet("certificate")? {
+            0x80 => {}
+            // Without a signature.
+            0 => return Err(Rejected::Unsupported("an implicit certificate")),
+            found => return Err(value("certificate", found).into()),
+        }
         reader.expect(3, "certificate.version")?;
-        match (preamble, reader.octet("certificate.type")?) {
-            (0x80, 0) => {}
-            (_, 1) => return Err(Rejected::Unsupported("an implicit certificate")),
-            (found, _) => {
-                let field = "certificate";
-                return Err(Malformed::Value { field, found }.into());
-            }
+        match reader.octet("certificate.type")? {
+            0 => {}
+            1 => return Err(Rejected::Unsupported("an implicit certificate")),
+            found => return Err(value("certificate.type", found).into()),
         }
         let issuer = read_issuer(reader)?;
         let head = all.len() - reader.rest().len();
