@@ -115,4 +115,5 @@ def main():
         print(f"{judge} agrees on {count} {kind}", file=sys.stderr)
 
 
-main()
+if __name__ == "__main__":
+    main()

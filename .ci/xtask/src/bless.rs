@@ -17,6 +17,7 @@ codec/src/asn1/generated.rs <- cargo test -p crossguard-codec --test it generate
 codec/tests/golden/messages.json <- cargo test -p crossguard-codec --test it golden_messages
 codec/tests/golden/security.json <- cargo test -p crossguard-codec --features security --test it security::vectors
 codec/wireshark/crossguard.lua: the types <- codec/judges/run
+harness/robot/tests/beside.json <- codec/judges/run
 harness/c/include/crossguard.h <- cargo test -p crossguard-c --test header
 model-check/doc/paper-literal.md <- cargo test -p crossguard-model-check --test it paper_literal::
 harness/conform/src/cases.txt <- cargo test -p crossguard-conform --test generated

@@ -5,6 +5,7 @@ mod support;
 
 use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
+use crossguard_endpoint::station::Security;
 use crossguard_endpoint::{Act, Effect};
 use crossguard_protocol::{EndReason, Event, Input, Millis, Notice, Urgency};
 use crossguard_robot::body::Build;
@@ -27,7 +28,13 @@ fn strip(south: f64, north: f64) -> Area {
 
 fn machine(station: u32, build: Build, plan: Option<Plan>, road: Road) -> Machine {
     let place = Place::new(-f64::from(station), -2.0);
-    support::machine(station, (build, place, SPEED), plan, road)
+    support::machine(
+        station,
+        (build, place, SPEED),
+        plan,
+        road,
+        Security::default(),
+    )
 }
 
 /// What a leader that watches a zone did.

@@ -5,6 +5,7 @@ mod support;
 use crossguard_codec::{
     Identity, MapPlace, PublicSignal, SignalMeans, SignalsShown, TaskParameters,
 };
+use crossguard_endpoint::station::Security;
 use crossguard_endpoint::{Act, Effect, Stimulus};
 use crossguard_protocol::{Config, Event, Phase, StationId, TaskType};
 use crossguard_robot::body::Build;
@@ -24,7 +25,7 @@ type Street = support::Street<Started>;
 fn machine(station: u32) -> Machine {
     let place = Place::new(f64::from(station), 0.0);
     let body = (Build::Quadruped, place, 30.0);
-    support::machine(station, body, None, Road::Unknown)
+    support::machine(station, body, None, Road::Unknown, Security::default())
 }
 
 fn street() -> Street {

@@ -7,6 +7,7 @@ use crossguard_codec::TaskParameters;
 use crossguard_endpoint::Stimulus;
 use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
+use crossguard_endpoint::station::Security;
 use crossguard_protocol::{Event, HelpRequest, Millis, StationId, TaskSet, TaskType};
 use crossguard_robot::body::Build;
 use crossguard_robot::machine::Machine;
@@ -23,7 +24,8 @@ const LEADER: usize = 0;
 
 fn machine(station: u32, road: Road) -> Machine {
     let place = Place::new(f64::from(station), 2.0);
-    support::machine(station, (Build::Quadruped, place, 1.0), None, road)
+    let body = (Build::Quadruped, place, 1.0);
+    support::machine(station, body, None, road, Security::default())
 }
 
 /// A request for a robot that blocks.

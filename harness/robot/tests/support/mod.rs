@@ -1,6 +1,7 @@
 //! Two robots of a test that hear each other at once, in virtual time.
 
 use crossguard_codec::Identifiers;
+use crossguard_endpoint::station::Security;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Config, Robot, StationId};
 use crossguard_robot::application::Application;
@@ -11,7 +12,7 @@ use crossguard_robot::site::{Place, Site};
 use crossguard_robot::street::Road;
 
 /// 2026-01-05, in milliseconds since 2004.
-const BEGAN_ITS: u64 = 694_694_401_000;
+pub(crate) const BEGAN_ITS: u64 = 694_694_401_000;
 
 pub(crate) const TICK_MS: u32 = 10;
 
@@ -21,9 +22,11 @@ pub(crate) fn machine(
     (build, place, speed): (Build, Place, f64),
     plan: Option<Plan>,
     road: Road,
+    security: Security,
 ) -> Machine {
     let robot = Robot::new(StationId(station), 1);
-    let endpoint = Endpoint::new(robot, Config::default(), Identifiers::default(), 0);
+    let endpoint =
+        Endpoint::new(robot, Config::default(), Identifiers::default(), 0).with_security(security);
     let body = Simulated::new(build, Site::default(), place, speed, 1);
     Machine::new(endpoint, Application::new(Box::new(body), plan).on(road))
 }
