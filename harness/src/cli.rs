@@ -3,35 +3,62 @@
 //! Exit codes: 0 all is well, 1 something was found to be wrong, 2 bad usage or input, 3 incomplete, also
 //! when it was told to stop before it was done. Told to stop a second time, it ends at once with 130.
 
+#![cfg_attr(
+    not(feature = "full"),
+    allow(dead_code, reason = "commands of a full build share it")
+)]
+
 mod bounds;
 mod check;
 mod choices;
+#[cfg(feature = "full")]
 mod codec;
+#[cfg(feature = "full")]
 mod conform;
+#[cfg(feature = "full")]
 mod csv;
 mod demo;
 mod destinations;
 mod etsi;
+#[cfg(feature = "full")]
 mod export;
 mod fsm;
+#[cfg(feature = "full")]
+mod full;
+#[cfg(feature = "full")]
 mod fuzz;
 mod interrupts;
+#[cfg(feature = "full")]
 mod listening;
+#[cfg(feature = "full")]
 mod odds;
+#[cfg(feature = "full")]
 mod pki;
 mod printable;
 mod ranges;
+#[cfg(feature = "full")]
 mod report;
+#[cfg(feature = "full")]
 mod run;
+#[cfg(feature = "full")]
 mod screen;
 mod security;
+#[cfg(feature = "full")]
 mod simulate;
 mod site;
+#[cfg(not(feature = "full"))]
+mod small;
+#[cfg(feature = "full")]
 mod sniff;
+#[cfg(feature = "full")]
 mod studio;
+#[cfg(feature = "full")]
 mod validate;
+#[cfg(feature = "full")]
 mod watch;
 
+#[cfg(not(feature = "full"))]
+use std::ffi::OsString;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -63,41 +90,21 @@ struct Arguments {
 enum Command {
     /// Watch robots help a pedestrian across, over real sockets.
     Demo(demo::Arguments),
-    /// Run one robot as one process; events are typed or piped in.
-    Run(run::Arguments),
     /// Check scenarios exhaustively against the properties of the protocol.
     Check(check::Arguments),
     /// Print how long each response takes at most, with a robot's own settings.
     Bounds(bounds::Arguments),
-    /// Work out how likely a crossing goes well when messages get lost, and how long it takes.
-    Odds(Box<odds::Arguments>),
-    /// Run many simulated robots in virtual time under drawn faults, and judge every step.
-    Fuzz(fuzz::Arguments),
-    /// Test anybody's robot from outside, over its link: play the others, and say for each rule whether it was kept.
-    Conform(Box<conform::Arguments>),
-    /// Tell whether logs of one or several robots are of something that could have happened.
-    Validate(validate::Arguments),
-    /// Write a page about a run: the studio's page After as one file.
-    Report(report::Arguments),
-    /// Look at logs in a browser: the street, the messages, states and timers at any time of the run.
-    Studio(studio::Arguments),
-    /// Convert logs to what other tools open: facts as JSON lines, sequence charts.
-    Export(export::Arguments),
     /// Print the state diagram of the protocol in Mermaid, drawn from what the transition function does.
     Fsm(fsm::Arguments),
-    /// Repeat the paper's evaluation: coverage and channel load on a grid of streets.
-    Simulate(Box<simulate::Arguments>),
-    /// Print what is on the channel, one line per message, live or from a pcap file.
-    Sniff(sniff::Arguments),
     /// Check the site of a crossing, and a plan on it.
     #[command(subcommand)]
     Site(site::Command),
-    /// Convert messages between octets and JSON.
-    #[command(subcommand)]
-    Codec(codec::Command),
-    /// Make and show the certificates and keys of a PKI for tests.
-    #[command(subcommand)]
-    Pki(pki::Command),
+    #[cfg(feature = "full")]
+    #[command(flatten)]
+    Other(full::Command),
+    #[cfg(not(feature = "full"))]
+    #[command(external_subcommand)]
+    Other(Vec<OsString>),
 }
 
 /// How a subcommand ends, when not well.
@@ -148,22 +155,14 @@ pub fn main() -> ExitCode {
     let arguments = arguments.unwrap_or_else(|error| error.exit());
     let done = match arguments.command {
         Command::Demo(arguments) => demo::run(&arguments),
-        Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Bounds(arguments) => bounds::run(&arguments),
-        Command::Odds(arguments) => odds::run(&arguments),
-        Command::Conform(arguments) => conform::run(&arguments),
-        Command::Validate(arguments) => validate::run(&arguments),
-        Command::Report(arguments) => report::run(&arguments),
-        Command::Studio(arguments) => studio::run(&arguments),
-        Command::Export(arguments) => export::run(&arguments),
-        Command::Fuzz(arguments) => fuzz::run(&arguments),
         Command::Fsm(arguments) => fsm::run(&arguments),
-        Command::Simulate(arguments) => simulate::run(&arguments),
-        Command::Sniff(arguments) => sniff::run(&arguments),
         Command::Site(command) => site::run(&command),
-        Command::Codec(command) => codec::run(&command),
-        Command::Pki(command) => pki::run(&command),
+        #[cfg(feature = "full")]
+        Command::Other(command) => full::carry_out(command),
+        #[cfg(not(feature = "full"))]
+        Command::Other(_) => Err(small::build_all()),
     };
     match done {
         Ok(()) | Err(Failure::NobodyReads) => ExitCode::SUCCESS,

@@ -17,8 +17,11 @@
 #[doc(hidden)]
 pub mod cli;
 pub mod demo;
+#[cfg(feature = "full")]
 mod http;
+#[cfg(feature = "full")]
 pub mod metrics;
+#[cfg(feature = "full")]
 pub mod studio;
 
 /// The Rust in the README compiles.

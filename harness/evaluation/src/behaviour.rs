@@ -1,7 +1,7 @@
 //! How the stations of a run behave.
 
 use crossguard_endpoint::ras::clustering;
-use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
+use crossguard_endpoint::ras::surroundings::CLUSTER_INTERVAL_MS;
 use serde::{Deserialize, Serialize};
 
 use super::radio::Radio;

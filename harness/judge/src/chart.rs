@@ -517,7 +517,7 @@ const fn addressee(input: &Input) -> Option<StationId> {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "full"))]
 mod tests {
     use super::*;
     use crate::sim::{Swarm, run_recorded};

@@ -25,7 +25,8 @@ use crossguard_codec::{
 };
 use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::counters::{CauseName, Counts};
-use crossguard_endpoint::station::listen::{message_of, overhear, service_of};
+use crossguard_endpoint::station::listen::{message_of, overhear};
+use crossguard_endpoint::station::service_of;
 use crossguard_protocol::{Input, Output, Outputs, Robot, StationId};
 use crossguard_robot::around::Around;
 use crossguard_robot::sight::{Degrees, Outline, Sight};

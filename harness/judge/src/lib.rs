@@ -17,12 +17,18 @@
 //! - [`readable`] has messages and packets as JSON; [`sniffer`] says what is in packets.
 
 pub mod chart;
+#[cfg(feature = "full")]
 pub mod facts;
+#[cfg(feature = "full")]
 pub mod playback;
+#[cfg(feature = "full")]
 pub mod readable;
 pub mod sequence;
+#[cfg(feature = "full")]
 pub mod signature;
+#[cfg(feature = "full")]
 pub mod sim;
+#[cfg(feature = "full")]
 pub mod sniffer;
 pub mod timing;
 pub mod validate;

@@ -10,7 +10,8 @@ use crossguard_codec::{Identifiers, Identity, RoadUser, Service};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::counters::Counters;
 use crossguard_endpoint::station::LocalDynamicMap;
-use crossguard_endpoint::station::listen::{Unobserved, overhear, peek, service_of};
+use crossguard_endpoint::station::listen::{overhear, peek};
+use crossguard_endpoint::station::{Unobserved, service_of};
 use serde::Serialize;
 
 use crate::chart::text_of;

@@ -516,5 +516,5 @@ impl LoggedRobots {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "full"))]
 mod tests;

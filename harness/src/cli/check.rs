@@ -1,6 +1,7 @@
 //! `crossguard check`.
 
 mod replay;
+#[cfg(feature = "full")]
 mod workers;
 
 use std::num::NonZeroUsize;
@@ -21,6 +22,7 @@ use crossguard_model_check::timed::Figure;
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
+#[cfg(feature = "full")]
 pub(super) use replay::read as read_replay;
 
 use super::interrupts::interrupts_that;
@@ -72,10 +74,37 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FILE", conflicts_with = "charts")]
     replay: Option<PathBuf>,
     #[command(flatten)]
-    workers: workers::WorkersArguments,
+    workers: WorkersArguments,
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
+}
+
+#[derive(clap::Args)]
+struct WorkersArguments {
+    /// Explore with this number of workers, each with the states of its share of fingerprints: 15 bytes per state, and
+    /// no graph of them. Properties that need the graph (L) are not judged, and named.
+    #[arg(long, value_name = "N", value_parser = threads,
+        conflicts_with_all = ["all", "threads", "replay"])]
+    workers: Option<NonZeroUsize>,
+    /// The addresses of all processes of the check, one HOST:PORT a line, where it has several. Each runs the same
+    /// command with another --process.
+    #[arg(long, value_name = "FILE", requires = "process",
+        conflicts_with_all = ["all", "threads", "replay"])]
+    hosts: Option<PathBuf>,
+    /// The number of this process among --hosts, from 0.
+    #[arg(long, value_name = "K", requires = "hosts")]
+    process: Option<usize>,
+    /// Seconds to wait for the other processes at the beginning.
+    #[arg(long, value_name = "SECONDS", default_value_t = 60, requires = "hosts")]
+    patience: u32,
+}
+
+impl WorkersArguments {
+    /// Whether workers are asked for.
+    const fn are_given(&self) -> bool {
+        self.workers.is_some() || self.hosts.is_some()
+    }
 }
 
 #[derive(Serialize)]
@@ -91,7 +120,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return replay::run(&arguments.scenarios, file);
     }
     if arguments.large || arguments.workers.are_given() {
+        #[cfg(feature = "full")]
         return workers::run(arguments);
+        #[cfg(not(feature = "full"))]
+        return Err(super::small::build_all());
     }
     let names: Vec<&str> = if !arguments.scenarios.is_empty() {
         arguments.scenarios.iter().map(String::as_str).collect()

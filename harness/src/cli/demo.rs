@@ -1,6 +1,6 @@
 //! `crossguard demo`.
 
-use std::io::{Cursor, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -13,12 +13,15 @@ use crossguard_endpoint::station::Mode;
 use crossguard_judge::chart::Chart;
 use crossguard_judge::timing::{Statistic, Summary};
 use crossguard_robot::plan_file::PlanFile;
-use crossguard_robot::site_file::SiteFile;
-use crossguard_robot::trace::{Log, LogFile, LogLimits, Record};
+use crossguard_robot::trace::{LogFile, LogLimits, Record};
 use crossguard_robot::transport::Faults;
 
 use super::interrupts::interrupts;
 use super::ranges::{any, in_range, speed, whole};
+#[cfg(feature = "full")]
+use super::report::write_page;
+#[cfg(not(feature = "full"))]
+use super::small::write_page;
 use super::{Failure, destinations, print, print_json};
 use crate::demo::{self, Options, Outcome, Scenario, Seen};
 
@@ -151,6 +154,10 @@ fn lines(chart: &mut Chart, first: &str, seen: Seen<'_>) -> Vec<String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    #[cfg(not(feature = "full"))]
+    if arguments.report.is_some() || arguments.etsi.are_given() {
+        return Err(super::small::build_all());
+    }
     let scenario = scenario(arguments)?;
     if let Some(victim) = scenario.victim().filter(|_| arguments.trials > 1) {
         return Err(Failure::Input(format!(
@@ -235,23 +242,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         Err(Failure::Wrong)
     }
-}
-
-/// Writes the page of a run on a street; says so unless the output is for a program.
-fn write_page(path: &Path, street: &SiteFile, log: &[u8], is_json: bool) -> Result<(), Failure> {
-    let name = "the log of this run".to_owned();
-    let open = || {
-        let lines = Box::new(Cursor::new(log.to_vec()));
-        let name = name.clone();
-        Ok(vec![Log { name, lines }])
-    };
-    // What it says of the log is what the command says of it, too.
-    let studied = super::report::study(open, vec![name.clone()], Some(street.clone()))?;
-    super::report::write(path, &studied)?;
-    if is_json {
-        return Ok(());
-    }
-    print(format_args!("{}: report", path.display()))
 }
 
 /// The log as it is written: at any time all that has happened is in it.

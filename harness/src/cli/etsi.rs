@@ -1,7 +1,6 @@
 //! Options about messages of ETSI that robots send beside RAM and RMCM.
 
-use crossguard_endpoint::ras::surroundings::Awareness;
-use crossguard_endpoint::ras::vam::CLUSTER_INTERVAL_MS;
+use crossguard_endpoint::ras::surroundings::{Awareness, CLUSTER_INTERVAL_MS};
 
 #[derive(clap::Args)]
 pub(super) struct EtsiArguments {
@@ -14,6 +13,12 @@ pub(super) struct EtsiArguments {
 }
 
 impl EtsiArguments {
+    /// Whether any of them is wanted.
+    #[cfg(not(feature = "full"))]
+    pub(super) const fn are_given(&self) -> bool {
+        self.cluster_vam || self.cam
+    }
+
     /// What is wanted besides what is configured.
     pub(super) fn add_to(&self, configured: Awareness) -> Awareness {
         let interval_ms = self.cluster_vam.then_some(CLUSTER_INTERVAL_MS);

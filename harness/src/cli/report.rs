@@ -1,5 +1,6 @@
 //! `crossguard report`, and what it shares with `crossguard studio`.
 
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use crossguard_judge::playback::{Playback, written_us};
@@ -87,4 +88,26 @@ fn when(
 /// Writes the page of a run.
 pub(super) fn write(path: &Path, studied: &Studied) -> Result<(), Failure> {
     std::fs::write(path, saved(studied)).map_err(Failure::at(path))
+}
+
+/// Writes the page of a run on a street; says so unless the output is for a program.
+pub(super) fn write_page(
+    path: &Path,
+    street: &SiteFile,
+    log: &[u8],
+    is_json: bool,
+) -> Result<(), Failure> {
+    let name = "the log of this run".to_owned();
+    let open = || {
+        let lines = Box::new(Cursor::new(log.to_vec()));
+        let name = name.clone();
+        Ok(vec![Log { name, lines }])
+    };
+    // What it says of the log is what the command says of it, too.
+    let studied = study(open, vec![name.clone()], Some(street.clone()))?;
+    write(path, &studied)?;
+    if is_json {
+        return Ok(());
+    }
+    print(format_args!("{}: report", path.display()))
 }

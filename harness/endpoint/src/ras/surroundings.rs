@@ -29,6 +29,10 @@ const ANNOUNCED_WITHIN_MS: u64 = 3 * CONTINUITY_MS / 4;
 /// How many cluster VAM say that a cluster is over (`numClusterVAMRepeat`).
 const BREAKUP_REPEAT: u8 = 3;
 
+/// How often a robot sends the VAM of a cluster, in ms. By the triggers of clause 6 of TS 103 300-3 it could be as seldom
+/// as every 5 s, and members take a head for lost after 2 s (`timeClusterContinuity`).
+pub const CLUSTER_INTERVAL_MS: u64 = 500;
+
 /// How a robot announces the people around it, and itself to stations that do not know RAM.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Awareness {

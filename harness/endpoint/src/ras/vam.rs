@@ -28,9 +28,6 @@ use super::surroundings::Told;
 
 /// `stationType` of a pedestrian.
 const PEDESTRIAN: u8 = 1;
-/// How often a robot sends the VAM of a cluster, in ms. By the triggers of clause 6 it could be as seldom
-/// as every 5 s, and members take a head for lost after 2 s (`timeClusterContinuity`).
-pub const CLUSTER_INTERVAL_MS: u64 = 500;
 
 /// How it moves, which both dictionaries say in the same fields.
 macro_rules! high_frequency {

@@ -4,11 +4,12 @@
 //! - [`Security`] is whether a robot signs and verifies, and under which pseudonyms.
 //! - [`listen`] reads packets and messages that are meant for any receiver, for sniffers and charts.
 
-#[cfg(feature = "foreign")]
 pub mod listen;
 mod map;
 mod namesakes;
 mod neighbours;
+#[cfg(feature = "foreign")]
+mod observe;
 #[cfg(feature = "security")]
 mod pseudonyms;
 #[cfg(feature = "security")]
@@ -17,6 +18,8 @@ mod security;
 pub use map::{LocalDynamicMap, Neighbour, USERS_MAX, lifetime_ms};
 pub use namesakes::{NAMES_MAX, NotAdmitted};
 pub(crate) use neighbours::Neighbours;
+#[cfg(feature = "foreign")]
+pub use observe::{Unobserved, service_of};
 #[cfg(feature = "security")]
 pub(crate) use pseudonyms::Pseudonyms;
 #[cfg(feature = "security")]

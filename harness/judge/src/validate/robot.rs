@@ -2,11 +2,14 @@
 
 use std::collections::VecDeque;
 
-use crossguard_codec::its::ItsMessage;
-use crossguard_codec::{Identifiers, Service, Unheard};
+use crossguard_codec::{Identifiers, Service};
+#[cfg(feature = "full")]
+use crossguard_codec::{Unheard, its::ItsMessage};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::counters::{CauseName, Counts};
-use crossguard_endpoint::station::listen::{overhear, service_of};
+use crossguard_endpoint::station::listen::overhear;
+#[cfg(feature = "full")]
+use crossguard_endpoint::station::service_of;
 use crossguard_protocol::{
     Config, Decimetres, Input, Output, Outputs, Rmcm, Robot, Settings, StationId,
 };
@@ -238,11 +241,19 @@ impl Follow {
     }
 
     /// The service and the sender of a message that the protocol has no part in.
+    #[cfg(feature = "full")]
     fn of_etsi(&self, octets: &[u8]) -> Result<(Option<Service>, StationId), Fault> {
         let message = ItsMessage::decode(&self.identifiers, octets);
         let message = message.map_err(Unheard::from).map_err(Fault::NoMessage)?;
         let from = StationId(message.message.header().station_id.0);
         Ok((service_of(&message.message), from))
+    }
+
+    /// Messages of robots are all that is known here.
+    #[cfg(not(feature = "full"))]
+    fn of_etsi(&self, octets: &[u8]) -> Result<(Option<Service>, StationId), Fault> {
+        let message = overhear(&self.identifiers, octets).map_err(Fault::NoMessage)?;
+        Ok((Some(message.service), message.from))
     }
 
     pub(super) fn dropped(&mut self, cause: &CauseName) {

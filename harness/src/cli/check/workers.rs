@@ -2,7 +2,6 @@
 
 use std::io::{Write, stderr};
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
 use std::time::Duration;
 
 use crossguard_model_check::check::Stop;
@@ -14,29 +13,8 @@ use indicatif::{HumanBytes, HumanCount, HumanFloatCount};
 use serde::Serialize;
 
 use super::super::interrupts::interrupts_that;
-use super::super::ranges::threads;
 use super::super::{Failure, complain, destinations, print, print_json};
-use super::Arguments;
-
-#[derive(clap::Args)]
-pub(super) struct WorkersArguments {
-    /// Explore with this number of workers, each with the states of its share of fingerprints: 15 bytes per state, and
-    /// no graph of them. Properties that need the graph (L) are not judged, and named.
-    #[arg(long, value_name = "N", value_parser = threads,
-        conflicts_with_all = ["all", "threads", "replay"])]
-    workers: Option<NonZeroUsize>,
-    /// The addresses of all processes of the check, one HOST:PORT a line, where it has several. Each runs the same
-    /// command with another --process.
-    #[arg(long, value_name = "FILE", requires = "process",
-        conflicts_with_all = ["all", "threads", "replay"])]
-    hosts: Option<PathBuf>,
-    /// The number of this process among --hosts, from 0.
-    #[arg(long, value_name = "K", requires = "hosts")]
-    process: Option<usize>,
-    /// Seconds to wait for the other processes at the beginning.
-    #[arg(long, value_name = "SECONDS", default_value_t = 60, requires = "hosts")]
-    patience: u32,
-}
+use super::{Arguments, WorkersArguments};
 
 #[derive(Serialize)]
 struct WorkersTold {
@@ -44,11 +22,6 @@ struct WorkersTold {
 }
 
 impl WorkersArguments {
-    /// Whether workers are asked for.
-    pub(super) const fn are_given(&self) -> bool {
-        self.workers.is_some() || self.hosts.is_some()
-    }
-
     fn cluster(&self) -> Result<Option<Cluster>, Failure> {
         let (Some(hosts), Some(process)) = (&self.hosts, self.process) else {
             return Ok(None);

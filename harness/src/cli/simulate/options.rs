@@ -5,6 +5,7 @@ use std::io::Write;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
+use clap::builder::TypedValueParser;
 use crossguard_evaluation::behaviour::Behaviour;
 use crossguard_evaluation::grid::{Grid, Preset, Site};
 use crossguard_evaluation::matrix::Axes;
@@ -19,14 +20,15 @@ use crossguard_evaluation::vru::{Suppression, Understands, VamRule};
 use serde::Serialize;
 
 use super::Failure;
+use crate::cli::choices::one_of;
+use crate::cli::destinations;
 use crate::cli::ranges::{any, number, threads, whole};
-use crate::cli::{choices, destinations};
 
 /// The streets, and who moves on them.
 #[derive(clap::Args)]
 pub(super) struct Streets {
     /// Assumptions on the geometry, which the paper does not state.
-    #[arg(long, value_parser = choices::preset(), default_value = "kerb")]
+    #[arg(long, value_parser = preset(), default_value = "kerb")]
     pub(super) preset: Preset,
     /// Make fresh mobility with SUMO, whose programs are in this folder.
     #[arg(long, value_name = "FOLDER")]
@@ -108,7 +110,7 @@ pub(super) struct Matrix {
     )]
     pub(super) radius: Vec<f64>,
     /// Where at an intersection robots stand; the preset says it otherwise.
-    #[arg(long, value_parser = choices::site())]
+    #[arg(long, value_parser = site())]
     site: Option<Site>,
     /// Robots at an intersection before the next one gets any, each at another corner; their zones may
     /// overlap.
@@ -466,6 +468,49 @@ fn per_second(interval_ms: u64) -> String {
     let text = format!("{hz:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     format!("{text} per second, one every {interval_ms} ms")
+}
+
+/// Assumptions on the geometry of the street grid.
+fn preset() -> impl TypedValueParser<Value = Preset> {
+    one_of(&[
+        (
+            "kerb",
+            Preset::Kerb,
+            "Two lanes per direction, sidewalks of 3 m, robots on the sidewalk at a corner",
+        ),
+        (
+            "plain",
+            Preset::Plain,
+            "One lane per direction, sidewalks of 2 m, robots in the middle of the intersection",
+        ),
+    ])
+}
+
+/// Where at an intersection a robot stands.
+fn site() -> impl TypedValueParser<Value = Site> {
+    one_of(&[
+        ("center", Site::Center, "In its middle"),
+        (
+            "north-east",
+            Site::NorthEast,
+            "On the sidewalk of its north-eastern corner",
+        ),
+        (
+            "north-west",
+            Site::NorthWest,
+            "On the sidewalk of its north-western corner",
+        ),
+        (
+            "south-east",
+            Site::SouthEast,
+            "On the sidewalk of its south-eastern corner",
+        ),
+        (
+            "south-west",
+            Site::SouthWest,
+            "On the sidewalk of its south-western corner",
+        ),
+    ])
 }
 
 #[cfg(test)]
