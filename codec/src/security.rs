@@ -36,6 +36,7 @@ mod crypto;
 mod doubt;
 mod envelope;
 mod hashed_id;
+#[cfg(feature = "issue")]
 pub mod issue;
 mod permissions;
 mod region;

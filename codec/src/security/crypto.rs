@@ -166,6 +166,7 @@ impl PublicKey {
     }
 
     /// Whether y is odd, and the x coordinate.
+    #[cfg(feature = "issue")]
     pub(super) fn coordinates(&self) -> (bool, [u8; 32]) {
         let mut x = [0; 32];
         x.copy_from_slice(&self.0[1..]);
@@ -247,6 +248,7 @@ impl Signature {
     }
 
     /// `rSig` and `sSig`.
+    #[cfg(feature = "issue")]
     pub(super) fn numbers(&self) -> ([u8; 32], [u8; 32]) {
         let (r, s) = self.0.split_bytes();
         (r.into(), s.into())

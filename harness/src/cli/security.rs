@@ -3,16 +3,18 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+#[cfg(feature = "full")]
 use crossguard_codec::Identifiers;
 use crossguard_codec::security::Time64;
 use crossguard_endpoint::station::{Credentials, Mode, Security};
-use crossguard_robot::pki::{self, Pki};
+use crossguard_robot::pki;
 use crossguard_robot::transport::Link;
 
 use super::ranges::whole;
 use super::{Failure, choices};
 
 /// How many pseudonyms a robot of a demonstration has.
+#[cfg(feature = "full")]
 const PSEUDONYMS: usize = 4;
 
 #[derive(clap::Args)]
@@ -85,13 +87,22 @@ impl SecurityArguments {
         if self.security == Mode::Off || self.pki.is_some() {
             return names.iter().map(|name| self.of_robot(name, None)).collect();
         }
+        #[cfg(not(feature = "full"))]
+        return Err(super::small::build_all());
+        #[cfg(feature = "full")]
+        self.of_throw_away(names.len())
+    }
+
+    /// The security of so many robots in a PKI that nobody else knows.
+    #[cfg(feature = "full")]
+    fn of_throw_away(&self, robots: usize) -> Result<Vec<Security>, Failure> {
         let (identifiers, now) = (Identifiers::default(), pki::now());
-        let pki = Pki::for_a_day(&identifiers, now).map_err(Failure::input)?;
-        let of_one = |_: &&str| {
+        let pki = pki::Pki::for_a_day(&identifiers, now).map_err(Failure::input)?;
+        let of_one = |_| {
             let credentials = pki.credentials(&identifiers, (PSEUDONYMS, None), now);
             self.with(credentials.map_err(Failure::input)?)
         };
-        names.iter().map(of_one).collect()
+        (0..robots).map(of_one).collect()
     }
 
     fn with(&self, credentials: Credentials) -> Result<Security, Failure> {
