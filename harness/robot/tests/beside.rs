@@ -7,8 +7,8 @@ mod support;
 
 use std::collections::BTreeMap;
 
-use crossguard_codec::security::{Certificate, Time64};
-use crossguard_codec::{Identifiers, Identity, Kind};
+use crossguard_codec::security::{Certificate, Duration, Time64};
+use crossguard_codec::{Identifiers, Identity, Kind, Part};
 use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::station::{Mode, Security};
@@ -16,7 +16,7 @@ use crossguard_endpoint::{Act, Effect, Stimulus};
 use crossguard_protocol::{Millis, StationId};
 use crossguard_robot::body::Build;
 use crossguard_robot::perception::SensorFrame;
-use crossguard_robot::pki::Pki;
+use crossguard_robot::pki::{self, Pki, Term};
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::street::Road;
@@ -92,17 +92,33 @@ fn strip(south: f64, north: f64) -> Area {
     Area::Polygon(corners.to_vec())
 }
 
-/// A leader that watches a crossing, and a helper. Both trust the others' root beside their own.
+/// A leader that watches a crossing, and a helper. In the folder of each are the others' root and authority beside its own.
 fn street(others: &Others) -> Street<Done> {
-    let (identifiers, now) = (Identifiers::default(), Time64::of_timestamp_its(BEGAN_ITS));
-    let pki = Pki::for_a_day(&identifiers, now).unwrap();
+    let identifiers = Identifiers::default();
+    let now = Time64::of_timestamp_its(BEGAN_ITS);
+    let own = Pki::for_a_day(&identifiers, now).unwrap();
+    let [root, authority] =
+        [&others.root, &others.authority].map(|it| Certificate::decode(it).unwrap());
     let machine = |station, build, plan, road| {
-        let named = (1, Some(StationId(station)));
-        let mut credentials = pki.credentials(&identifiers, named, now).unwrap();
-        let [root, authority] =
-            [&others.root, &others.authority].map(|it| Certificate::decode(it).unwrap());
-        credentials.trust.add_root(root).unwrap();
-        credentials.trust.add_authority(authority).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        let parts = [Part::Lead, Part::Help];
+        let permissions = pki::robot_permissions(&identifiers, &parts, Some(StationId(station)));
+        let term = Term {
+            from: now,
+            duration: Duration::hours(1),
+        };
+        let ticket = pki::new_ticket(&own.authority, term, None, permissions).unwrap();
+        pki::write_ticket(&ticket, folder).unwrap();
+        for (certificate, name) in [
+            (&own.root.certificate, "root"),
+            (&own.authority.certificate, "authority"),
+            (&root, "root-of-others"),
+            (&authority, "authority-of-others"),
+        ] {
+            pki::write_certificate(certificate, folder, name).unwrap();
+        }
+        let credentials = pki::read_credentials(folder).unwrap();
         let security = Security::new(Mode::Enforce, credentials, None, now).unwrap();
         let body = (build, Place::new(-f64::from(station), -2.0), 5.0);
         support::machine(station, body, plan, road, security)
