@@ -23,6 +23,9 @@ pub enum Discarded {
     /// The own station sent it.
     #[error("a packet of the own station")]
     OwnPacket,
+    /// It comes from the own address, and the own station did not send it.
+    #[error("another station has the own station id, or the own tickets: give one of both its own")]
+    Namesake,
     /// There is no service at its port.
     #[error("no service is at port {0}")]
     UnknownPort(u16),
@@ -56,6 +59,7 @@ impl Discarded {
             Self::Headers(_) => "not supported",
             Self::Envelope(error) => error.cause(),
             Self::OwnPacket => "own packet",
+            Self::Namesake => "another station with the own station id",
             Self::UnknownPort(_) => "unknown port",
             Self::WrongPermission { .. } => "wrong permission for port",
             Self::Elsewhere => "destination area elsewhere",

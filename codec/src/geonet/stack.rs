@@ -73,6 +73,35 @@ pub struct Stack {
     envelope: Envelope,
     next_sequence_number: u16,
     duplicates: Duplicates,
+    sent: Sent,
+}
+
+/// How many sent packets are told from those of a namesake: a robot sends no more in a second.
+const SENT: usize = 32;
+
+/// The newest packets that were sent, by a hash of each.
+#[derive(Clone, Copy, Debug)]
+struct Sent {
+    hashes: [u64; SENT],
+    next: usize,
+}
+
+impl Sent {
+    /// FNV-1a, which needs no table.
+    fn hash(packet: &[u8]) -> u64 {
+        packet.iter().fold(0xcbf2_9ce4_8422_2325, |hash, octet| {
+            (hash ^ u64::from(*octet)).wrapping_mul(0x0100_0000_01b3)
+        })
+    }
+
+    fn add(&mut self, packet: &[u8]) {
+        self.hashes[self.next % SENT] = Self::hash(packet);
+        self.next = self.next.wrapping_add(1);
+    }
+
+    fn has(&self, packet: &[u8]) -> bool {
+        self.hashes.contains(&Self::hash(packet))
+    }
 }
 
 impl Stack {
@@ -85,6 +114,10 @@ impl Stack {
             envelope,
             next_sequence_number: 0,
             duplicates: Duplicates::default(),
+            sent: Sent {
+                hashes: [0; SENT],
+                next: 0,
+            },
         }
     }
 
@@ -125,6 +158,18 @@ impl Stack {
     /// # Errors
     /// Why it cannot be sent.
     pub fn send(
+        &mut self,
+        ego: &EgoPosition,
+        request: &Request,
+        message: &[u8],
+        packet: &mut [u8],
+    ) -> Result<usize, SendError> {
+        let length = self.put(ego, request, message, packet)?;
+        self.sent.add(&packet[..length]);
+        Ok(length)
+    }
+
+    fn put(
         &mut self,
         ego: &EgoPosition,
         request: &Request,
@@ -202,8 +247,19 @@ impl Stack {
     /// Takes a packet apart.
     ///
     /// # Errors
-    /// Why it is discarded.
+    /// Why it is discarded. A packet from the own address is an echo only if it is one of the last that were sent.
     pub fn receive<'a>(
+        &mut self,
+        ego: &EgoPosition,
+        packet: &'a [u8],
+    ) -> Result<Indication<'a>, Discarded> {
+        self.take(ego, packet).map_err(|discarded| match discarded {
+            Discarded::OwnPacket if !self.sent.has(packet) => Discarded::Namesake,
+            discarded => discarded,
+        })
+    }
+
+    fn take<'a>(
         &mut self,
         ego: &EgoPosition,
         packet: &'a [u8],

@@ -124,12 +124,29 @@ fn a_geo_broadcast_is_for_those_in_its_area() {
 #[test]
 fn what_is_not_for_the_station_is_discarded_by_name() {
     let mut octets = vector("G1");
-    let own = stack_of(address()).receive(&ego(), &octets).unwrap_err();
-    assert_eq!((own, own.cause()), (Discarded::OwnPacket, "own packet"));
+    let namesake = stack_of(address()).receive(&ego(), &octets);
+    assert_eq!(namesake, Err(Discarded::Namesake));
     // Port 2003.
     octets[41] = 0xd3;
     let at_no_service = listener().receive(&ego(), &octets);
     assert_eq!(at_no_service, Err(Discarded::UnknownPort(2_003)));
+}
+
+/// Hazard: two robots go by one station id. Each took the packets of the other for its own, and nothing ever said so.
+#[test]
+fn a_packet_from_the_own_address_is_an_echo_only_if_the_station_has_sent_it() {
+    let mut robots = [(); 2].map(|()| stack_of(address()));
+    let mut later = ego();
+    for _ in 0..100 {
+        later.timestamp_its += 100;
+        let [packet, of_namesake] = robots.each_mut().map(|robot| {
+            later.timestamp_its += 1;
+            robot.packet(&later, Service::Ram, &[1; 20]).unwrap()
+        });
+        let mut hear = |packet: &[u8]| robots[0].receive(&later, packet).unwrap_err();
+        assert_eq!(hear(&packet), Discarded::OwnPacket);
+        assert_eq!(hear(&of_namesake), Discarded::Namesake);
+    }
 }
 
 #[test]

@@ -6,7 +6,9 @@ use std::net::{TcpStream, UdpSocket};
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
-use crossguard_codec::golden;
+use crossguard_codec::geonet::{EgoPosition, Stack};
+use crossguard_codec::{Identifiers, Service, golden};
+use crossguard_protocol::StationId;
 use crossguard_testkit::command::*;
 use serde_json::Value;
 
@@ -39,6 +41,13 @@ fn packet(file: &'static str, name: &str, port: u16, station: u32) -> Vec<u8> {
     packet[16..20].copy_from_slice(&station.to_be_bytes());
     packet.extend(message);
     packet
+}
+
+/// What a robot sends that was given the same station id.
+fn of_namesake() -> Vec<u8> {
+    let mut namesake = Stack::of_robot(Identifiers::default(), StationId(ROBOT));
+    let packet = namesake.packet(&EgoPosition::default(), Service::Ram, &[0; 8]);
+    packet.unwrap()
 }
 
 /// A robot that runs, and what it says from then on.
@@ -104,6 +113,7 @@ fn stations_of_others_are_in_status_metrics_and_log_and_what_outlived_its_lifeti
         packet(golden::VAM, "V3", 2_018, 300),
         packet(golden::ITS, "P2", 2_009, 400),
         packet(golden::ITS, "C1", 2_001, ROBOT),
+        of_namesake(),
     ];
     for _ in 0..TIMES {
         for packet in &others {
@@ -125,8 +135,10 @@ fn stations_of_others_are_in_status_metrics_and_log_and_what_outlived_its_lifeti
         "2 vehicles (nearest station 100 at 0.0 m, oldest ",
         "2 vulnerable road users (nearest ",
         "; channel: nobody measures it",
+        "another station with the own station id: another station has",
     ]);
     scraped.must_have(&[
+        "cause=\"another station with the own station id\"} 12",
         "crossguard_stations_heard{robot=\"ARI\"} 4",
         "crossguard_around{robot=\"ARI\",kind=\"vehicle\"} 2",
         "crossguard_around{robot=\"ARI\",kind=\"vulnerable road user\"} 2",
@@ -161,7 +173,11 @@ fn in_log(log: &str) {
     // What goes by the robot's own station id is not heard, and counted.
     let dropped = of("dropped").into_iter();
     let dropped: Vec<_> = dropped.map(|it| it["cause"].as_str().unwrap()).collect();
-    assert_eq!(dropped, ["message of the own station"; TIMES]);
+    let both = [
+        "message of the own station",
+        "another station with the own station id",
+    ];
+    assert_eq!(dropped, [both; TIMES].concat());
 }
 
 #[test]
