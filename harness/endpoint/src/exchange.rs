@@ -20,8 +20,8 @@ use crossguard_codec::{
     TaskParameters, ViewError, encode_into, ram_from, rmcm_from_answer, rmcm_from_commands,
 };
 use crossguard_protocol::{
-    Config, Event, Input, Millis, Output, Outputs, Phase, Rmcm, Robot, StateMachine, StationId,
-    TaskType, UniqueNumber,
+    Command, Config, Event, Input, Millis, Output, Outputs, Phase, Rmcm, Robot, StateMachine,
+    StationId, TaskType, UniqueNumber,
 };
 
 pub use self::entitled::NotEntitled;
@@ -44,6 +44,8 @@ pub struct Exchange<P = Robot> {
     generation: Generation,
     orders: Orders,
     pins: Pins,
+    /// The newest command that the robot took on, and its parameters.
+    accepted: Option<(Command, Option<TaskParameters>)>,
 }
 
 impl<P: StateMachine> Exchange<P> {
@@ -59,6 +61,7 @@ impl<P: StateMachine> Exchange<P> {
             generation: Generation::default(),
             orders: Orders::default(),
             pins: Pins::default(),
+            accepted: None,
         }
     }
 
@@ -230,9 +233,49 @@ impl<P: StateMachine> Exchange<P> {
         };
         host.heard(me, &heard, arrived);
         for input in heard.inputs.iter() {
+            if self.is_another_order(input, heard.parameters) {
+                let cause = Cause::Contradictory("another command under its requestID");
+                let detail =
+                    "a command that differs from one that was accepted takes the next requestID";
+                host.dropped(cause, &detail, message);
+                continue;
+            }
             self.step(host, *input, heard.parameters);
+            self.accept(input, heard.parameters);
         }
         self.pins.keep(self.protocol.robot(), heard.from, signer);
+    }
+
+    /// Whether this is a command with the requestID of the one that the robot took on, and says something else: it is no
+    /// repetition, and the leader must not hear that it was accepted. How long a command is valid may run down in repetitions.
+    fn is_another_order(&self, input: &Input, parameters: Option<TaskParameters>) -> bool {
+        let timeless = |with: Option<TaskParameters>| {
+            with.map(|with| TaskParameters {
+                validity: None,
+                ..with
+            })
+        };
+        let (Input::Rmcm(Rmcm::Command(command)), Some((known, with))) = (input, self.accepted)
+        else {
+            return false;
+        };
+        (known.session, known.request) == (command.session, command.request)
+            && command.to == self.protocol.robot().station()
+            && (known.task != command.task || timeless(with) != timeless(parameters))
+    }
+
+    /// Remembers a command that the robot has just taken on, with its parameters.
+    fn accept(&mut self, input: &Input, parameters: Option<TaskParameters>) {
+        if let (Input::Rmcm(Rmcm::Command(command)), Phase::Following(following)) =
+            (input, self.protocol.robot().phase())
+            && command.to == self.protocol.robot().station()
+            && following.session == command.session
+            && following
+                .job
+                .is_some_and(|job| job.request == command.request)
+        {
+            self.accepted = Some((*command, parameters));
+        }
     }
 
     /// Sends a RAM outside of a session, where the protocol does not say when, if the generation rules do.
