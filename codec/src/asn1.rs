@@ -70,6 +70,16 @@ where
     })
 }
 
+/// The value at the front of `octets`, and how many octets follow it.
+///
+/// # Errors
+/// As of [`decode`].
+pub(crate) fn decode_front<T: rasn::Decode>(octets: &[u8]) -> Result<(T, usize), DecodeError> {
+    let decoded = rasn::uper::decode_with_remainder(octets);
+    let (value, rest) = decoded.map_err(|error| malformed(&error))?;
+    Ok((value, rest.len()))
+}
+
 /// What is wrong with the octets, and in which field.
 fn malformed(error: &rasn::error::DecodeError) -> DecodeError {
     let (mut kind, mut names) = (&*error.kind, Vec::new());

@@ -3,7 +3,9 @@
 //! | message | standard | dictionary (TS 102 894-2) |
 //! |---|---|---|
 //! | [`CAM`] | TS 103 900 v2.3.1; EN 302 637-2 v1.4.1 has the same bits | v2.4.1 |
+//! | the same, `protocolVersion` 1 | EN 302 637-2 v1.3.2, read without the special vehicle container | v1.2.1 |
 //! | [`DENM`] | TS 103 831 v2.3.1; EN 302 637-3 v1.3.1 has the same bits | v2.4.1 |
+//! | the same, `protocolVersion` 1 | EN 302 637-3 v1.2.2, read without the à-la-carte container | v1.2.1 |
 //! | [`VAM`] | TS 103 300-3 v2.3.1 | v2.4.1 |
 //! | [`VAM211`] | TS 103 300-3 v2.2.1 | v2.1.1 |
 //! | [`CPM`] | TS 103 324 v2.1.1 | v2.4.1 or v2.1.1 |
@@ -19,6 +21,7 @@
 mod cause;
 mod cpm;
 mod event;
+mod release1;
 mod road_user;
 
 use serde::{Deserialize, Serialize};
@@ -44,6 +47,8 @@ pub use event::Event;
 
 /// `protocolVersion` and `messageId` of CAM.
 const CAM_HEADER: (u8, u8) = (2, 2);
+/// `protocolVersion` of CAM and DENM before 2018.
+const RELEASE_1: u8 = 1;
 /// Those of DENM.
 const DENM_HEADER: (u8, u8) = (2, 1);
 /// Those of CPM.
@@ -85,10 +90,18 @@ impl ItsMessage {
         ) -> Result<Received<ItsMessage>, DecodeError> {
             Ok(decode::<M>(identifiers, octets)?.map(Box::new).map(wrap))
         }
-        let found = header_of(octets)?.message_id.0;
+        let header = header_of(octets)?;
+        let found = header.message_id.0;
+        let is_release_1 = header.protocol_version.0 == RELEASE_1;
         match (found, identifiers.dictionary) {
             (id, _) if id == identifiers.ram.message_id => of(identifiers, octets, Self::Ram),
             (id, _) if id == identifiers.rmcm.message_id => of(identifiers, octets, Self::Rmcm),
+            (id, _) if id == CAM_HEADER.1 && is_release_1 => {
+                Ok(release1::cam(octets)?.map(Box::new).map(Self::Cam))
+            }
+            (id, _) if id == DENM_HEADER.1 && is_release_1 => {
+                Ok(release1::denm(octets)?.map(Box::new).map(Self::Denm))
+            }
             (id, _) if id == CAM_HEADER.1 => of(identifiers, octets, Self::Cam),
             (id, _) if id == DENM_HEADER.1 => of(identifiers, octets, Self::Denm),
             (id, _) if id == CPM_HEADER.1 => of(identifiers, octets, Self::Cpm),
@@ -137,6 +150,12 @@ impl ItsMessage {
         match self {
             Self::Ram(_) => "Crossguard-RAM on TS 102 894-2 v2.4.1",
             Self::Rmcm(_) => "Crossguard-RMCM on TS 102 894-2 v2.4.1",
+            Self::Cam(cam) if cam.header.protocol_version.0 == RELEASE_1 => {
+                "EN 302 637-2 v1.3.2 on TS 102 894-2 v1.2.1"
+            }
+            Self::Denm(denm) if denm.header.protocol_version.0 == RELEASE_1 => {
+                "EN 302 637-3 v1.2.2 on TS 102 894-2 v1.2.1"
+            }
             Self::Cam(cam) if cam.cam.cam_parameters.extension_containers.is_some() => {
                 "TS 103 900 v2.3.1 on TS 102 894-2 v2.4.1"
             }

@@ -14,6 +14,7 @@ mod golden_messages;
 mod heard;
 mod json;
 mod judges;
+mod release1;
 #[cfg(feature = "security")]
 mod security;
 mod si;
