@@ -30,6 +30,17 @@ named! {
 }
 
 impl Service {
+    /// Messages that the kit names and does not decode, by their BTP-B ports (TS 103 248, table 2).
+    pub const FOREIGN: [(u16, &str); 7] = [
+        (2_003, "MAPEM"),
+        (2_004, "SPATEM"),
+        (2_005, "SAEM"),
+        (2_006, "IVIM"),
+        (2_007, "SREM"),
+        (2_008, "SSEM"),
+        (2_013, "RTCMEM"),
+    ];
+
     /// Its BTP-B port.
     #[must_use]
     pub const fn port(self, identifiers: &Identifiers) -> u16 {
@@ -64,19 +75,11 @@ impl Service {
             .find(|service| service.port(identifiers) == port)
     }
 
-    /// The message of another service whose BTP-B port this is (TS 103 248, table 2); the kit does not decode these.
+    /// The message of another service at a port: one of [`Self::FOREIGN`].
     #[must_use]
-    pub const fn foreign_at_port(port: u16) -> Option<&'static str> {
-        Some(match port {
-            2_003 => "MAPEM",
-            2_004 => "SPATEM",
-            2_005 => "SAEM",
-            2_006 => "IVIM",
-            2_007 => "SREM",
-            2_008 => "SSEM",
-            2_013 => "RTCMEM",
-            _ => return None,
-        })
+    pub fn foreign_at_port(port: u16) -> Option<&'static str> {
+        let found = Self::FOREIGN.into_iter().find(|(known, _)| *known == port);
+        found.map(|(_, name)| name)
     }
 
     /// How its messages are sent: to everybody in reach, with a lifetime of a second and the DCC

@@ -43,6 +43,9 @@ pub struct Seen {
     /// What happened on the road, as a DENM tells.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub event: Option<Event>,
+    /// The whole message under its kind, with the names and numbers of its ASN.1 module, where it is decoded.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub message: Option<ItsMessage>,
 }
 
 /// Listens in, and remembers who is around.
@@ -115,6 +118,7 @@ impl Sniffer {
             text: String::new(),
             road_users: Vec::new(),
             event: None,
+            message: None,
         };
         if let Err((cause, text)) = self.read(packet, now_ms, now_its, &mut seen) {
             self.counters.count(cause);
@@ -147,6 +151,7 @@ impl Sniffer {
         if !message.is_canonical {
             self.counters.count(Cause::NotCanonical);
         }
+        let is_partly_read = message.extended > 0;
         let message = message.message;
         if let Some(service) = service_of(&message) {
             seen.kind = service.name();
@@ -163,6 +168,10 @@ impl Sniffer {
             self.map.observe(*user, now_ms);
         }
         seen.text = self.describe(&message, octets, &headers, &seen.road_users);
+        if is_partly_read {
+            seen.text.push_str(", and parts that are not read");
+        }
+        seen.message = Some(message);
         Ok(())
     }
 

@@ -19,6 +19,7 @@ mod safety;
 mod security;
 mod sim;
 mod simulate;
+mod sniff;
 mod studio;
 mod validate;
 mod workers;

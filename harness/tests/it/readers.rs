@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
-use crossguard_codec::{Identifiers, golden};
+use crossguard_codec::{Identifiers, Service, golden};
 use crossguard_judge::sniffer::Sniffer;
 use crossguard_judge::validate;
 use crossguard_protocol::{Event, Output};
@@ -356,7 +356,7 @@ fn a_packet_that_is_not_decoded_has_the_name_of_its_message_or_a_reason() {
         sniffer.see(&changed, 5_000, 694_694_401_000)
     };
     assert_eq!(packet[56..58], 2_002_u16.to_be_bytes(), "the BTP port");
-    for (port, name) in [(2_003_u16, "MAPEM"), (2_004, "SPATEM"), (2_007, "SREM")] {
+    for (port, name) in Service::FOREIGN {
         let seen = see(56, &port.to_be_bytes());
         assert_eq!((seen.kind, seen.station), (name, Some(123_456_789)));
     }
