@@ -14,8 +14,8 @@ mod simulated;
 use std::fmt;
 
 use crossguard_codec::{
-    Capabilities, ControlMode, Dimensions, DriveDirection, JobRole, Position, RobotCategory,
-    RobotState, SlowState, TaskParameters,
+    Capabilities, ControlMode, Dimensions, JobRole, Position, RobotCategory, RobotState, SlowState,
+    TaskParameters,
 };
 use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId, StopReason};
 use serde::{Deserialize, Serialize};
@@ -232,7 +232,6 @@ fn state_of(
         position: pose.map_or_else(Position::default, position),
         heading: pose.and_then(|pose| pose.heading_deg).map(Into::into),
         speed: pose.and_then(|pose| pose.speed_mps).map(Into::into),
-        drive_direction: DriveDirection::Forward,
         longitudinal_acceleration: acceleration_mps2.map(Into::into),
         dimensions: build.dimensions(),
         category: build.category(),

@@ -3,7 +3,7 @@
 //! Its time may run faster than the protocol's, so that a demonstration need not take as long as a
 //! real crossing. How far a step really carries varies a little from maneuver to maneuver.
 
-use crossguard_codec::{Battery, RobotState, TaskParameters};
+use crossguard_codec::{Battery, DriveDirection, RobotState, TaskParameters};
 use crossguard_protocol::{FallbackPolicy, Maneuver, TaskSet, TaskType};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -228,6 +228,7 @@ impl Body for Simulated {
         );
         RobotState {
             battery: SIMULATED_BATTERY,
+            drive_direction: DriveDirection::Forward,
             ..state
         }
     }

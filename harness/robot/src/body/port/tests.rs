@@ -4,7 +4,9 @@ use std::io::{BufRead, BufReader, Write};
 use std::os::unix::net::UnixStream;
 
 use crossguard_codec::geonet::EgoPosition;
-use crossguard_codec::{Heard as Message, Identifiers, Position, TaskParameters, encode, ram_from};
+use crossguard_codec::{
+    DriveDirection, Heard as Message, Identifiers, Position, TaskParameters, encode, ram_from,
+};
 use crossguard_protocol::{
     Availability, ManeuverId, RequestId, Robot, SessionId, SessionNumber, StationId, StopReason,
     TaskType, UniqueNumber,
@@ -198,6 +200,8 @@ fn point_5_what_a_body_does_not_know_of_its_pose_is_unavailable() {
             EgoPosition::of(&sent, 0).is_accurate.to_string(),
         ];
         assert_eq!(found, [error, speed, heading, is_accurate], "{more}");
+        // A body that faces somewhere may walk backwards.
+        assert_eq!(sent.drive_direction, DriveDirection::Unavailable);
     }
     for wrong in [
         "\"errorM\": 0",
