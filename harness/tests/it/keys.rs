@@ -3,7 +3,8 @@
 
 use std::fs::{self, File};
 use std::io::Read;
-use std::os::unix::fs::FileExt;
+use std::os::unix::fs::{FileExt, MetadataExt as _, PermissionsExt as _};
+use std::os::unix::process::CommandExt as _;
 use std::path::Path;
 
 use crossguard_robot::pki;
@@ -53,6 +54,39 @@ fn each_file_is_on_the_disk_before_it_has_its_name() {
             "the name of {path:?}: {notes:?}"
         );
     }
+}
+
+/// Hazard: another account of the machine signs as a robot. The folders are open to it here, and it reads certificates.
+#[test]
+fn point_6_another_user_reads_no_key_of_a_pki() {
+    let folder = tempfile::tempdir().unwrap();
+    if fs::metadata(folder.path()).unwrap().uid() != 0 {
+        return skipped("it takes root to be another user");
+    }
+    let pki = folder.path().join("pki");
+    assert!(
+        run(&["pki", "init", pki.to_str().unwrap()])
+            .status
+            .success()
+    );
+    fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).unwrap();
+    let find = "find . -type f -readable; echo all; find . -type f";
+    let mut stranger = std::process::Command::new("sh");
+    stranger.args(["-c", find]).current_dir(&pki).uid(12_345);
+    let said = stdout(&stranger.output().unwrap());
+    let (read, all) = said.split_once("all\n").unwrap();
+    let keys = |files: &str| {
+        files
+            .lines()
+            .filter(|it| Path::new(it).extension() == Some("key".as_ref()))
+            .count()
+    };
+    assert_eq!((keys(read), keys(all)), (0, 18), "{said}");
+    assert!(read.contains("./root.cert"), "{said}");
+    let write = "for it in $(find .); do test -w $it && echo $it; done";
+    let mut stranger = std::process::Command::new("sh");
+    stranger.args(["-c", write]).current_dir(&pki).uid(12_345);
+    assert_eq!(stdout(&stranger.output().unwrap()), "");
 }
 
 /// What a needle is hidden by, so that the search does not find itself.
