@@ -18,7 +18,7 @@ use crossguard_robot::transport::{Link, Transport as _};
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
 use super::interrupts::interrupts;
-use super::ranges::{address, whole};
+use super::ranges::{address, station, whole};
 use super::{Failure, print, print_json, shows_progress};
 
 /// The names under which the tester's stations find their tickets.
@@ -41,8 +41,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "ADDRESS:PORT", value_parser = address::<SocketAddr>)]
     peer: Option<SocketAddr>,
     /// The station id of the robot.
-    #[arg(long, value_name = "ID", value_parser = whole::<u32>(0..=u32::MAX.into()))]
-    station: Option<u32>,
+    #[arg(long, value_name = "ID", value_parser = station)]
+    station: Option<StationId>,
     /// The first of the two station ids by which the tester goes.
     #[arg(long, value_name = "ID", default_value_t = 9001, value_parser = whole::<u32>(1..=4_000_000_000))]
     tester: u32,
@@ -148,8 +148,7 @@ fn reach(arguments: &Arguments) -> Result<(Link, Table), Failure> {
     let address = address.ok_or_else(|| missing("--address"))?;
     let peer = arguments.peer.or(turned.1);
     let peer = peer.ok_or_else(|| missing("--peer"))?;
-    let station = arguments.station.map(StationId);
-    let station = station.or(file.map(|file| file.station));
+    let station = arguments.station.or(file.map(|file| file.station));
     let robot = station.ok_or_else(|| missing("--station"))?;
     let identifiers = file.map(|file| file.identifiers).unwrap_or_default();
     let securities = arguments.security.of_robots(&NAMES)?;

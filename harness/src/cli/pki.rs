@@ -11,7 +11,7 @@ use crossguard_protocol::StationId;
 use crossguard_robot::pki::{self, Holder, PkiError, Term};
 
 use self::shown::Shown;
-use super::ranges::whole;
+use super::ranges::{self, whole};
 use super::{Failure, destinations, print_json};
 
 #[derive(clap::Subcommand)]
@@ -129,13 +129,9 @@ fn holder(text: &str) -> Result<Named, String> {
             station: None,
         });
     };
-    let station = station.parse().map(StationId);
-    let station = station.map_err(|_| {
-        format!("'{text}' is no robot with a station id, like ARI=1 (0 to 4294967295)")
-    })?;
     Ok(Named {
         name: name.to_owned(),
-        station: Some(station),
+        station: Some(ranges::station(station)?),
     })
 }
 

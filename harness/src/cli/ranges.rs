@@ -6,6 +6,7 @@ use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 use clap::{Arg, Command};
+use crossguard_protocol::StationId;
 
 /// How many times as fast as real the robots' bodies move.
 pub(super) fn speed(text: &str) -> Result<f64, String> {
@@ -50,6 +51,13 @@ pub(super) fn whole<T: TryFrom<i128>>(
             format!("a whole number from {start} to {end} is wanted")
         })
     }
+}
+
+/// A station id. No station is 0.
+pub(super) fn station(text: &str) -> Result<StationId, String> {
+    let id = whole(1..=u32::MAX.into())(text);
+    let wanted = "a station id from 1 to 4294967295 is wanted";
+    id.map(StationId).map_err(|_| wanted.to_owned())
 }
 
 /// Any number that a `u64` holds, as seeds are.
