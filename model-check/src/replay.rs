@@ -60,7 +60,7 @@ impl Replay {
     /// The scenario that it goes through.
     ///
     /// # Errors
-    /// Every way in which there is no usable scenario of its name, or in its text.
+    /// There is no shipped scenario of its name, or no usable one in its text.
     pub fn load_scenario(&self) -> Result<Scenario, ScenarioError> {
         match &self.text {
             Some(text) => Scenario::parse(&self.scenario, text),

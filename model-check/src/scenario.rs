@@ -11,7 +11,7 @@ mod monotone;
 pub(crate) mod setup;
 mod symmetric;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crossguard_protocol::{Config, HelpRequest, StationId};
 
@@ -166,27 +166,19 @@ impl Scenario {
         SHIPPED.iter().map(|shipped| (shipped.name, shipped.text))
     }
 
-    /// The shipped scenario of this name, or the scenario in the file of this name.
+    /// The shipped scenario of this name.
     ///
     /// # Errors
-    /// Every way in which there is no usable scenario of that name.
+    /// There is none.
     pub fn load(name: &str) -> Result<Self, ScenarioError> {
-        if let Some(shipped) = SHIPPED.iter().find(|shipped| shipped.name == name) {
-            return Self::parse(name, shipped.text);
-        }
-        let path = Path::new(name);
-        if !path.exists() && path.extension().is_none() {
+        let Some(shipped) = SHIPPED.iter().find(|shipped| shipped.name == name) else {
             let shipped = Self::names(|_| true).collect::<Vec<_>>().join(", ");
             return Err(ScenarioError::Unknown {
                 name: name.to_owned(),
                 shipped,
             });
-        }
-        let text = std::fs::read_to_string(path).map_err(|cause| ScenarioError::Unreadable {
-            path: path.to_owned(),
-            cause,
-        })?;
-        Self::parse(name, &text)
+        };
+        Self::parse(name, shipped.text)
     }
 
     /// What the robot at this place asks for when it detects a pedestrian.

@@ -1,5 +1,7 @@
 //! What can be checked by name: scenarios, untimed and timed, streets, and the paper's text.
 
+use std::path::Path;
+
 use crate::check::check;
 use crate::crossing::{SHIPPED, Shipped};
 use crate::exploration::{CheckProgress, Options};
@@ -27,18 +29,32 @@ impl Subject {
         Scenario::shipped().chain(streets).chain([paper::NAME])
     }
 
-    /// The one of this name, or the scenario in the file of this name.
+    /// The one of this name, or the scenario in the file of this name, which `read` reads.
     ///
     /// # Errors
     /// Every way in which there is no usable scenario of that name.
-    pub fn load(name: &str) -> Result<Self, ScenarioError> {
+    pub fn load(
+        name: &str,
+        read: impl FnOnce(&Path) -> std::io::Result<String>,
+    ) -> Result<Self, ScenarioError> {
         if name == paper::NAME {
             return Ok(Self::PaperLiteral);
         }
         if let Some(street) = Shipped::of(name) {
             return Ok(Self::Street(street));
         }
-        Ok(Self::Scenario(Box::new(Scenario::load(name)?)))
+        let path = Path::new(name);
+        let scenario = match Scenario::load(name) {
+            Err(ScenarioError::Unknown { .. }) if path.exists() || path.extension().is_some() => {
+                let text = read(path).map_err(|cause| ScenarioError::Unreadable {
+                    path: path.to_owned(),
+                    cause,
+                })?;
+                Scenario::parse(name, &text)?
+            }
+            loaded => loaded?,
+        };
+        Ok(Self::Scenario(Box::new(scenario)))
     }
 
     /// Checks it. `watch` receives the progress now and then; never of the paper's text, which is small.

@@ -1,6 +1,9 @@
 //! Scenario files: what is wrong with one is said with its line.
 
+use std::path::Path;
+
 use crossguard_model_check::scenario::{Scenario, ScenarioError};
+use crossguard_model_check::subject::Subject;
 
 const PAIR: &str = include_str!("../scenarios/pair.toml");
 
@@ -58,7 +61,8 @@ fn a_scenario_that_is_neither_shipped_nor_a_file_is_told_apart() {
         unknown.to_string().contains("the shipped ones are pair,"),
         "{unknown}"
     );
-    let missing = Scenario::load("no/such/file.toml").unwrap_err();
+    let read = |path: &Path| std::fs::read_to_string(path);
+    let missing = Subject::load("no/such/file.toml", read).unwrap_err();
     assert!(
         matches!(missing, ScenarioError::Unreadable { .. }),
         "{missing}"

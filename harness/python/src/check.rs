@@ -1,11 +1,13 @@
 //! The model checker.
 
 use std::num::NonZeroUsize;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crossguard_model_check::check::{CheckProgress, Options, Stop};
 use crossguard_model_check::report::ScenarioReport;
 use crossguard_model_check::subject::Subject;
+use crossguard_robot::files;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -65,7 +67,9 @@ pub(crate) fn check(
     timeout_s: Option<f64>,
     progress: &Bound<'_, PyAny>,
 ) -> PyResult<Report> {
-    let subject = Subject::load(name).map_err(|error| ScenarioError::new_err(error.to_string()))?;
+    let read = |path: &Path| files::text(path, files::TEXT_MAX);
+    let subject = Subject::load(name, read);
+    let subject = subject.map_err(|error| ScenarioError::new_err(error.to_string()))?;
     let time_max = timeout_s.map(Duration::try_from_secs_f64).transpose();
     let defaults = Options::default();
     let options = Options {

@@ -19,11 +19,12 @@ use crossguard_model_check::report::{CheckVerdict, PropertyReport, ScenarioRepor
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::subject::Subject;
 use crossguard_model_check::timed::Figure;
+use crossguard_robot::files;
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
 #[cfg(feature = "full")]
-pub(super) use replay::read as read_replay;
+pub(super) use replay::read_whole as read_replay;
 
 use super::interrupts::interrupts_that;
 use super::ranges::{at_least_one, threads, whole};
@@ -134,11 +135,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     // All are read before any is checked: a mistake in the last one should not cost the time of the
     // others.
-    let scenarios = names
-        .into_iter()
-        .map(Subject::load)
-        .collect::<Result<Vec<_>, _>>();
-    let scenarios = scenarios.map_err(Failure::input)?;
+    let scenarios = names.into_iter().map(subject);
+    let scenarios = scenarios.collect::<Result<Vec<_>, _>>()?;
     destinations::folders([&arguments.charts])?;
     let stop = Stop::default();
     let asked = stop.clone();
@@ -193,6 +191,12 @@ fn outcome<'a>(
     } else {
         Ok(())
     }
+}
+
+/// The subject of this name, or the scenario in the file of this name.
+fn subject(name: &str) -> Result<Subject, Failure> {
+    let read = |path: &Path| files::text(path, files::TEXT_MAX);
+    Subject::load(name, read).map_err(Failure::input)
 }
 
 fn list() -> Result<(), Failure> {

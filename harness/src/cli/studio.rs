@@ -4,8 +4,6 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crossguard_model_check::scenario::Scenario;
-
 use super::interrupts::interrupts_that;
 use super::{Failure, complain, open_logs, print};
 use crate::studio::{self, Followed, GivenRun, Studio};
@@ -101,12 +99,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 /// Reads a run, with the text of its scenario: pages read no files.
 fn given(path: &Path) -> Result<GivenRun, Failure> {
-    let mut run = super::check::read_replay(path)?;
-    if run.text.is_none() && !Scenario::shipped().any(|name| name == run.scenario) {
-        let cannot = |cause| Failure::input(format!("{}: its scenario: {cause}", path.display()));
-        let text = std::fs::read_to_string(&run.scenario);
-        run.text = Some(text.map_err(|cause| cannot(format!("{}: {cause}", run.scenario)))?);
-    }
+    let run = super::check::read_replay(path)?;
     let file = path.display().to_string();
     Ok(GivenRun { file, run })
 }

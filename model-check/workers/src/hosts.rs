@@ -1,7 +1,5 @@
 //! The file that says where the processes of a check listen.
 
-use std::path::{Path, PathBuf};
-
 /// Where each process listens, in the order of their numbers.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Hosts(Vec<String>);
@@ -9,14 +7,6 @@ pub struct Hosts(Vec<String>);
 /// What is wrong with a file of hosts, or with the number of a process.
 #[derive(Debug, thiserror::Error)]
 pub enum HostsError {
-    /// The file cannot be read.
-    #[error("{}: {cause}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        cause: std::io::Error,
-    },
     /// A line is no address.
     #[error(
         "line {line} of the hosts is '{text}'; each line is one HOST:PORT, such as 10.0.0.1:7000"
@@ -54,19 +44,7 @@ pub enum HostsError {
 }
 
 impl Hosts {
-    /// Reads a file: one `HOST:PORT` a line; empty lines and lines that begin with `#` say nothing.
-    ///
-    /// # Errors
-    /// The file cannot be read or does not name two different addresses at least.
-    pub fn read(path: &Path) -> Result<Self, HostsError> {
-        let text = std::fs::read_to_string(path).map_err(|cause| HostsError::Unreadable {
-            path: path.to_owned(),
-            cause,
-        })?;
-        Self::parse(&text)
-    }
-
-    /// The hosts of a text.
+    /// The hosts of a text: one `HOST:PORT` a line; empty lines and lines that begin with `#` say nothing.
     ///
     /// # Errors
     /// It does not name two different addresses at least.

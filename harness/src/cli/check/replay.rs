@@ -6,6 +6,7 @@ use crossguard_model_check::check::names;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::replay::{Followed, Replay};
 use crossguard_model_check::scenario::Scenario;
+use crossguard_model_check::subject::Subject;
 use crossguard_robot::files;
 
 use super::super::{Failure, print};
@@ -15,22 +16,41 @@ use super::untimed;
 const REPLAY_MAX: u64 = 1 << 26;
 
 /// The run in `file`.
-pub(in crate::cli) fn read(file: &Path) -> Result<Replay, Failure> {
+fn read(file: &Path) -> Result<Replay, Failure> {
     let text = files::text(file, REPLAY_MAX).map_err(Failure::at(file))?;
     serde_json::from_str(&text).map_err(Failure::at(file))
 }
 
+/// The run in `file`, with the text of its scenario where that is another file.
+pub(in crate::cli) fn read_whole(file: &Path) -> Result<Replay, Failure> {
+    let mut replay = read(file)?;
+    if replay.text.is_none() && Scenario::load(&replay.scenario).is_err() {
+        let text = files::text(Path::new(&replay.scenario), files::TEXT_MAX);
+        let text = text.map_err(|cause| format!("its scenario: {}: {cause}", replay.scenario));
+        replay.text = Some(text.map_err(Failure::at(file))?);
+    }
+    Ok(replay)
+}
+
 /// Follows the run in `file`.
 pub(super) fn run(scenarios: &[String], file: &Path) -> Result<(), Failure> {
-    let replay = read(file)?;
-    let (name, scenario) = match scenarios {
-        [] => (&replay.scenario, replay.load_scenario()),
-        [name] => (name, Scenario::load(name)),
+    let (name, replay, scenario) = match scenarios {
+        [] => {
+            let replay = read_whole(file)?;
+            let scenario = replay.load_scenario().map_err(Failure::input)?;
+            (replay.scenario.clone(), replay, scenario)
+        }
+        [name] => match super::subject(name)? {
+            Subject::Scenario(scenario) => (name.clone(), read(file)?, *scenario),
+            Subject::PaperLiteral | Subject::Street(_) => {
+                let cause = format!("'{name}' is no scenario whose runs can be followed");
+                return Err(Failure::Input(cause));
+            }
+        },
         _ => return Err(Failure::input("--replay wants one scenario")),
     };
-    let scenario = scenario.map_err(Failure::input)?;
     let model = Model::new(untimed(scenario)?);
-    tell(&model, name, &replay)
+    tell(&model, &name, &replay)
 }
 
 /// Whether the run still exists, and still breaks its property.

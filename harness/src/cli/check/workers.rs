@@ -8,6 +8,7 @@ use crossguard_model_check::check::Stop;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::subject::Subject;
+use crossguard_robot::files;
 use crossguard_workers::{Cluster, Hosts, Options, Progress, WorkersError, WorkersReport, check};
 use indicatif::{HumanBytes, HumanCount, HumanFloatCount};
 use serde::Serialize;
@@ -26,7 +27,8 @@ impl WorkersArguments {
         let (Some(hosts), Some(process)) = (&self.hosts, self.process) else {
             return Ok(None);
         };
-        let cluster = Hosts::read(hosts).and_then(|hosts| hosts.process(process));
+        let text = files::text(hosts, files::TEXT_MAX).map_err(Failure::at(hosts))?;
+        let cluster = Hosts::parse(&text).and_then(|hosts| hosts.process(process));
         cluster.map(Some).map_err(Failure::input)
     }
 }
@@ -89,7 +91,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn scenario(name: &str) -> Result<Scenario, Failure> {
-    match Subject::load(name).map_err(Failure::input)? {
+    match super::subject(name)? {
         Subject::Scenario(scenario) => Ok(*scenario),
         Subject::PaperLiteral | Subject::Street(_) => Err(Failure::input(format!(
             "'{name}' is no scenario, and small: leave --workers and --hosts out"
