@@ -25,8 +25,6 @@ pub struct Monitor {
     /// Whether steps come in the order of true time.
     is_timed: bool,
     has_strangers: bool,
-    /// Whether to have heard a leader twice says nothing.
-    hears_late: bool,
     premises: u32,
     /// The sessions at whose signs those on the road have stepped on it, one entry for each person.
     on_road: Vec<SessionId>,
@@ -38,22 +36,18 @@ struct Seats {
     liars: Vec<StationId>,
 }
 
-/// Whose steps are not recorded, and whether messages are late.
+/// Whose steps are not recorded.
 #[derive(Clone, Copy)]
 struct Unrecorded {
     strangers: bool,
     liars: bool,
-    /// Whether to have heard a leader twice says nothing, so that W3 is open.
-    late: bool,
 }
 
 impl Unrecorded {
     /// Whether that leaves a property open; whether a rule of it compares two robots.
     fn leaves_open(self, id: PropertyId, is_of_two: bool) -> bool {
         let can_be_broken = !id.authentication().liars().is_empty();
-        (is_of_two && (self.strangers || self.liars))
-            || (self.liars && can_be_broken)
-            || (self.late && id == PropertyId::W3)
+        (is_of_two && (self.strangers || self.liars)) || (self.liars && can_be_broken)
     }
 }
 
@@ -103,7 +97,6 @@ impl Monitor {
             history: History::default(),
             is_timed: timed,
             has_strangers: false,
-            hears_late: false,
             premises: 0,
             on_road: Vec::new(),
         }
@@ -150,13 +143,6 @@ impl Monitor {
         self.has_strangers = true;
     }
 
-    /// Messages may be so late that two of them come of a session that is over, or RAM periods differ, so that two leaders take turns
-    /// at a third one, which notes the newer of them. Then a leader may have heard another one twice and not know that it is there,
-    /// and W3 is not judged here.
-    pub const fn hears_late(&mut self) {
-        self.hears_late = true;
-    }
-
     /// The station of this id is an insider, which may say anything in its own name. Rules that compare two robots are
     /// not judged any more, for it has no robot; nor is what such an insider can break.
     pub fn lies(&mut self, station: StationId) {
@@ -167,7 +153,6 @@ impl Monitor {
         Unrecorded {
             strangers: self.has_strangers,
             liars: !self.seats.liars.is_empty(),
-            late: self.hears_late,
         }
     }
 

@@ -180,7 +180,7 @@ impl fmt::Display for Body {
     }
 }
 
-/// What a leader has received of a leader that goes before it at its place, in this session.
+/// What a leader has received of leaders that go before it at its place, in this session.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
 pub enum Heard {
     /// Nothing.
@@ -188,7 +188,7 @@ pub enum Heard {
     Nothing,
     /// One message, which may be late.
     Once(SessionId, Heartbeat),
-    /// A newer one of the same session: that leader is there.
+    /// Another one as well: a newer one of the same session, or one of another. A leader is there.
     Twice,
 }
 
@@ -210,15 +210,12 @@ impl Heard {
         }
         match (self, LeaderClaim::of(&ram)) {
             (Self::Once(session, beat), Some(other))
-                if other.goes_before(&own) && other.session == session =>
+                if other.goes_before(&own)
+                    && (other.session != session || beat_is_newer(other.beat, beat)) =>
             {
-                if beat_is_newer(other.beat, beat) {
-                    Self::Twice
-                } else {
-                    self
-                }
+                Self::Twice
             }
-            (Self::Nothing | Self::Once(..), Some(other)) if other.goes_before(&own) => {
+            (Self::Nothing, Some(other)) if other.goes_before(&own) => {
                 Self::Once(other.session, other.beat)
             }
             _ => self,

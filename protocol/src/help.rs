@@ -15,23 +15,17 @@ use crate::task::HelpRequest;
 use crate::time::{Countdown, Millis};
 
 impl Rival {
-    /// Notes a rival that is heard; whether it was heard before, with an older heartbeat. The first time
-    /// `known` is changed and nothing else, and that only where no other rival has just been noted.
-    pub(crate) fn is_heard_again(self, known: &mut Option<Self>) -> Result<bool, Ignored> {
-        match known {
-            Some(rival) if rival.session == self.session => {
-                // R6: a rival counts while it beats.
-                if self.heartbeat.is_newer_than(rival.heartbeat) {
-                    return Ok(true);
-                }
-                Err(Ignored::FirstHeard)
-            }
-            Some(rival) if rival.fresh => Err(Ignored::FirstHeard),
-            _ => {
-                *known = Some(self);
-                Ok(false)
-            }
+    /// Notes a rival that is heard; whether it counts. The first time `known` is changed and nothing else.
+    pub(crate) fn counts(self, known: &mut Option<Self>) -> Result<bool, Ignored> {
+        let Some(first) = known else {
+            *known = Some(self);
+            return Ok(false);
+        };
+        // R6: one message may be late. A second one counts, whichever rival it is of, so that none hides another.
+        if first.session == self.session && !self.heartbeat.is_newer_than(first.heartbeat) {
+            return Err(Ignored::FirstHeard);
         }
+        Ok(true)
     }
 }
 
@@ -46,15 +40,6 @@ pub(crate) fn rank(offer: &Offer) -> impl Ord + use<> {
 }
 
 impl Robot {
-    /// The rival that the robot has noted.
-    pub(crate) const fn rival_mut(&mut self) -> Option<&mut Rival> {
-        match &mut self.phase {
-            Phase::Requesting(requesting) => requesting.rival.as_mut(),
-            Phase::Leading(leading) => leading.rival.as_mut(),
-            Phase::Idle | Phase::Offering(_) | Phase::Following(_) => None,
-        }
-    }
-
     /// `needHelp` of another robot.
     pub(crate) fn hear_request(
         &mut self,
@@ -62,15 +47,13 @@ impl Robot {
         heard: Rival,
         request: HelpRequest,
     ) -> Effect {
-        let Rival {
-            session, heartbeat, ..
-        } = heard;
+        let Rival { session, heartbeat } = heard;
         match &mut self.phase {
             Phase::Idle => self.offer(step, heard, request),
             Phase::Requesting(own) => {
                 let claim = Claim::of(own.request);
                 Claim::of(request).goes_before(session.leader, claim, self.station)?;
-                if heard.is_heard_again(&mut own.rival)? {
+                if heard.counts(&mut own.rival)? {
                     // The request that goes before is helped rather than competed with.
                     self.end_session(step, EndReason::Withdrawn(session.leader));
                     // Where this robot cannot help, it has withdrawn all the same.
@@ -93,9 +76,7 @@ impl Robot {
         heard: Rival,
         request: HelpRequest,
     ) -> Effect {
-        let Rival {
-            session, heartbeat, ..
-        } = heard;
+        let Rival { session, heartbeat } = heard;
         self.may_join()?;
         let capabilities = step
             .config

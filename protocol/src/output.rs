@@ -232,8 +232,7 @@ words! {
         NotOutstanding = 39;
         /// The request or leader does not go before this robot's own.
         LowerPrecedence = 40;
-        /// The request or leader goes before, but does not count yet: it was not heard before with an older
-        /// heartbeat, or another one was noted less than a period ago.
+        /// The request or leader goes before, but is the first that was heard, and its heartbeat is not newer.
         FirstHeard = 41;
         /// The request or leader is of another place.
         OtherPlace = 42;

@@ -245,7 +245,6 @@ impl Rival {
         Self {
             heartbeat: to.heartbeat(self.session, self.heartbeat),
             session: self.session.renamed(to),
-            ..self
         }
     }
 }

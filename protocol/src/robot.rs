@@ -127,7 +127,7 @@ impl Robot {
                 request,
             } => {
                 let session = SessionId::of(from, number);
-                self.hear_request(step, Rival::heard(session, heartbeat), request)
+                self.hear_request(step, Rival { session, heartbeat }, request)
             }
             // R3: an offer that the same RAM takes back is none.
             Coordination::OfferHelp { session, offer, .. }
@@ -161,7 +161,7 @@ impl Robot {
                 yields,
             } => {
                 let session = SessionId::of(from, number);
-                let heard = Rival::heard(session, heartbeat);
+                let heard = Rival { session, heartbeat };
                 let claim = (!yields).then_some(Claim { urgency, place });
                 self.hear_leader(step, heard, &followers, claim)
             }

@@ -27,9 +27,7 @@ impl Robot {
         followers: &Followers,
         claim: Option<Claim>,
     ) -> Effect {
-        let Rival {
-            session, heartbeat, ..
-        } = heard;
+        let Rival { session, heartbeat } = heard;
         let listed = followers
             .iter()
             .find(|f| f.station == self.station)
@@ -81,7 +79,7 @@ impl Robot {
     }
 
     /// A requester withdraws for a leader at the same place; a leader yields to one that goes before.
-    /// Both do so when they hear it again.
+    /// Both do so at the second message.
     fn compete(
         &mut self,
         step: &mut Step<'_, impl Sink>,
@@ -96,7 +94,7 @@ impl Robot {
                 if !claim.place.may_be(own.request.place) {
                     return Err(Ignored::OtherPlace);
                 }
-                if heard.is_heard_again(&mut own.rival)? {
+                if heard.counts(&mut own.rival)? {
                     self.end_session(step, EndReason::Withdrawn(other));
                 }
                 Ok(())
@@ -107,7 +105,7 @@ impl Robot {
                 if own.yields_to.is_some() {
                     return Err(Ignored::NothingNew);
                 }
-                if heard.is_heard_again(&mut own.rival)? {
+                if heard.counts(&mut own.rival)? {
                     self.yield_place(step, other);
                 }
                 Ok(())

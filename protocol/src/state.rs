@@ -156,30 +156,15 @@ pub struct Requesting {
     pub selection: Countdown,
 }
 
-/// A request or a leader at the same place that goes before this robot's own. It counts once it is heard
-/// again with a newer heartbeat: a late message of a session that is over is never heard so.
+/// A request or a leader at the same place that goes before this robot's own. One message may be late, of a session
+/// that is over: the next newer message of it counts, and so does one of any other that goes before.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rival {
     /// Its session.
     pub session: SessionId,
-    /// Newest heartbeat heard of it.
+    /// The heartbeat that was heard of it.
     pub heartbeat: Heartbeat,
-    /// Whether this robot's own heartbeat has not moved on since. Until it has, no other rival takes the
-    /// place of this one: rivals that do not hear each other would take turns, and none be heard twice.
-    pub fresh: bool,
-}
-
-impl Rival {
-    /// A rival that is heard now.
-    #[must_use]
-    pub const fn heard(session: SessionId, heartbeat: Heartbeat) -> Self {
-        Self {
-            session,
-            heartbeat,
-            fresh: true,
-        }
-    }
 }
 
 /// An offer as a requester has heard it.

@@ -164,9 +164,6 @@ impl Robot {
         // A session ends with the identity lock, long before its periods exceed 16 bits.
         let periods = u16::try_from(1 + late.0 / period.0).unwrap_or(u16::MAX);
         self.bump_heartbeat(step, periods);
-        if let Some(rival) = self.rival_mut() {
-            rival.fresh = false;
-        }
         step.out.push(Output::SendRam);
     }
 

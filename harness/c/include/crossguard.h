@@ -550,7 +550,7 @@ enum CrossguardReason
   CROSSGUARD_REASON_NOT_OUTSTANDING = 39,
   // The request or leader does not go before this robot's own.
   CROSSGUARD_REASON_LOWER_PRECEDENCE = 40,
-  // The request or leader goes before, but does not count yet: it was not heard before with an older heartbeat, or another one was noted less than a period ago.
+  // The request or leader goes before, but is the first that was heard, and its heartbeat is not newer.
   CROSSGUARD_REASON_FIRST_HEARD = 41,
   // The request or leader is of another place.
   CROSSGUARD_REASON_OTHER_PLACE = 42,

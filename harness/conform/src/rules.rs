@@ -28,7 +28,7 @@ pub const RULES: &[Rule] = rules! {
         but "the lapse of an offer at the requester: who is chosen afterwards does not show it";
     "R4": "A requester selects the best offers after `t_select`, or at once when all have answered.";
     "R5": "A request ends at `t_help`.";
-    "R6": "Requests and leaders compete at one place. The one behind gives way once it has heard the rival beat."
+    "R6": "Requests and leaders compete at one place. The one behind gives way at the second message of those before it, whichever they are."
         but "another place, where the robot does not say which is its own";
     "R7": "A follower acknowledges a command before it starts."
         but "the start of the body itself: the air tells the report of it, and that comes after";

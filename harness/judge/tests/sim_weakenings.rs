@@ -115,6 +115,7 @@ const FOUND_AMONG: &[(&dyn Rules, &str)] = &[
     (&AsksForFewer, "W1"),
     (&StopsInPlace, "W2"),
     (&HearsNoLeader, "W3"),
+    (&HidesOneLeaderByAnother, "W3"),
     (&ForgetsItsDuty, "W4"),
     (&ShowsGoForLonger, "W5"),
     (&TELLS_OF_NO_LOST_GUARD, "W6"),

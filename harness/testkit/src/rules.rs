@@ -4,7 +4,7 @@ use crossguard_model_check::node::Rules;
 use crossguard_protocol::{
     Command, Config, Confirmation, Coordination, Corridor, CorridorClosure, Ending, Event,
     FallbackPolicy, Farewell, Ignored, Input, Maneuver, ManeuverId, Millis, Notice, Order, Output,
-    Outputs, Phase, Progress, Ram, Report, Rmcm, Robot, Role, Settings, Timer,
+    Outputs, Phase, Progress, Ram, Report, Rmcm, Robot, Role, SessionId, Settings, Timer,
 };
 use serde_json::Value;
 
@@ -247,6 +247,18 @@ weakenings! {
             && matches!(ram.coordination, Coordination::Leader { .. })
         {
             return only(Output::Ignored(Ignored::LowerPrecedence));
+        }
+        robot.step(config, input)
+    }
+
+    /// A leader notes the newest of other leaders alone.
+    pub HidesOneLeaderByAnother(robot, config, input) {
+        if let (Phase::Leading(leading), Input::Ram { ram, .. }) = (robot.phase(), input)
+            && let (Some(rival), Coordination::Leader { number, .. }) = (leading.rival, ram.coordination)
+            && rival.session != SessionId::of(ram.station, number)
+            && leading.yields_to.is_none()
+        {
+            with_state(robot, |state| state["phase"]["leading"]["rival"] = Value::Null);
         }
         robot.step(config, input)
     }

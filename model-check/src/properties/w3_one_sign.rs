@@ -1,15 +1,15 @@
 //! W3: of two leaders at one place that hear each other, only one shows go.
 //!
-//! Without time there is one exemption: leaders of which the one that goes behind has not received two
-//! messages of the other, the second with a newer heartbeat. One message alone may be from a session that is
-//! long over. How long two signs can show go once the two hear each other is what the timed view finds.
+//! Without time there is one exemption: a leader that has received one message alone of leaders that go before it. That may be
+//! from a session that is long over. A second one counts, of the same session with a newer heartbeat or of any other: nobody
+//! hides a leader by what it says. How long two signs can show go once the two hear each other is what the timed view finds.
 
 use super::prelude::*;
 
 property! {
-    "W3", Authentication::truth_of(&[Insider::Stranger]);
+    "W3", Authentication::NAMES;
     untimed S "of two leaders at one place that hear each other, only one shows go",
-        Some("a leader has heard twice a leader that goes before it"),
+        Some("a leader has heard two messages of leaders that go before it"),
         Rule::State(StateRule { holds, premise, of_two: false }),
         "HearsNoLeader";
     timed L "after one of two leaders at a place hears the other, both signs show go no longer than the bound",

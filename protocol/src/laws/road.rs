@@ -28,8 +28,8 @@ pub fn all(config: &Config, step: &Taken) {
     own_sight_lasts_until_the_road_is_clear(step);
     ends_say_how(step);
     a_duty_lasts_until_the_road_is_clear(step);
-    only_a_rival_that_beats_is_given_way(step);
-    a_rival_is_noted_for_a_period(step);
+    way_is_given_at_the_second_message(step);
+    the_first_rival_is_noted(step);
 }
 
 /// What a countdown has left, zero where it is off.
@@ -364,18 +364,18 @@ fn noted(robot: &Robot) -> Option<Rival> {
     rival.flatten()
 }
 
-/// Whether the input is a newer heartbeat of the rival that `robot` has heard before, which goes before it
-/// at what may be the same place.
-fn hears_a_rival_again(robot: &Robot, input: &Input) -> Option<SessionId> {
-    let (heard, rival) = (claim_that_counts(robot, input)?, noted(robot)?);
-    let is_newer = beat_is_newer(heard.heartbeat, rival.heartbeat);
-    (rival.session == heard.session && is_newer).then_some(heard.session)
+/// Whether the input is the second one of rivals that go before `robot` at what may be the same place: of another session than
+/// the first, or with a newer heartbeat.
+fn hears_a_second_rival(robot: &Robot, input: &Input) -> Option<SessionId> {
+    let (heard, first) = (claim_that_counts(robot, input)?, noted(robot)?);
+    let is_newer = beat_is_newer(heard.heartbeat, first.heartbeat);
+    (first.session != heard.session || is_newer).then_some(heard.session)
 }
 
-/// W3: a requester withdraws and a leader yields only to a claim that goes before at its place and is heard
-/// a second time, with a newer heartbeat. What yields stays so until it ends, and notes no other rival.
-pub fn only_a_rival_that_beats_is_given_way(step: &Taken) {
-    let again = hears_a_rival_again(&step.before, &step.input).map(|session| session.leader);
+/// W3: a requester withdraws and a leader yields at the second message of rivals that go before at its place, whichever they
+/// are, and never at one alone. What yields stays so until it ends.
+pub fn way_is_given_at_the_second_message(step: &Taken) {
+    let again = hears_a_second_rival(&step.before, &step.input).map(|session| session.leader);
     let yielded_before = leading(&step.before).and_then(|before| before.yields_to);
     if let Some(EndReason::Withdrawn(other)) = step.said.ended {
         let is_cleared = step.input == Input::Local(Event::RoadClear);
@@ -385,10 +385,7 @@ pub fn only_a_rival_that_beats_is_given_way(step: &Taken) {
         return;
     };
     match (yielded_before, after.yields_to) {
-        (Some(before), other) => {
-            let rival = |robot| noted(robot).map(|rival| (rival.session, rival.heartbeat));
-            assert!(other == Some(before) && rival(&step.after) == rival(&step.before));
-        }
+        (Some(before), other) => assert!(other == Some(before)),
         (None, Some(other)) => {
             assert!(again == Some(other) && after.corridor == Corridor::Clearing);
         }
@@ -398,38 +395,15 @@ pub fn only_a_rival_that_beats_is_given_way(step: &Taken) {
     }
 }
 
-/// W3: a rival that was just noted stays noted until this robot's heartbeat has moved on, and no longer: then
-/// the next one that is heard takes its place. So two rivals that do not hear each other cannot hide one
-/// another from a third, and neither can one that is gone.
-pub fn a_rival_is_noted_for_a_period(step: &Taken) {
-    let goes_on = step.before.session().is_some() && step.before.session() == step.after.session();
-    if !goes_on {
+/// W3: the first rival that is heard stays noted as long as the session goes on: none that is heard later, and no time, hides it.
+pub fn the_first_rival_is_noted(step: &Taken) {
+    if step.before.session().is_none() || step.before.session() != step.after.session() {
         return;
     }
-    let (before, after) = (noted(&step.before), noted(&step.after));
-    let passes = matches!(step.input, Input::Elapsed(_) | Input::Expired(_));
-    if let (Some(before), Some(after)) = (before, after)
-        && before.fresh
-        && !passes
-    {
-        assert!(after.session == before.session);
-    }
-    let beats = own_heartbeat(&step.before) != own_heartbeat(&step.after);
-    if passes && beats {
-        assert!(after.is_none_or(|after| !after.fresh));
-    }
+    let begins_to_lead = leading(&step.before).is_none() && leading(&step.after).is_some();
     let has_yielded = leading(&step.before).is_some_and(|before| before.yields_to.is_some());
-    if let Some(heard) = claim_that_counts(&step.before, &step.input)
-        && !has_yielded
-        && before.is_none_or(|before| !before.fresh && before.session != heard.session)
-    {
-        let is_it = |after: Rival| after.session == heard.session && after.fresh;
-        assert!(after.is_some_and(is_it));
-    }
-}
-
-/// The newest heartbeat of a requester or leader.
-fn own_heartbeat(robot: &Robot) -> Option<Heartbeat> {
-    let heartbeat = requesting(robot).map(|requesting| requesting.heartbeat);
-    heartbeat.or_else(|| leading(robot).map(|leading| leading.heartbeat))
+    let heard = claim_that_counts(&step.before, &step.input).filter(|_| !has_yielded);
+    let heard = heard.map(|it| (it.session, it.heartbeat));
+    let first = |robot| noted(robot).map(|rival| (rival.session, rival.heartbeat));
+    assert!(begins_to_lead || first(&step.after) == first(&step.before).or(heard));
 }

@@ -7,6 +7,7 @@ use std::vec::Vec;
 
 use super::*;
 use crate::config::Config;
+use crate::help::all_distinct;
 use crate::laws::Random;
 use crate::laws::arbitrary;
 use crate::state::Role;
@@ -165,14 +166,16 @@ fn a_robot_stays_as_it_is_without_other_names() {
     });
 }
 
-/// Followers stand in the order of their station ids, and offers in that of selection.
+/// Followers, each a station of its own, stand in the order of their station ids, and offers in that of selection.
 #[test]
 fn lists_stand_in_the_order_of_their_new_names() {
     each_robot(|robot| {
         let renamed = robot.renamed(&mut Other::default());
         assert_eq!(renamed.ram(), robot.ram().renamed(&mut Other::default()));
         match (robot.phase(), renamed.phase()) {
-            (Phase::Leading(old), Phase::Leading(new)) => {
+            (Phase::Leading(old), Phase::Leading(new))
+                if all_distinct(&old.members, |it| it.station) =>
+            {
                 let record = |it: &Member| (it.station, it.offer.0, it.echoed);
                 let other = |it: &Member| {
                     let echoed = it.echoed.map(other_heartbeat);

@@ -8,9 +8,9 @@ use crate::exchange::RamSeen;
 
 statements! {
     "who-goes-before-is-given-way" "R6" gives_way:
-        "A requester or leader gives way to one at the same place that goes before, once it has heard it beat.";
+        "A requester or leader gives way at the second message of those before it at the same place.";
     "who-does-not-beat-is-not-given-way" "R6" insists_against_silence:
-        "A rival whose heartbeat does not grow may be a late message, and is not given way.";
+        "A rival that is heard alone, and whose heartbeat does not grow, may be a late message, and is not given way.";
     "who-goes-behind-is-not-given-way" "R6" insists_against_later:
         "A requester or leader does not give way to a rival of the same kind that goes behind.";
 }
@@ -146,9 +146,12 @@ fn insists(trace: &Trace, it: &Rivalry) -> Option<Met> {
 }
 
 fn insists_against_silence(trace: &Trace) -> Vec<Met> {
-    let silent =
-        rivalries(trace).filter(|it| it.beats.len() == 1 && it.rival_goes_before() == Some(true));
-    silent.filter_map(|it| insists(trace, &it)).collect()
+    let before = rivalries(trace).filter(|it| it.rival_goes_before() == Some(true));
+    // Two rivals are never both late.
+    match &before.collect::<Vec<_>>()[..] {
+        [it] if it.beats.len() == 1 => insists(trace, it).into_iter().collect(),
+        _ => Vec::new(),
+    }
 }
 
 fn insists_against_later(trace: &Trace) -> Vec<Met> {

@@ -125,8 +125,6 @@ pub(super) struct Road {
     delay: Millis,
     /// Whether endpoints are told of time in time: W3's time, W6 and W8 need that.
     is_in_time: bool,
-    /// Whether an insider lies, which can keep two leaders from hearing each other twice: W3's time is left open.
-    pub(super) has_insider: bool,
     worst: Worst,
 }
 
@@ -145,7 +143,6 @@ impl Road {
             meetings: Vec::new(),
             delay,
             is_in_time,
-            has_insider: false,
             worst: Worst::default(),
         }
     }
@@ -354,10 +351,7 @@ impl Road {
     /// A robot has understood a RAM that another one sent then (W3).
     pub(super) fn hear(&mut self, now_us: u64, to: usize, from: usize, sent_us: u64) {
         let shows = |place: usize| self.seats[place].go.map(|go| go.since_us);
-        if !self.is_in_time
-            || self.has_insider
-            || shows(from).is_none_or(|since_us| sent_us < since_us)
-        {
+        if !self.is_in_time || shows(from).is_none_or(|since_us| sent_us < since_us) {
             return;
         }
         let mut met = None;

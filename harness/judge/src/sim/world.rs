@@ -21,7 +21,7 @@ use crossguard_model_check::monitor::Monitor;
 use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::timed::Limits;
-use crossguard_protocol::{Event, Millis, Phase, Robot, StationId};
+use crossguard_protocol::{Event, Phase, Robot, StationId};
 use crossguard_robot::machine::Machine;
 use crossguard_robot::perception::Newest;
 use crossguard_robot::sign::Sign;
@@ -173,28 +173,11 @@ fn left_out(swarm: &Swarm) -> Vec<&'static str> {
     }
     if swarm.insider.is_some() {
         left_out.extend(["I2", "I3", "I6", "I8", "I15"]);
-        if swarm.is_in_time() {
-            left_out.push("W3 in ms");
-        }
-    }
-    if hears_late(swarm) {
-        left_out.push("W3 untimed");
     }
     if swarm.waits_at.is_none() {
         left_out.push("W7");
     }
     left_out
-}
-
-/// Whether a leader that has heard another one twice may have to hear more of it before it yields: several messages of a session
-/// may arrive after it is over, or two others take turns at a longer period than its own.
-fn hears_late(swarm: &Swarm) -> bool {
-    let mut periods = swarm
-        .robots
-        .iter()
-        .map(|robot| robot.config.settings().ram_period);
-    let first = periods.next();
-    swarm.delay_max() > Millis(1_000) || periods.any(|period| Some(period) != first)
 }
 
 /// What happens next somewhere.
@@ -297,9 +280,6 @@ impl<'a> World<'a> {
     fn new(swarm: &'a Swarm, rules: &'static dyn Rules, watch: Option<&'a mut dyn Watch>) -> Self {
         let mut draws = ChaCha8Rng::seed_from_u64(swarm.seed ^ 0x5741_4553);
         let mut monitor = Monitor::new(swarm.is_in_time());
-        if hears_late(swarm) {
-            monitor.hears_late();
-        }
         let seats = swarm.robots.iter().map(|draw| {
             monitor.add(draw.station);
             Seat {
@@ -324,8 +304,7 @@ impl<'a> World<'a> {
         let ways = ways.map(|faults| Channel::new(faults.clone(), draws.random()));
         let limits = limits(swarm);
         let posts = posts(swarm, &limits);
-        let mut road = Road::new(posts, swarm.delay_max(), swarm.is_in_time());
-        road.has_insider = swarm.insider.is_some();
+        let road = Road::new(posts, swarm.delay_max(), swarm.is_in_time());
         let mut world = Self {
             ways: ways.collect(),
             road,

@@ -20,16 +20,13 @@ class Idle(Variant):
 
 @dataclass(frozen=True, slots=True)
 class Rival:
-    """A request or a leader at the same place that goes before this robot's own. It counts once it is heard
-    again with a newer heartbeat."""
+    """A request or a leader at the same place that goes before this robot's own. One message may be late: the
+    next newer message of it counts, and so does one of any other that goes before."""
 
     session: SessionId
     """Its session."""
     heartbeat: int
-    """Newest heartbeat heard of it."""
-    fresh: bool
-    """Whether this robot's own heartbeat has not moved on since. Until it has, no other rival takes the
-    place of this one: rivals that do not hear each other would take turns, and none be heard twice."""
+    """The heartbeat that was heard of it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -92,8 +92,7 @@ class LowerPrecedence(Variant):
 
 @dataclass(frozen=True, slots=True)
 class FirstHeard(Variant):
-    """The request or leader goes before, but does not count yet: it was not heard before with an older
-    heartbeat, or another one was noted less than a period ago."""
+    """The request or leader goes before, but is the first that was heard, and its heartbeat is not newer."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -137,7 +137,6 @@ fn rival(source: &mut impl Source) -> Rival {
     Rival {
         session: session(source, PEER),
         heartbeat: earlier_heartbeat(source),
-        fresh: source.flag(),
     }
 }
 
