@@ -209,7 +209,11 @@ impl Lead {
             }
             // It will not do it, however often it is told.
             Notice::ManeuverFailed(_, _, Failure::Unavailable(_))
-            | Notice::CommandRejected(_, _, Rejection::Unavailable(_)) => {
+            | Notice::CommandRejected(
+                _,
+                _,
+                Rejection::Unavailable(_) | Rejection::UnsupportedTask,
+            ) => {
                 out.tell(Event::LeaveRequested);
                 return false;
             }

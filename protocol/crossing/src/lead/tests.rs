@@ -209,16 +209,17 @@ fn a_leader_waits_for_its_escort_and_opens_for_nobody_else_meanwhile() {
 }
 
 #[test]
-fn a_rejected_command_is_repeated_half_a_second_later_and_never_to_who_is_unavailable() {
-    let mut leader = Leader::of(blocking());
-    leader.joins(FIRST);
-    let rejected = |why| Notice::CommandRejected(FIRST, ID, why);
-    assert_eq!(leader.hear(rejected(Rejection::UnsupportedTask)), "");
-    assert_eq!(leader.pass(499), "");
-    assert_eq!(leader.pass(1), "order");
+fn a_rejected_command_is_repeated_half_a_second_later_and_never_to_who_will_not_do_it() {
     let stop = Unavailability::EmergencyStop;
-    let unavailable = rejected(Rejection::Unavailable(stop));
-    assert_eq!(leader.hear(unavailable), "give up");
+    for why in [Rejection::Unavailable(stop), Rejection::UnsupportedTask] {
+        let mut leader = Leader::of(blocking());
+        leader.joins(FIRST);
+        let rejected = |why| Notice::CommandRejected(FIRST, ID, why);
+        assert_eq!(leader.hear(rejected(Rejection::OnDuty)), "");
+        assert_eq!(leader.pass(499), "");
+        assert_eq!(leader.pass(1), "order");
+        assert_eq!(leader.hear(rejected(why)), "give up");
+    }
 }
 
 #[test]
