@@ -74,6 +74,8 @@ pub enum Cause {
     Contradictory(&'static str),
     /// The transition function ignored an input.
     Ignored(Ignored),
+    /// Another leader at the place of this one goes behind, and does not yield. It is told once for each of its sessions.
+    NotYielding,
     /// The robot perceived people and does not know its own position.
     Unplaced,
     /// What a sensor source delivered is no frame that counts.
@@ -119,7 +121,7 @@ impl Cause {
             Self::NoUse(_) => Layer::Service,
             Self::Undecodable(_) | Self::NotCanonical => Layer::Syntax,
             Self::Contradictory(_) => Layer::Semantics,
-            Self::Ignored(_) => Layer::Protocol,
+            Self::Ignored(_) | Self::NotYielding => Layer::Protocol,
             Self::Unplaced | Self::FrameDropped(_) => Layer::Perception,
             Self::BodySilent | Self::BodyFault | Self::BodyGarbled | Self::BodyStranger => {
                 Layer::Body
@@ -163,6 +165,7 @@ impl Display for Reason {
             Cause::NoUse(service) => return write!(f, "no use for {}", service.name()),
             Cause::Ignored(Ignored::NotEngaged(..)) => "not engaged",
             Cause::Ignored(why) => return why.fmt(f),
+            Cause::NotYielding => "another leader does not yield",
             Cause::Unplaced => "own position unknown",
             Cause::BodySilent => "silent",
             Cause::BodyFault => "fault",

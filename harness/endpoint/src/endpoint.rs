@@ -195,7 +195,7 @@ impl<P: StateMachine> Endpoint<P> {
     }
 
     /// Whether the robot asks for help, has offers enough, and has heard an answer of every robot that it heard
-    /// in the last second: then [`Event::AllAnswered`] may be put in.
+    /// in the last second, of which none leads at its place: then [`Event::AllAnswered`] may be put in.
     #[must_use]
     pub fn all_have_answered(&self) -> bool {
         let now_ms = self.exchange.elapsed_to_ms();

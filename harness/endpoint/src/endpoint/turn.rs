@@ -5,7 +5,7 @@ use std::fmt::Display;
 use crossguard_codec::core::ram::RAM;
 use crossguard_codec::geonet::{Address, Indication, PACKET_LEN_MAX, Signer};
 use crossguard_codec::{Heard, RobotState, Service, TaskParameters};
-use crossguard_protocol::{Event, Input, Output, Outputs, Robot, StationId};
+use crossguard_protocol::{Coordination, Event, Ignored, Input, Output, Outputs, Robot, StationId};
 
 use super::act::{Act, act};
 use super::{Around, Effect, others};
@@ -128,6 +128,17 @@ impl Host for Turn<'_> {
             outputs: Box::new(*outputs),
             state: Box::new(after.clone()),
         });
+        if let Input::Ram { ram, .. } = input
+            && matches!(ram.coordination, Coordination::Leader { .. })
+            && outputs.ignored() == Some(Ignored::LowerPrecedence)
+            && self.around.answers.insists(ram.station)
+        {
+            let detail = format_args!(
+                "station {} leads at the same place, and may not hear this robot",
+                ram.station
+            );
+            self.dropped(Cause::NotYielding, &detail, &[]);
+        }
     }
 
     fn act(&mut self, output: &Output, parameters: TaskParameters) {
