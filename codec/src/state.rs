@@ -76,6 +76,9 @@ impl RobotState {
         }
         if let Some(slow) = &mut self.slow {
             slow.supported_tasks = config.settings().capabilities;
+            if slow.supported_tasks != TaskSet::EMPTY {
+                slow.capabilities = slow.capabilities.union(Capabilities::FOLLOWING);
+            }
         }
     }
 }
@@ -210,10 +213,32 @@ pub struct SignalsShown {
     pub means: SignalMeans,
 }
 
+impl SignalsShown {
+    /// Whether anything is shown to anybody.
+    #[must_use]
+    pub const fn is_anything(&self) -> bool {
+        !matches!(
+            (self.to_vehicles, self.to_pedestrians),
+            (PublicSignal::None, PublicSignal::None)
+        )
+    }
+}
+
 impl fmt::Display for SignalsShown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (vehicles, pedestrians) = (self.to_vehicles, self.to_pedestrians);
-        write!(f, "{vehicles} to vehicles, {pedestrians} to pedestrians")
+        write!(f, "{vehicles} to vehicles, {pedestrians} to pedestrians")?;
+        let means = [
+            (SignalMeans::GESTURE, "gesture"),
+            (SignalMeans::DISPLAY, "display"),
+            (SignalMeans::LIGHTS, "lights"),
+            (SignalMeans::SPEECH, "speech"),
+        ];
+        let mut means = means.iter().filter(|(it, _)| self.means.contains(*it));
+        if let Some((_, first)) = means.next() {
+            write!(f, ", by {first}")?;
+        }
+        means.try_for_each(|(_, it)| write!(f, " and {it}"))
     }
 }
 

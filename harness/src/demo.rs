@@ -167,12 +167,14 @@ pub enum Seen<'a> {
         /// The robot's name.
         robot: &'a str,
     },
-    /// The pedestrian steps on the road, or is across.
-    Pedestrian {
+    /// Pedestrians step on the road, or are across.
+    Pedestrians {
         /// Microseconds since the log's clock started.
         at_us: u64,
-        /// Whether he or she is on the road now.
-        is_on_road: bool,
+        /// Whether they are on the road now.
+        are_on_road: bool,
+        /// How many.
+        count: usize,
     },
 }
 
@@ -229,6 +231,7 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
         }
         let application = Application::new(Box::new(body), plan);
         let application = application.at(site).on(Road::Known(street.clone()));
+        let application = application.showing_by(build.means());
         signs.push(application.sign().clone());
         let running = Setup {
             name: participant.name.clone(),
@@ -290,7 +293,8 @@ impl Demo<'_> {
         }
         for (participant, robot) in &self.robots {
             if let Some(plan) = &participant.plan {
-                self.street.arrive(plan.crossing_us(options.time_scale));
+                let crossing_us = plan.crossing_us(options.time_scale);
+                self.street.arrive(crossing_us, plan.sides());
                 let detected = Event::PedestrianDetected(plan.request());
                 robot.order(Order::Wish(Stimulus::Event(detected)));
             }
@@ -308,15 +312,19 @@ impl Demo<'_> {
         false
     }
 
-    /// The pedestrian looks at the signs.
+    /// The pedestrians look at the signs.
     fn look(&mut self) {
         let at_us = self.clock.now_us();
         let shows_go = self.signs.iter().any(|sign| sign.shows_go(at_us));
-        let was_clear = self.street.is_clear();
+        let before = self.street.on_road();
         self.street.look(at_us, shows_go);
-        let is_on_road = !self.street.is_clear();
-        if is_on_road == was_clear {
-            (self.watch)(Seen::Pedestrian { at_us, is_on_road });
+        let now = self.street.on_road();
+        if (before == 0) != (now == 0) {
+            (self.watch)(Seen::Pedestrians {
+                at_us,
+                are_on_road: now > 0,
+                count: before.max(now),
+            });
         }
     }
 

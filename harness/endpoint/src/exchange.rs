@@ -340,7 +340,7 @@ impl<P: StateMachine> Exchange<P> {
             now_ms,
             timestamp_its,
         } = host.moment();
-        let low_frequency = self.generation.low_frequency_due(now_ms);
+        let low_frequency = self.generation.low_frequency_due(now_ms, state);
         let time = generation_delta_time(timestamp_its);
         let (ids, availability) = (&self.identifiers, status.availability);
         let ram = ram_from(ids, state, &status.view, availability, time, low_frequency);

@@ -218,7 +218,7 @@ impl<'a> Robot<'a> {
         let ids = Identifiers::default();
         let told = self.surroundings.next_told();
         self.last_ram_ms = Some(now_ms);
-        let low_frequency = self.generation.low_frequency_due(now_ms);
+        let low_frequency = self.generation.low_frequency_due(now_ms, &self.state);
         let (status, time) = (
             self.status(),
             crossguard_codec::si::generation_delta_time(now_ms),

@@ -2,7 +2,8 @@
 //!
 //! Each robot has a column. A message is drawn where it was sent, in one line for all who hear it soon after; of the RAM
 //! that repeat what is known only the first is drawn. The order is that of cause and effect: a message goes before what
-//! its sender does next, and go before the people who see it.
+//! its sender does next, and go before the people who see it. A line begins each of the paper's five stages
+//! (section III-A): the rows below it belong to that.
 
 mod gather;
 mod lines;
@@ -12,10 +13,11 @@ use std::collections::HashMap;
 use std::fmt::Write as _;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use crossguard_codec::{Heard, Identifiers, Service, SignalsShown};
+use crossguard_codec::{Heard, Identifiers, Service};
 use crossguard_endpoint::cause::Layer;
 use crossguard_protocol::{
-    Coordination, Event, Heartbeat, Input, Output, Outputs, Ram, Rmcm, State, StationId,
+    Coordination, Event, Heartbeat, Input, Output, Outputs, Ram, Rmcm, Robot, Role, State,
+    StationId,
 };
 
 use crossguard_endpoint::station::listen::overhear;
@@ -25,11 +27,20 @@ use gather::Gathering;
 pub(crate) use gather::{Arrow, ArrowHead, Mark};
 use lines::LEFT;
 pub use words::text_of;
-use words::{note_of_input, note_of_output, people, road_users, shown, shows_something};
+use words::{SHOWS_NOTHING, note_of_input, note_of_output, people, road_users, said_in, shown_in};
 
 /// How far apart columns are, of two robots and of more.
 const SPACING: usize = 50;
 const SPACING_OF_MANY: usize = 45;
+
+/// The paper's stages (section III-A), the first of which is number 1.
+const STAGES: [&str; 5] = [
+    "Initialization",
+    "Help Establishment",
+    "Role Assignment",
+    "Maneuver Execution",
+    "Termination",
+];
 
 /// Closer together, the text of an arrow cannot be read.
 const SPACING_MIN: usize = 22;
@@ -45,7 +56,9 @@ pub struct Chart {
     /// Whether robots get columns as they turn up in the records.
     grows: bool,
     /// The newest RAM that was drawn, without what changes with every RAM, by sender and receiver.
-    drawn: HashMap<(usize, usize), (Ram, Option<SignalsShown>)>,
+    drawn: HashMap<(usize, usize), Ram>,
+    /// Which of the paper's stages it has come to, from 1; 0 before the first.
+    stage: usize,
     gathering: Gathering,
     /// What people do who see a sign show go, before the record says so.
     on_go: Vec<(u64, Mark)>,
@@ -56,6 +69,7 @@ struct Lane {
     name: String,
     station: StationId,
     state: State,
+    role: Role,
     identifiers: Identifiers,
     /// Whether nothing is known of it but what others hear.
     is_stranger: bool,
@@ -67,6 +81,8 @@ struct Lane {
     people: String,
     /// The last note about the road users that it hears.
     road_users: String,
+    /// The last note about what it shows to people.
+    shown: String,
 }
 
 impl Lane {
@@ -75,12 +91,14 @@ impl Lane {
             name,
             station,
             state: State::Idle,
+            role: Role::None,
             identifiers,
             is_stranger: false,
             go_until_us: None,
             held: Vec::new(),
             people: String::new(),
             road_users: String::new(),
+            shown: SHOWS_NOTHING.to_owned(),
         }
     }
 }
@@ -328,7 +346,8 @@ impl Chart {
                     self.lanes[lane].station = *station;
                 }
                 self.keep_sign(lane, record.at_us, outputs);
-                let mut now: Vec<_> = note_of_input(input).map(note).into_iter().collect();
+                let stage = self.stage_begun(lane, outputs, state).into_iter();
+                let mut now: Vec<_> = stage.chain(note_of_input(input).map(note)).collect();
                 let mut to = &mut now;
                 for output in outputs.iter() {
                     if matches!(output, Output::SendRmcm(_)) {
@@ -355,7 +374,15 @@ impl Chart {
                 .map(|(cause, count)| note(format!("! dropped, {cause}: {count} more")))
                 .collect(),
             Entry::Hindered { why } => vec![note(format!("! {why}"))],
-            Entry::Sent { octets, .. } => self.arrows_to_strangers(lane, octets),
+            Entry::Sent { octets, .. } => match overhear(&self.lanes[lane].identifiers, octets) {
+                Ok(heard) => {
+                    let shown = self.shows(lane, &heard).into_iter();
+                    shown
+                        .chain(self.arrows_to_strangers(lane, &heard))
+                        .collect()
+                }
+                Err(_) => Vec::new(),
+            },
             Entry::People(sight) => {
                 let text = changed(&mut self.lanes[lane].people, people(sight));
                 text.map(note).into_iter().collect()
@@ -402,19 +429,13 @@ impl Chart {
     }
 
     /// What a robot sends to stations without records, which cannot say whether it arrives.
-    fn arrows_to_strangers(&mut self, from: usize, octets: &[u8]) -> Vec<Mark> {
-        if !self.lanes.iter().any(|lane| lane.is_stranger) {
-            return Vec::new();
-        }
-        let Ok(heard) = overhear(&self.lanes[from].identifiers, octets) else {
-            return Vec::new();
-        };
+    fn arrows_to_strangers(&mut self, from: usize, heard: &Heard) -> Vec<Mark> {
         let mut marks = Vec::new();
         for to in 0..self.lanes.len() {
             let lane = &self.lanes[to];
             let is_meant = |input: &Input| addressee(input).is_none_or(|it| it == lane.station);
             if lane.is_stranger && heard.inputs.iter().any(is_meant) {
-                marks.extend(self.message(from, to, &heard, false));
+                marks.extend(self.message(from, to, heard, false));
             }
         }
         marks
@@ -432,7 +453,37 @@ impl Chart {
         }
         let from = self.lane_of(heard.from).filter(|from| *from != to);
         let arrow = from.and_then(|from| self.message(from, to, &heard, is_lost));
-        arrow.into_iter().collect()
+        let stranger = from.filter(|from| self.lanes[*from].is_stranger && !is_lost);
+        let shown = stranger.and_then(|from| self.shows(from, &heard));
+        arrow.into_iter().chain(shown).collect()
+    }
+
+    /// What the sender of a RAM shows to people from now on.
+    fn shows(&mut self, lane: usize, heard: &Heard) -> Option<Mark> {
+        let text = shown_in(heard)?;
+        let text = changed(&mut self.lanes[lane].shown, text)?;
+        Some(Mark::Note { lane, text })
+    }
+
+    /// The line that begins another of the paper's stages, if a step does. The first to ask begins stage 2, and the end of
+    /// a team's leader begins stage 5.
+    fn stage_begun(&mut self, lane: usize, outputs: &Outputs, robot: &Robot) -> Option<Mark> {
+        let led = std::mem::replace(&mut self.lanes[lane].role, robot.role()) == Role::Leader;
+        let nobody = self.lanes.iter().all(|lane| lane.role == Role::None);
+        let is_command = |output: &Output| matches!(output, Output::SendRmcm(Rmcm::Command(_)));
+        let stage = match (self.stage, robot.state()) {
+            (0, State::Idle) => 1,
+            (0 | 1 | 5, State::HelpRequested) => 2,
+            (2, State::RoleEstablished) => 3,
+            (3, State::ManeuverExecuting) => 4,
+            (3, _) if outputs.iter().any(is_command) => 4,
+            (2..=4, State::Idle) if led || nobody => 5,
+            (stage, _) => stage,
+        };
+        let is_new = std::mem::replace(&mut self.stage, stage) != stage;
+        let name = STAGES.get(stage.wrapping_sub(1)).filter(|_| is_new)?;
+        let text = format!("── Stage {stage}: {name} ──");
+        Some(Mark::Note { lane: 0, text })
     }
 
     /// A message from column to column, unless it repeats what was drawn.
@@ -449,18 +500,14 @@ impl Chart {
             return false;
         };
         let essence = essence(*ram);
-        let known = self.drawn.get(&(from, to));
-        // A RAM without the slow container says nothing of what is shown.
-        let shown = shown(heard).or(known.and_then(|(_, shown)| *shown));
-        let is_empty = matches!(essence.coordination, Coordination::None)
-            && essence.farewell.is_none()
-            && shown.is_none_or(|shown| !shows_something(shown));
-        let is_news = match known {
-            Some(known) => *known != (essence, shown),
+        let is_empty =
+            matches!(essence.coordination, Coordination::None) && essence.farewell.is_none();
+        let is_news = match self.drawn.get(&(from, to)) {
+            Some(known) => *known != essence,
             None => !is_empty,
         };
         if is_news && !is_lost {
-            self.drawn.insert((from, to), (essence, shown));
+            self.drawn.insert((from, to), essence);
         }
         is_news
     }
@@ -482,7 +529,7 @@ fn changed(known: &mut String, text: String) -> Option<String> {
 
 /// A message from a column to others.
 fn arrow(from: usize, to: Vec<ArrowHead>, heard: &Heard) -> Mark {
-    let text = text_of(heard);
+    let text = said_in(heard);
     // What is lost is recorded as a packet, and what is heard without its headers.
     let mut packet = DefaultHasher::new();
     (heard.from, heard.generation_delta_time, &text).hash(&mut packet);

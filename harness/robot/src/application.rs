@@ -45,8 +45,8 @@ pub struct Application {
     sign: Sign,
     /// What its robot's RAM say that it shows to people.
     shown: Shown,
-    /// Whether its robot leads, so that people look at its sign.
-    leads: bool,
+    /// Whether its robot asks for help or leads, so that people look at its sign.
+    faces_people: bool,
     /// Whether it counts on the people of a simulation that it keeps: it leads, or its crossing is not over.
     counts: bool,
     /// What it knows of the people on the road.
@@ -80,7 +80,7 @@ impl Application {
             body,
             sign: Sign::default(),
             shown: Shown::default(),
-            leads: false,
+            faces_people: false,
             counts: false,
             road: Road::default(),
             site: plan.as_ref().map_or_else(Site::default, |plan| plan.site),
@@ -197,7 +197,10 @@ impl Application {
                     self.sign.go(micros(self.at_s), time);
                 }
                 Output::Stop => self.sign.stop(),
-                Output::WalkTo(to) => self.body.walk_to(place(to)),
+                Output::WalkTo(to) => {
+                    let heading_deg = self.plan.as_ref().and_then(|plan| plan.own_heading_deg);
+                    self.body.walk_to(place(to), heading_deg);
+                }
                 Output::Wait => self.act_by_body(BodyAct::Wait),
                 Output::GoOn => self.act_by_body(BodyAct::GoOn),
                 Output::Release => self.body.release(),
@@ -239,8 +242,10 @@ impl Application {
     pub fn learn(&mut self, robot: &Robot, config: &Config) {
         self.setup.learn(config);
         self.learn_availability(robot);
-        self.leads = matches!(robot.phase(), Phase::Leading(_));
-        let counts = self.leads || matches!(robot.duty(), Some(Duty::Crossing(_)));
+        let leads = matches!(robot.phase(), Phase::Leading(_));
+        self.faces_people = leads || matches!(robot.phase(), Phase::Requesting(_));
+        self.shown.holds_back = self.holds_back(robot);
+        let counts = leads || matches!(robot.duty(), Some(Duty::Crossing(_)));
         if std::mem::replace(&mut self.counts, counts)
             && !counts
             && matches!(self.road, Road::Own(_))
@@ -249,6 +254,24 @@ impl Application {
         }
         let outputs = self.crossing.learn(&self.setup, robot);
         self.carry_out(&outputs);
+    }
+
+    /// What a robot shows to vehicles that holds them back: what its plan says while it leads, and stop at its place as a
+    /// guard. Neither ends before the road is clear of what it did.
+    fn holds_back(&self, robot: &Robot) -> Option<PublicSignal> {
+        let duty = robot.duty();
+        let maneuver = match (robot.phase(), duty) {
+            (Phase::Leading(_), _) | (_, Some(Duty::Crossing(_))) => {
+                return self.plan.as_ref()?.shows;
+            }
+            (Phase::Following(following), _) if following.executing().is_some() => {
+                following.executing()
+            }
+            (_, Some(Duty::FallingBack(maneuver))) => Some(maneuver),
+            _ => None,
+        };
+        let holds = self.setup.holding.contains(maneuver?.task);
+        holds.then_some(PublicSignal::Stop)
     }
 
     /// A person says that the road is clear. Whether there is something that waits for it.
@@ -331,18 +354,10 @@ impl Application {
     }
 
     fn notice(&mut self, notice: Notice) {
-        if let (Notice::RolesEstablished(_), Some(plan)) = (notice, &self.plan) {
-            if let Some(signal) = plan.shows {
-                self.shown.face_vehicles(signal);
-            }
-            if let Road::Own(street) = &self.road {
-                street.arrive(plan.crossing_us(self.body.time_scale()));
-            }
-        }
-        if let Notice::Yielded(_) | Notice::SessionEnded(..) = notice
-            && self.plan.as_ref().is_some_and(|plan| plan.shows.is_some())
+        if let (Notice::RolesEstablished(_), Some(plan), Road::Own(street)) =
+            (notice, &self.plan, &self.road)
         {
-            self.shown.face_vehicles(PublicSignal::None);
+            street.arrive(plan.crossing_us(self.body.time_scale()), plan.sides());
         }
         self.step(Input::Notice(notice));
     }

@@ -14,8 +14,8 @@ mod simulated;
 use std::fmt;
 
 use crossguard_codec::{
-    Capabilities, ControlMode, Dimensions, JobRole, Position, RobotCategory, RobotState, SlowState,
-    TaskParameters,
+    ControlMode, Dimensions, JobRole, Position, RobotCategory, RobotState,
+    SignalMeans, SlowState, TaskParameters,
 };
 use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId, StopReason};
 use serde::{Deserialize, Serialize};
@@ -87,6 +87,13 @@ impl Build {
         }
     }
 
+    /// By what a simulated body shows signals to people: a humanoid as in the paper (section III-A), stop gestures and
+    /// spoken commands.
+    #[must_use]
+    pub fn means(self) -> Option<SignalMeans> {
+        (self == Self::Humanoid).then(|| SignalMeans::GESTURE.union(SignalMeans::SPEECH))
+    }
+
     /// Largest speed in m/s.
     const fn speed_max(self) -> f64 {
         match self {
@@ -152,8 +159,9 @@ pub trait Body: fmt::Debug + Send {
     /// A person says that its fallback is finished. A body that moves by itself knows better.
     fn finish_fallback(&mut self) {}
 
-    /// Goes somewhere for the leader's own part in a plan, if it moves by itself.
-    fn walk_to(&mut self, _place: Place) {}
+    /// Goes somewhere for the leader's own part in a plan, if it moves by itself, and faces this way there, in degrees
+    /// clockwise from north, if that matters.
+    fn walk_to(&mut self, _place: Place, _heading_deg: Option<f64>) {}
 
     /// Whether it moves by itself because of a fallback.
     fn walks_back(&self) -> bool {
@@ -237,12 +245,7 @@ fn state_of(
         category: build.category(),
         job_role: build.job(),
         control_mode: ControlMode::Autonomous,
-        slow: Some(SlowState {
-            capabilities: Capabilities::PEDESTRIAN_DETECTION
-                .union(Capabilities::LEADING)
-                .union(Capabilities::FOLLOWING),
-            ..SlowState::default()
-        }),
+        slow: Some(SlowState::default()),
         ..RobotState::default()
     }
 }

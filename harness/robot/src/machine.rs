@@ -77,6 +77,9 @@ impl<P: StateMachine> Machine<P> {
 
     fn turn(&mut self, moment: Moment, stimulus: Stimulus<'_>) -> Vec<Effect> {
         let is_heard = matches!(stimulus, Stimulus::Datagram { .. });
+        if matches!(stimulus, Stimulus::Event(Event::PedestrianDetected(_))) {
+            self.application.tell_people_to_wait();
+        }
         let state = self.application.state();
         let effects = self.endpoint.handle(moment, &state, stimulus);
         if is_heard {

@@ -52,6 +52,8 @@ pub struct Plan {
     pub roles: Vec<Option<StationId>>,
     /// Where the leader itself stands while it leads, if it is to go there.
     pub own_place: Option<Place>,
+    /// Which way it faces there, in degrees clockwise from north, if that matters.
+    pub own_heading_deg: Option<f64>,
     /// What the leader shows to vehicles while it leads, if the plan says that.
     pub shows: Option<PublicSignal>,
     /// How long a simulated pedestrian takes to cross, in seconds of the robots' own time.
@@ -132,6 +134,7 @@ impl Plan {
             stages,
             roles: Vec::new(),
             own_place: None,
+            own_heading_deg: None,
             shows: None,
             crossing_s: 8.0,
             patience_s: 200.0,
@@ -205,6 +208,18 @@ impl Plan {
             followers: self.followers,
             tasks: TaskSet::of(&tasks),
             place: self.site.crossing,
+        }
+    }
+
+    /// From how many sides simulated people come: from both where nobody is escorted, since the corridor is open for
+    /// both (the paper, section III-A, bilateral traffic).
+    #[must_use]
+    pub fn sides(&self) -> usize {
+        let mut legs = self.stages.iter().flat_map(|stage| &stage.parts);
+        if legs.any(|(_, leg)| leg.task == TaskType::MOVE) {
+            1
+        } else {
+            2
         }
     }
 

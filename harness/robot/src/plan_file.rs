@@ -87,7 +87,7 @@ pub struct Role {
     pub waits: Option<Place>,
     /// Where a leader stands while it leads.
     pub stands: Option<Place>,
-    /// What a leader shows to vehicles while it leads.
+    /// What a leader shows to vehicles while it leads; stop where it stands somewhere, unless it is said.
     pub shows: Option<PublicSignal>,
 }
 
@@ -217,7 +217,10 @@ impl PlanFile {
             stages,
             roles,
             own_place: leader.and_then(|role| role.stands),
-            shows: leader.and_then(|role| role.shows),
+            own_heading_deg: leader
+                .and_then(|role| role.stands)
+                .and_then(|place| self.site.facing_deg(place)),
+            shows: leader.and_then(|role| role.shows.or(role.stands.map(|_| PublicSignal::Stop))),
             crossing_s: self.crossing_s,
             patience_s: self.patience_s,
             kerbs: self.either_way,

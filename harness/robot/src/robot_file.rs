@@ -424,7 +424,8 @@ impl RobotTable {
     /// The site: that of its file, or the street of the demonstrations where the table says.
     fn site(&self) -> Result<SiteFile, Impossibility> {
         match (&self.site, &self.site_file) {
-            (None, None) => Ok(SiteFile::street()),
+            // A robot whose site nobody says serves no place of a map.
+            (None, None) => Ok(SiteFile::street().at(Site::default())),
             (None, Some(path)) => Ok(SiteFile::read(path)?),
             (Some(_), Some(_)) => Err(Impossibility::TwoSites),
             (Some(table), None) => Ok(SiteFile::street().at(Site {

@@ -45,46 +45,53 @@ impl Sign {
 
 /// What a robot's RAM say that it shows to people; nothing of a robot that cannot show anything.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Shown(Option<SignalsShown>);
+pub(crate) struct Shown {
+    /// What it was told to show, and by which means.
+    told: Option<SignalsShown>,
+    /// What it shows to vehicles instead, while it holds them back.
+    pub(crate) holds_back: Option<PublicSignal>,
+}
 
 impl Shown {
     /// Nothing is shown yet, by these means.
     pub(crate) fn by(means: Option<SignalMeans>) -> Self {
-        Self(means.map(|means| SignalsShown {
+        let told = means.map(|means| SignalsShown {
             to_vehicles: PublicSignal::None,
             to_pedestrians: PublicSignal::None,
             means,
-        }))
+        });
+        Self {
+            told,
+            ..Self::default()
+        }
     }
 
     /// Shows this from now on; without means, by those of before.
     pub(crate) fn show(&mut self, signals: SignalsShown) {
-        let before = self.0.map(|shown| shown.means).unwrap_or_default();
         let means = match signals.means {
-            SignalMeans(0) => before,
+            SignalMeans(0) => self.means(),
             means => means,
         };
-        self.0 = Some(SignalsShown { means, ..signals });
+        self.told = Some(SignalsShown { means, ..signals });
     }
 
-    /// Shows this to vehicles from now on, if it shows anything to people.
-    pub(crate) const fn face_vehicles(&mut self, signal: PublicSignal) {
-        if let Some(shown) = &mut self.0 {
-            shown.to_vehicles = signal;
-        }
+    /// By which means it shows anything, if by any.
+    pub(crate) fn means(self) -> SignalMeans {
+        self.told.map(|shown| shown.means).unwrap_or_default()
     }
 
     /// What a RAM says, of a leader whose sign shows *go* or not, or of a robot that has no sign now.
     pub(crate) fn told(self, by_sign: Option<bool>) -> Option<SignalsShown> {
-        let shown = self.0?;
+        let shown = self.told?;
         let to_pedestrians = match by_sign {
             Some(true) => PublicSignal::Go,
             Some(false) => PublicSignal::Stop,
             None => shown.to_pedestrians,
         };
         Some(SignalsShown {
+            to_vehicles: self.holds_back.unwrap_or(shown.to_vehicles),
             to_pedestrians,
-            ..shown
+            means: shown.means,
         })
     }
 }

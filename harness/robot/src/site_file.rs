@@ -188,6 +188,13 @@ impl SiteFile {
         self.carriageway().map(|road| road.width_m() / SLOW_MPS)
     }
 
+    /// Which way a robot faces that holds traffic back at a place, in degrees clockwise from north; `None` beside the
+    /// lanes.
+    #[must_use]
+    pub fn facing_deg(&self, place: Place) -> Option<f64> {
+        self.lane_at(place).map(|lane| lane.to.bearing(lane.from))
+    }
+
     /// The lane that a place is on.
     #[must_use]
     pub fn lane_at(&self, place: Place) -> Option<&Lane> {
@@ -325,7 +332,15 @@ mod tests {
     #[test]
     fn the_street_is_a_site() {
         let street = SiteFile::street();
-        assert_eq!(street.site, Site::default());
+        let map_place = Some("segment 276:12".parse().unwrap());
+        let site = Site {
+            map_place,
+            ..Site::default()
+        };
+        assert_eq!(street.site, site, "its crossing may be any");
+        let facing = |name: &str| street.facing_deg(street.places[name].place);
+        let facing = ["near-lane", "far-lane", "near-kerb"].map(facing);
+        assert_eq!(facing, [Some(270.0), Some(90.0), None]);
         assert_eq!((street.kerbs.len(), street.lanes.len()), (2, 2));
         let lane = |name: &str| {
             let place = street.places[name].place;
@@ -350,7 +365,7 @@ width_m = 3.5    | width_m = nan     | s.toml:20: NaN is not possible: 1 to 30 m
 for = "wait"     | for = "rest"      | s.toml:30: unknown variant `rest`
 name = "near"    | nam = "near"      | s.toml:17: unknown field `nam`
 # reference = "276:4711"       | reference = "0:0"      | s.toml:12: '0:0' is no crossing
-# map_place = "segment 276:12" | map_place = "street 1" | s.toml:13:
+map_place = "segment 276:12" | map_place = "street 1" | s.toml:13:
 "#;
 
     #[test]

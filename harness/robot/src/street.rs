@@ -46,15 +46,26 @@ pub struct Street {
 struct People {
     /// When somebody looked last, in microseconds.
     now_us: u64,
-    /// How long each person who waits takes to cross, in microseconds.
-    waiting_us: Vec<u64>,
+    /// Those who wait.
+    waiting: Vec<Waiting>,
     /// Those who cross, and have just crossed.
     walking: Vec<Walker>,
+}
+
+/// Somebody who waits.
+#[derive(Clone, Copy, Debug)]
+struct Waiting {
+    /// How long they take to cross, in microseconds.
+    crossing_us: u64,
+    /// Whether they come from the other side.
+    comes_back: bool,
 }
 
 /// Somebody who crosses.
 #[derive(Clone, Copy, Debug)]
 struct Walker {
+    /// Whether they come from the other side.
+    comes_back: bool,
     /// When they stepped on the road, in microseconds.
     began_us: u64,
     /// When they are off it.
@@ -91,12 +102,16 @@ impl Street {
         self.people.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Somebody comes to cross the road, and takes so long for it. Nobody comes while somebody waits: robots
-    /// that see the same person tell of one.
-    pub fn arrive(&self, crossing_us: u64) {
+    /// Somebody comes to cross the road, from one side or from each of both, and takes so long for it. Nobody comes
+    /// while somebody waits: robots that see the same person tell of one.
+    pub fn arrive(&self, crossing_us: u64, sides: usize) {
         let mut people = self.people();
-        if people.waiting_us.is_empty() {
-            people.waiting_us.push(crossing_us);
+        if people.waiting.is_empty() {
+            let sides = [false, true].into_iter().take(sides);
+            people.waiting.extend(sides.map(|comes_back| Waiting {
+                crossing_us,
+                comes_back,
+            }));
         }
     }
 
@@ -111,28 +126,33 @@ impl Street {
             is_walking || now_us < walker.across_us.saturating_add(STAYS_US)
         });
         if a_sign_shows_go {
-            let set_out = std::mem::take(&mut people.waiting_us).into_iter();
-            people.walking.extend(set_out.map(|crossing_us| Walker {
+            let set_out = std::mem::take(&mut people.waiting).into_iter();
+            people.walking.extend(set_out.map(|person| Walker {
+                comes_back: person.comes_back,
                 began_us: now_us,
-                across_us: now_us.saturating_add(crossing_us),
+                across_us: now_us.saturating_add(person.crossing_us),
             }));
         }
+    }
+
+    /// How many are on the road.
+    #[must_use]
+    pub fn on_road(&self) -> usize {
+        let people = self.people();
+        let is_on_road = |walker: &&Walker| walker.across_us > people.now_us;
+        people.walking.iter().filter(is_on_road).count()
     }
 
     /// Whether nobody is on the road.
     #[must_use]
     pub fn is_clear(&self) -> bool {
-        let people = self.people();
-        people
-            .walking
-            .iter()
-            .all(|walker| walker.across_us <= people.now_us)
+        self.on_road() == 0
     }
 
     /// Whether everybody who came is across.
     #[must_use]
     pub fn everybody_is_across(&self) -> bool {
-        self.is_clear() && self.people().waiting_us.is_empty()
+        self.is_clear() && self.people().waiting.is_empty()
     }
 
     /// The width of the carriageway, in metres.
@@ -150,12 +170,15 @@ impl Street {
         let walking = people.walking.iter();
         let walking = walking.map(|walker| {
             let walked_m = walker.walked_m(people.now_us, width_m);
-            PAVEMENT_M + walked_m.clamp(STEP_M, width_m + PAVEMENT_M)
+            let metres = PAVEMENT_M + walked_m.clamp(STEP_M, width_m + PAVEMENT_M);
+            (walker.comes_back, metres)
         });
-        let waiting = people.waiting_us.iter().map(|_| PAVEMENT_M - WAITS_M);
-        let at = waiting
-            .chain(walking)
-            .map(|metres| from.towards(to, metres));
+        let waiting = people.waiting.iter();
+        let waiting = waiting.map(|person| (person.comes_back, PAVEMENT_M - WAITS_M));
+        let at = waiting.chain(walking).map(|(comes_back, metres)| {
+            let (from, to) = if comes_back { (to, from) } else { (from, to) };
+            from.towards(to, metres)
+        });
         let seen = (1..).zip(at).map(|(id, at)| {
             let vru = PerceivedVru::pedestrian(id, [at.east, at.north]);
             sighting(&vru, ERROR_M)
@@ -264,8 +287,8 @@ mod tests {
     #[test]
     fn a_pedestrian_waits_for_go_and_does_not_turn_back() {
         let street = Street::default();
-        street.arrive(5_000_000);
-        street.arrive(5_000_000);
+        street.arrive(5_000_000, 1);
+        street.arrive(5_000_000, 1);
         street.look(1_000_000, false);
         assert!(street.is_clear() && !street.everybody_is_across());
         street.look(2_000_000, true);
@@ -279,7 +302,7 @@ mod tests {
     fn people_are_on_the_road_of_their_zone_while_they_cross() {
         let street = Street::default();
         let ground = street.zone().ground();
-        street.arrive(10_000_000);
+        street.arrive(10_000_000, 1);
         for (now_us, is_on_road) in [
             (0, false),
             (1, true),

@@ -10,7 +10,7 @@ use crossguard_endpoint::{Act, Effect, Stimulus};
 use crossguard_protocol::{Config, Event, Phase, StationId, TaskType};
 use crossguard_robot::body::Build;
 use crossguard_robot::machine::Machine;
-use crossguard_robot::plan::Plan;
+use crossguard_robot::plan::{Leg, Plan, Stage};
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::street::Road;
 
@@ -56,9 +56,11 @@ fn the_other_robot_has_on_its_map_what_is_shown_to_people() {
     application.show(shown(stop, caution));
     street.pass(2_000);
     assert_eq!(on_the_map(&mut street), Some(shown(stop, caution)));
-    // A leader has a sign, and what that shows is what its RAM say.
+    // Who asks for help or leads has a sign, and what that shows is what its RAM say, the first one, too.
     let request = Plan::crossing(Site::default()).request();
+    street.pass(200);
     street.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
+    assert_eq!(on_the_map(&mut street), Some(shown(stop, stop)));
     street.pass(2_000);
     assert_eq!(on_the_map(&mut street), Some(shown(stop, stop)));
     // Without means, they are those of before.
@@ -72,6 +74,55 @@ fn the_other_robot_has_on_its_map_what_is_shown_to_people() {
         on_the_map(&mut street),
         Some(shown(PublicSignal::None, stop))
     );
+}
+
+/// Hazard: a robot stands on a lane with people behind it, and shows vehicles nothing.
+#[test]
+fn who_holds_vehicles_back_shows_them_stop_until_the_road_is_clear() {
+    let site = Site::default();
+    let block = Leg::new(TaskType::BLOCK, Place::new(2.0, 4.0));
+    let plan = Plan {
+        shows: Some(PublicSignal::Stop),
+        stages: vec![Stage::everybody(block)],
+        ..Plan::crossing(site)
+    };
+    for (gone, stays) in [(1, 0), (0, 1)] {
+        let body = |east| (Build::Humanoid, Place::new(east, 0.0), 30.0);
+        let leader = support::machine(1, body(1.0), Some(plan.clone()), Road::Unknown);
+        let robots = vec![
+            Some(leader),
+            Some(support::machine(2, body(2.0), None, Road::Unknown)),
+        ];
+        let mut street: Street = Street::new(robots, |_, _, _| {});
+        for robot in 0..2 {
+            let shown = SignalsShown {
+                to_vehicles: PublicSignal::None,
+                to_pedestrians: PublicSignal::None,
+                means: SignalMeans::GESTURE,
+            };
+            street.robot(robot).application_mut().show(shown);
+        }
+        let to_vehicles = |street: &mut Street| {
+            let state = street.robot(stays).application().state();
+            state.slow.unwrap().signals.unwrap().to_vehicles
+        };
+        street.pass(1_000);
+        assert_eq!(to_vehicles(&mut street), PublicSignal::None);
+        let detected = Event::PedestrianDetected(plan.request());
+        street.tell(0, Stimulus::Event(detected));
+        street.pass(2_000);
+        assert_eq!(to_vehicles(&mut street), PublicSignal::Stop);
+        // The other robot is gone, and nobody knows whether somebody is on the road.
+        street.robots[gone] = None;
+        street.pass(70_000);
+        let robot = street.robot(stays).endpoint().robot();
+        assert!(robot.duty().is_some(), "{:?}", robot.phase());
+        assert_eq!(to_vehicles(&mut street), PublicSignal::Stop);
+        street.robot(stays).application_mut().say_clear();
+        street.tell(stays, Stimulus::Event(Event::RoadClear));
+        street.pass(1_000);
+        assert_eq!(to_vehicles(&mut street), PublicSignal::None);
+    }
 }
 
 /// How long a robot that asks for help takes to lead, with a follower nearby, in ms.

@@ -142,14 +142,22 @@ fn lines(chart: &mut Chart, first: &str, seen: Seen<'_>) -> Vec<String> {
     match seen {
         Seen::Record(record) => chart.lines(record),
         Seen::PowerLoss { at_us, robot } => chart.note(at_us, robot, "! loses power"),
-        Seen::Pedestrian { at_us, is_on_road } => {
-            if is_on_road {
+        Seen::Pedestrians {
+            at_us,
+            are_on_road,
+            count,
+        } => match (are_on_road, count) {
+            (true, 1) => {
                 let text = "~ the pedestrian sees go and steps on the road";
                 chart.note_on_go(at_us, first, text)
-            } else {
-                chart.note(at_us, first, "~ the pedestrian is across")
             }
-        }
+            (true, _) => {
+                let text = "~ people on both sides see go and step on the road";
+                chart.note_on_go(at_us, first, text)
+            }
+            (false, 1) => chart.note(at_us, first, "~ the pedestrian is across"),
+            (false, _) => chart.note(at_us, first, "~ everybody is across"),
+        },
     }
 }
 
@@ -306,8 +314,9 @@ fn introduce(options: &Options, robots: usize, is_throw_away: bool) -> Result<()
     let (port, last_port) = (options.port, usize::from(options.port) + robots - 1);
     let over = format!("UDP on 127.0.0.1, ports {port} to {last_port}");
     print(format_args!(
-        "A pedestrian wants to cross. {}\nThe robots coordinate over {over}, and move {} times as fast as \
+        "{} {}\nThe robots coordinate over {over}, and move {} times as fast as \
          real: about\n{seconds:.0} s per crossing{together}. Packets {security}{pki}.\n",
+        options.scenario.who_waits(),
         options.scenario.summary(),
         options.time_scale,
     ))

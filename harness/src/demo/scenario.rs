@@ -84,6 +84,15 @@ impl Scenario {
         &self.0.name
     }
 
+    /// Who wants to cross, in a sentence.
+    #[must_use]
+    pub fn who_waits(&self) -> &'static str {
+        match self.0.plan(StationId(0), self.0.followers).sides() {
+            1 => "A pedestrian wants to cross.",
+            _ => "People on both sides want to cross.",
+        }
+    }
+
     /// What happens, in a sentence.
     #[must_use]
     pub fn summary(&self) -> &str {

@@ -1,5 +1,6 @@
 //! `crossguard demo`, as its user runs it: each plan that comes with the kit, and what is said of it.
 
+use std::collections::BTreeSet;
 use std::process::{Output, Stdio};
 use std::time::Duration;
 
@@ -80,6 +81,157 @@ fn each_plan_ends_as_it_says_and_leaves_a_valid_log() {
         }
     });
     cross(LARGE);
+}
+
+/// Fields of RAM and RMCM that stay null in a demonstration: the paper's proof of concept (section III-A) does not name
+/// them, or no robot there has what they tell.
+const NULL: &[&str] = &[
+    // Bodies are in two dimensions, are simulated, and have no lights.
+    "curvature",
+    "yawRate",
+    "lateralAcceleration",
+    "verticalAcceleration",
+    "orientation",
+    "exteriorLights",
+    // Goes along each half second, and when another signal is shown.
+    "robotLowFrequencyContainer",
+    // A part in no session, before the first command, and nothing that ended.
+    "robotLeaderFollowerOperationContainer",
+    "role",
+    "lastCommand",
+    "farewell",
+    "unavailability",
+    // The crossing that requests are for may be any; commands and RAM name the road segment.
+    "crossing",
+    // Sensors deliver nobody without `--perceived`.
+    "vruClusterInformationContainer",
+    "vruMotionPredictionContainer",
+    // Only guards face a way that their place does not say.
+    "targetHeading",
+    // Nobody asks for them.
+    "minimumPedestrianDistance",
+    "validityDuration",
+    "estimatedTimeToCompletion",
+    // Choices without a value.
+    "accepted",
+    "executing",
+    "inPosition",
+    "completed",
+];
+
+fn nulls(name: &str, value: &Value, found: &mut BTreeSet<String>) {
+    match value {
+        Value::Null => _ = found.insert(name.to_owned()),
+        Value::Array(all) => all.iter().for_each(|it| nulls(name, it, found)),
+        Value::Object(fields) => fields.iter().for_each(|(name, it)| nulls(name, it, found)),
+        _ => {}
+    }
+}
+
+/// What robots sent, decoded by the command, with the sender's name.
+fn sent(log: &str, kind: &str) -> Vec<(String, Value)> {
+    let mut sent = records(log);
+    sent.retain(|it| it["entry"] == "sent" && it["message"] == kind);
+    let lines: Vec<_> = sent
+        .iter()
+        .map(|it| it["octets"].as_str().unwrap())
+        .collect();
+    let decoded = run_with(&["codec", "decode", "--batch"], lines.join("\n").as_bytes());
+    assert_code(&decoded, 0);
+    let decoded = stdout(&decoded);
+    let decoded = decoded.lines().map(|it| serde_json::from_str(it).unwrap());
+    let robots = sent
+        .iter()
+        .map(|it| it["robot"].as_str().unwrap().to_owned());
+    robots.zip(decoded).collect()
+}
+
+#[test]
+fn robots_say_show_and_do_what_the_papers_proof_of_concept_has() {
+    for scenario in ["crossing", "bilateral", "trio"] {
+        let folder = tempfile::tempdir().unwrap();
+        let log = folder.path().join("log").display().to_string();
+        let output = demo(&format!("--scenario {scenario} --speed 10 --log {log}"));
+        assert_code(&output, 0);
+        let chart = stdout(&output);
+        for stage in 1..=5 {
+            assert_eq!(
+                chart.matches(&format!("── Stage {stage}: ")).count(),
+                1,
+                "{chart}"
+            );
+        }
+        let both_sides = chart.contains("people on both sides see go and step on the road");
+        assert_eq!(both_sides, scenario == "bilateral", "{chart}");
+        let log = std::fs::read_to_string(&log).unwrap();
+        let (rams, rmcms) = (sent(&log, "RAM"), sent(&log, "RMCM"));
+        let mut found = BTreeSet::new();
+        for (_, message) in rams.iter().chain(&rmcms) {
+            nulls("", message, &mut found);
+        }
+        let is_excused = |name: &String| NULL.contains(&&**name);
+        // A dog shows nothing.
+        found.retain(|name| !is_excused(name) && name != "signalsShown");
+        assert!(found.is_empty(), "{scenario}: {found:?}");
+        // Commands name their road segment and, for guards, the way to face.
+        let commands = rmcms.iter().map(|(_, it)| {
+            let container = "/message/rmcm/rmcm/rmcmParameters/maneuverContainer";
+            &it.pointer(container).unwrap()["leaderManeuverContainer"]
+        });
+        let mut commands = commands.filter(|it| it.is_object()).peekable();
+        assert!(commands.peek().is_some(), "{scenario}");
+        for container in commands {
+            let id = container.pointer("/mapReference/roadsegment/id");
+            assert_eq!(id.and_then(Value::as_u64), Some(12), "{container}");
+            let is_block = container["commands"][0]["taskType"] == 2;
+            let heading = &container["commands"][0]["targetHeading"];
+            assert!(!is_block || heading == 900, "{container}");
+        }
+        let mut signs = Vec::new();
+        let mut facing = Value::Null;
+        for (robot, ram) in &rams {
+            let ram = ram.pointer("/message/ram/ram/ramParameters").unwrap();
+            let status = &ram["robotStatusContainer"]["helpStatus"];
+            let slow = &ram["robotLowFrequencyContainer"];
+            let shown = &slow["signalsShown"];
+            let sees_and_follows_only = slow["capabilities"] == "a0";
+            if robot == "ARI" {
+                facing.clone_from(&ram["robotHighFrequencyContainer"]["heading"]["value"]);
+                let has_shown = shown.is_object().then(|| {
+                    let to = |whom: &str| shown[whom].as_str().unwrap().to_owned();
+                    (to("toVehicles"), to("toPedestrians"))
+                });
+                assert!(status != "needHelp" || has_shown.is_some() || !signs.is_empty());
+                signs.extend(has_shown.filter(|it| signs.last() != Some(it)));
+            }
+            if slow.is_object() {
+                assert_eq!(shown.is_null(), robot == "Go2", "{robot}: {ram}");
+                assert_eq!(sees_and_follows_only, robot == "Go2", "{robot}: {ram}");
+                assert!(slow["areaServed"].is_object(), "{robot}: {ram}");
+            }
+        }
+        // People are told to wait before help is asked for, vehicles once there is a team, and all of it ends.
+        let signs: Vec<_> = signs.iter().map(|(a, b)| [&**a, &**b]).collect();
+        let expected = [
+            ["none", "none"],
+            ["none", "stop"],
+            ["stop", "stop"],
+            ["stop", "go"],
+            ["stop", "stop"],
+            ["none", "none"],
+        ];
+        let mut rest = signs.iter();
+        for state in expected {
+            assert!(
+                rest.any(|it| *it == state),
+                "{scenario}: {state:?}: {signs:?}"
+            );
+        }
+        assert_eq!(
+            facing, 2700,
+            "{scenario}: ARI faces the traffic of its lane"
+        );
+    }
 }
 
 #[test]

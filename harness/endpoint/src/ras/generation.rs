@@ -240,10 +240,13 @@ impl Generation {
         }
     }
 
-    /// Whether the next RAM has the low-frequency container.
+    /// Whether the next RAM has the low-frequency container: each half second, and at once where the robot shows
+    /// something else to people than its last RAM said.
     #[must_use]
-    pub fn low_frequency_due(&self, now_ms: u64) -> bool {
-        self.low_frequency.is_due(now_ms)
+    pub fn low_frequency_due(&self, now_ms: u64, state: &RobotState) -> bool {
+        let signals = |state: &RobotState| state.slow.as_ref().and_then(|slow| slow.signals);
+        let said = self.said.as_ref().map(|(said, _)| signals(said));
+        self.low_frequency.is_due(now_ms) || said.is_some_and(|said| said != signals(state))
     }
 
     /// Notes that a RAM went out.
@@ -406,8 +409,9 @@ mod tests {
     #[test]
     fn the_low_frequency_container_goes_along_every_half_second() {
         let generation = after_one(&at(49.0, 0.0, 0.0));
-        assert!(!generation.low_frequency_due(499));
-        assert!(generation.low_frequency_due(500));
+        let state = RobotState::default();
+        assert!(!generation.low_frequency_due(499, &state));
+        assert!(generation.low_frequency_due(500, &state));
     }
 
     #[test]

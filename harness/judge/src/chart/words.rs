@@ -1,6 +1,6 @@
 //! What happens, in a few words.
 
-use crossguard_codec::{Heard, Kind, PublicSignal, SignalsShown};
+use crossguard_codec::{Heard, Kind, SignalsShown};
 use crossguard_protocol::{Coordination, Event, Farewell, Input, Notice, Output, Ram};
 use crossguard_robot::around::{Around, OfKind};
 use crossguard_robot::sight::Sight;
@@ -9,26 +9,33 @@ use crossguard_robot::zone::Conduct;
 /// A message in a few words: what it says to the protocol, where its commands take place, and what its sender
 /// shows to people.
 pub fn text_of(heard: &Heard) -> String {
-    let inputs: Vec<_> = heard.inputs.iter().map(text_of_input).collect();
-    let place = heard.map_place.map(|place| format!(" at {place}"));
-    let shown = shown(heard).filter(|shown| shows_something(*shown));
+    let shown = shown(heard).filter(|shown| shown.is_anything());
     let shown = shown.map(|shown| format!(", shows {shown}"));
-    [Some(inputs.join("; ")), place, shown]
-        .into_iter()
-        .flatten()
-        .collect()
+    said_in(heard) + &shown.unwrap_or_default()
 }
 
-/// What the sender of a RAM shows to people, if it says so.
-pub(super) fn shown(heard: &Heard) -> Option<SignalsShown> {
+/// The same, without what its sender shows to people.
+pub(super) fn said_in(heard: &Heard) -> String {
+    let inputs: Vec<_> = heard.inputs.iter().map(text_of_input).collect();
+    let place = heard.map_place.map(|place| format!(" at {place}"));
+    inputs.join("; ") + &place.unwrap_or_default()
+}
+
+fn shown(heard: &Heard) -> Option<SignalsShown> {
     heard.state.as_ref()?.slow.as_ref()?.signals
 }
 
-pub(super) const fn shows_something(shown: SignalsShown) -> bool {
-    !matches!(
-        (shown.to_vehicles, shown.to_pedestrians),
-        (PublicSignal::None, PublicSignal::None)
-    )
+/// What a robot shows to people that shows nothing.
+pub(super) const SHOWS_NOTHING: &str = "~ shows nothing to people";
+
+/// What the sender of a RAM shows to people, if it says so.
+pub(super) fn shown_in(heard: &Heard) -> Option<String> {
+    let shown = shown(heard)?;
+    Some(if shown.is_anything() {
+        format!("~ shows {shown}")
+    } else {
+        SHOWS_NOTHING.to_owned()
+    })
 }
 
 fn text_of_input(input: &Input) -> String {

@@ -1,10 +1,10 @@
 //! What an application does with its body and its plan.
 
-use crossguard_codec::{PublicSignal, RobotState, SignalMeans, TaskParameters};
+use crossguard_codec::{RobotState, TaskParameters};
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_protocol::{
-    EndReason, Maneuver, ManeuverId, Notice, RequestId, SessionId, SessionNumber, StationId,
-    StopReason, TaskType, UniqueNumber,
+    Maneuver, ManeuverId, RequestId, SessionId, SessionNumber, StationId, StopReason, TaskType,
+    UniqueNumber,
 };
 
 use super::*;
@@ -87,38 +87,6 @@ fn a_hindrance_is_told_once_until_go_is_shown_again() {
         [hindered, hindered, go, hindered].map(&mut told),
         [once, None, None, once]
     );
-}
-
-/// A guard that reports from beside the road must not let anybody cross.
-/// Hazard: the pedestrian is told to go, and vehicles are told nothing.
-#[test]
-fn a_leader_shows_vehicles_what_its_plan_says_and_nothing_after_its_session() {
-    let leader = StationId(1);
-    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
-    let session = SessionId { leader, number };
-    let site = Site::default();
-    let plan = Plan {
-        shows: Some(PublicSignal::Stop),
-        ..Plan::crossing(site)
-    };
-    for means in [Some(SignalMeans::GESTURE), None] {
-        let body = Simulated::new(Build::Humanoid, site, Place::default(), 1.0, 1);
-        let mut application =
-            Application::new(Box::new(body), Some(plan.clone())).showing_by(means);
-        let shown = |application: &Application| {
-            let signals = application.state().slow?.signals?;
-            Some(signals.to_vehicles)
-        };
-        let mut seen = vec![shown(&application)];
-        application.act(&Act::Notice(Notice::RolesEstablished(session)));
-        seen.push(shown(&application));
-        let ended = Notice::SessionEnded(session, EndReason::NoFollowers);
-        application.act(&Act::Notice(ended));
-        seen.push(shown(&application));
-        let expected = [PublicSignal::None, PublicSignal::Stop, PublicSignal::None];
-        let expected = expected.map(|signal| means.map(|_| signal));
-        assert_eq!(seen, expected, "{means:?}");
-    }
 }
 
 /// A log is judged by the sights in it.

@@ -1,12 +1,13 @@
 //! What a robot is and how its battery is, as its robot file and its operator say: it stands in every RAM.
 
 use crossguard_codec::{
-    Battery, Dimensions, JobRole, MapPlace, RobotState, SignalMeans, SignalsShown,
+    Battery, Capabilities, Dimensions, JobRole, MapPlace, RobotState, SignalMeans, SignalsShown,
 };
 use crossguard_protocol::{Availability, Event, Robot, Unavailability};
 
 use super::{Application, Stimulus, micros};
 use crate::sign::Shown;
+use crate::street::Road;
 
 /// A robot whose battery was low is available again this much above the limit, in percent.
 const RECOVERY_PERCENT: f64 = 5.0;
@@ -49,10 +50,30 @@ impl Application {
         Self { shown, ..self }
     }
 
-    /// Shows this to people from now on; without means, by those of before. While the robot leads, its sign
-    /// says what is shown to pedestrians.
+    /// Shows this to people from now on; without means, by those of before. While the robot asks for help or leads,
+    /// its sign says what is shown to pedestrians.
     pub fn show(&mut self, signals: SignalsShown) {
         self.shown.show(signals);
+    }
+
+    /// Somebody was detected: they are told to wait before help is asked for (the paper, section III-A, stage 2).
+    pub(crate) const fn tell_people_to_wait(&mut self) {
+        self.faces_people = true;
+    }
+
+    /// What it can do besides maneuvers: by its sensors, its plan, and the means by which it shows signals.
+    fn capabilities(&self) -> Capabilities {
+        let means = self.shown.means();
+        let has_sensors = !matches!(self.road, Road::Unknown | Road::Heard(_));
+        let can = [
+            (has_sensors, Capabilities::PEDESTRIAN_DETECTION),
+            (self.plan.is_some() || self.counts, Capabilities::LEADING),
+            (means.contains(SignalMeans::GESTURE), Capabilities::GESTURES),
+            (means.contains(SignalMeans::DISPLAY), Capabilities::DISPLAY),
+            (means.contains(SignalMeans::SPEECH), Capabilities::SPEECH),
+        ];
+        let can = can.into_iter().filter(|(is_so, _)| *is_so);
+        can.fold(Capabilities(0), |all, (_, it)| all.union(it))
     }
 
     /// How the robot is: what the body's sensors say, its traits, and what it shows to people.
@@ -61,7 +82,8 @@ impl Application {
         let mut state = self.body.state();
         if let Some(slow) = &mut state.slow {
             let shows_go = self.sign.shows_go(micros(self.at_s));
-            slow.signals = self.shown.told(self.leads.then_some(shows_go));
+            slow.capabilities = self.capabilities();
+            slow.signals = self.shown.told(self.faces_people.then_some(shows_go));
             slow.area = self.site.map_place;
         }
         RobotState {

@@ -341,9 +341,9 @@ impl Body for Ported {
         }
     }
 
-    fn walk_to(&mut self, place: Place) {
+    fn walk_to(&mut self, place: Place, heading_deg: Option<f64>) {
         let to = At::of(&self.site, place);
-        self.mention(&ToBody::Go { to });
+        self.mention(&ToBody::Go { to, heading_deg });
     }
 }
 

@@ -52,6 +52,8 @@ pub struct Simulated {
 struct Motion {
     to: Place,
     speed_mps: f64,
+    /// Which way it faces there, if that matters.
+    heading_deg: Option<f64>,
     /// What the body reports when it arrives.
     report: Option<Report>,
 }
@@ -96,6 +98,7 @@ impl Simulated {
         self.motion = Some(Motion {
             to,
             speed_mps: limit * gait,
+            heading_deg: parameters.heading,
             report: Some(if self.holding.contains(maneuver.task) {
                 Report::InPosition(maneuver.id)
             } else {
@@ -138,6 +141,7 @@ impl Simulated {
         self.motion = Some(Motion {
             to,
             speed_mps: speed_mps.unwrap_or(self.build.speed_max()),
+            heading_deg: None,
             report: None,
         });
     }
@@ -174,6 +178,7 @@ impl Simulated {
         if way <= step.max(0.005) {
             let arrived = self.motion.take()?;
             self.place = to;
+            self.heading_deg = arrived.heading_deg.unwrap_or(self.heading_deg);
             self.stand_still();
             if self.fallback == Some(Fallback::UnderWay) {
                 self.fallback = Some(Fallback::Finished);
@@ -253,11 +258,12 @@ impl Body for Simulated {
         self.stop();
     }
 
-    fn walk_to(&mut self, place: Place) {
+    fn walk_to(&mut self, place: Place, heading_deg: Option<f64>) {
         self.waits = false;
         self.motion = Some(Motion {
             to: place,
             speed_mps: self.build.speed_max(),
+            heading_deg,
             report: None,
         });
     }

@@ -178,7 +178,8 @@ fn leg(part: &PartTable, site: &SiteFile) -> Result<Leg, Misfit> {
         leg.speed_mps = located::within(speed, 0.05..=5.0, "m/s")?;
     }
     let heading = part.heading_deg.as_ref();
-    leg.heading_deg = located::within_if_any(heading, 0.0..=360.0, "degrees")?;
+    leg.heading_deg = located::within_if_any(heading, 0.0..=360.0, "degrees")?
+        .or_else(|| site.facing_deg(leg.to));
     Ok(leg)
 }
 

@@ -31,9 +31,9 @@ site  | [-3.0, 0.0], [5.0  | [-3,0, 0,0], [5.0    | site.toml:10: 4 elements are
 site  | [5.0, 0.0]]        | [5.0, 0.0], [6, 0]]  | site.toml:10: 3 elements are here, and 2 are wanted
 site  | [-4.0, 2.0]        | [-4.0, 2000.0]       | [-4, 2000] is no place: metres east and north of the origin, at most 1000, are wanted
 plan  | "near-kerb", "far  | "corner", "x", "far  | plan.toml:4: 3 elements are here, and 2 are wanted
-plan  | to = "far-kerb"    | to = [1,0, 8,0]      | plan.toml:26: a place is wanted: its name on the site, or [EAST, NORTH] in metres
+plan  | to = "far-kerb"    | to = [1,0, 8,0]      | plan.toml:27: a place is wanted: its name on the site, or [EAST, NORTH] in metres
 plan  | station = 1        | station = 0          | plan.toml:6: role 'leader' is for station 0, which is no station
-plan  | station = 1        | station = 2          | plan.toml:14: roles 'leader' and 'escort' are for one station
+plan  | station = 1        | station = 2          | plan.toml:15: roles 'leader' and 'escort' are for one station
 "#;
 
 /// A robot file that says of everything what it can, and is right.
@@ -118,7 +118,7 @@ fn settings_that_switch_a_protection_off_are_refused() {
         ),
         (
             "t_cross = 20000",
-            "plan crossing:26: role 'escort' goes 9.0 m at 0.424 m/s, which takes 21.2 s: t_cross is 20 s",
+            "plan crossing:27: role 'escort' goes 9.0 m at 0.424 m/s, which takes 21.2 s: t_cross is 20 s",
         ),
     ] {
         let error = read(protocol).unwrap_err();

@@ -106,8 +106,8 @@ impl Body for Carried {
         self.body.halt();
     }
 
-    fn walk_to(&mut self, place: Place) {
-        self.body.walk_to(place);
+    fn walk_to(&mut self, place: Place, heading_deg: Option<f64>) {
+        self.body.walk_to(place, heading_deg);
     }
 
     fn walks_back(&self) -> bool {

@@ -60,7 +60,7 @@ impl World<'_> {
         let Corner { street, waiting_us } = &mut self.corners[corner];
         if waiting_us.is_none() {
             *waiting_us = Some(crossing_us);
-            street.arrive(crossing_us);
+            street.arrive(crossing_us, 1);
             self.plan_look(corner);
         }
     }

@@ -11,7 +11,11 @@ pub const VERSION: u8 = 2;
 
 /// What the kit says to a body.
 #[derive(Clone, PartialEq, Debug, Serialize)]
-#[serde(tag = "type", rename_all = "kebab-case")]
+#[serde(
+    rename_all_fields = "camelCase",
+    tag = "type",
+    rename_all = "kebab-case"
+)]
 pub(super) enum ToBody {
     Hello { crossguard: u8 },
     Start(Start),
@@ -19,7 +23,7 @@ pub(super) enum ToBody {
     FallBack { id: String, policy: &'static str },
     Wait,
     GoOn,
-    Go { to: At },
+    Go { to: At, heading_deg: Option<f64> },
     Halt,
     Release,
     Beat,
