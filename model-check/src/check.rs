@@ -284,6 +284,9 @@ pub(crate) fn chart_step(
     Some((next, step))
 }
 
+/// What a person does who has crossed.
+pub(crate) const ACROSS: &str = "who stepped on the road there is across";
+
 /// An action in words, with its place in a chart.
 pub(crate) fn placed(model: &Model, action: Action) -> (ChartPlace, String) {
     let between = |Transmission { from, to, message }, fate| {
@@ -312,7 +315,7 @@ pub(crate) fn placed(model: &Model, action: Action) -> (ChartPlace, String) {
         Action::Crash(robot) => at(robot, "crashes".to_owned()),
         Action::Restart(robot) => at(robot, "boots again".to_owned()),
         Action::StepOnRoad(robot) => at(robot, "at its sign somebody steps on the road".to_owned()),
-        Action::Across(robot) => at(robot, "who stepped on the road there is across".to_owned()),
+        Action::Across(robot) => at(robot, ACROSS.to_owned()),
         Action::Hang(robot) => at(robot, "hangs".to_owned()),
         Action::Resume(robot) => at(robot, "goes on".to_owned()),
     }

@@ -3,6 +3,8 @@
 //! The steps are those of a [`Replay`](crate::replay::Replay), so a walk is kept and followed like a counterexample.
 //! Nothing is stored between two walks: to go one step further, a caller walks again from the start.
 
+mod by_itself;
+
 use crossguard_protocol::{Availability, Role, State, StationId};
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +18,8 @@ use crate::road::{Body, Pedestrian};
 use crate::scenario::{Bounds, Scenario};
 use crate::sequence::ChartStep;
 use crate::transitions::{mode, mode_parts};
+
+pub use by_itself::{Chances, next_step};
 
 /// A scenario on its way.
 #[derive(Clone, Debug, Serialize)]

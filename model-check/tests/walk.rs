@@ -2,9 +2,9 @@
 
 use crossguard_model_check::model::Model;
 use crossguard_model_check::replay::{Followed, Replay};
-use crossguard_model_check::scenario::Scenario;
+use crossguard_model_check::scenario::{Bounds, Scenario};
 use crossguard_model_check::sequence::{ChartPlace, ChartStep, Fate};
-use crossguard_model_check::walk::{Goal, PersonFrame, Stray, Walk, search};
+use crossguard_model_check::walk::{Chances, Goal, PersonFrame, Stray, Walk, next_step, search};
 use crossguard_protocol::{Role, State};
 
 fn scenario(name: &str) -> Scenario {
@@ -167,4 +167,46 @@ fn a_search_says_whether_it_has_seen_everything() {
     assert!(found.steps.is_none() && found.is_complete);
     let found = search(scenario("crossing"), asks, 50);
     assert!(found.steps.is_none() && !found.is_complete);
+}
+
+/// Hazard: the page that lets the protocol run by itself never shows anybody cross.
+#[test]
+fn a_run_by_itself_shows_a_person_cross_and_ends() {
+    const STEPS_MAX: usize = 400;
+    let cross = |name: &str, seed| {
+        let mut steps = Vec::new();
+        let mut was_on_road = false;
+        let chances = Chances {
+            seed,
+            loss: 20,
+            delay: 10,
+            breakdowns: false,
+        };
+        while let Some(step) = next_step(roomy(name), &steps, chances) {
+            was_on_road |= step.action.contains("steps on the road");
+            steps.push(step);
+            if steps.len() > STEPS_MAX {
+                return (was_on_road, None);
+            }
+        }
+        (was_on_road, Some(steps.len()))
+    };
+    for name in ["pair", "bilateral", "trio-corridor"] {
+        let runs: Vec<_> = (1..=20).map(|seed| cross(name, seed)).collect();
+        let crossed = runs.iter().filter(|(was_on_road, _)| *was_on_road).count();
+        let ended = runs.iter().filter(|(_, ended)| ended.is_some()).count();
+        assert!(crossed >= 19 && ended >= 18, "{name}: {runs:?}");
+    }
+}
+
+/// A scenario of the kit in which things may happen as often as in the page.
+fn roomy(name: &str) -> Scenario {
+    let mut scenario = scenario(name);
+    scenario.bounds = Bounds {
+        detections: 200,
+        commands: 200,
+        disturbances: 200,
+        ..Bounds::default()
+    };
+    scenario
 }

@@ -3,7 +3,7 @@
 use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::replay::Replay;
 use crossguard_model_check::scenario::Scenario;
-use crossguard_model_check::walk::{Goal, Walk, search};
+use crossguard_model_check::walk::{Chances, Goal, Walk, next_step, search};
 use serde::{Deserialize, Serialize};
 
 use super::shell::Refusal;
@@ -37,6 +37,13 @@ struct PropertyText {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
+struct ByItself {
+    run: Replay,
+    chances: Chances,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Wanted {
     run: Replay,
     goal: Goal,
@@ -49,13 +56,11 @@ pub(super) fn ask(what: &str, body: &str) -> Result<String, Refusal> {
         "properties" => json(&properties()),
         "walk" => {
             let run: Replay = read(body)?;
-            if run.steps.len() > STEPS_MAX {
-                return Err(wrong(format!(
-                    "the run has {} steps; at most {STEPS_MAX} are followed here, `crossguard check --replay` follows all",
-                    run.steps.len()
-                )));
-            }
             json(&Walk::along(scenario(&run)?, &run.steps))
+        }
+        "next" => {
+            let ByItself { run, chances } = read(body)?;
+            json(&next_step(scenario(&run)?, &run.steps, chances))
         }
         "search" => {
             let Wanted { run, goal } = read(body)?;
@@ -67,6 +72,12 @@ pub(super) fn ask(what: &str, body: &str) -> Result<String, Refusal> {
 
 /// The scenario of a run. A file of this machine is read by the command, never for a page.
 fn scenario(run: &Replay) -> Result<Scenario, Refusal> {
+    if run.steps.len() > STEPS_MAX {
+        return Err(wrong(format!(
+            "the run has {} steps; at most {STEPS_MAX} are followed here, `crossguard check --replay` follows all",
+            run.steps.len()
+        )));
+    }
     let is_shipped = Scenario::shipped().any(|name| name == run.scenario);
     if run.text.is_none() && !is_shipped {
         return Err(wrong(format!(

@@ -122,24 +122,12 @@ async function deliverAll() {
   }
 }
 
-// A number from 0 to 1 for a seed and a step; the same each time.
-function chance(seed, step) {
-  let a = (Number(seed) * 0x9e3779b1 + step * 0x85ebca6b) | 0;
-  a = Math.imul(a ^ (a >>> 15), a | 1);
-  a ^= a + Math.imul(a ^ (a >>> 7), a | 61);
-  return ((a ^ (a >>> 14)) >>> 0) / 4294967296;
-}
-
-// What happens by itself: messages get lost and delayed as often as the sliders say, and everything else is equally likely.
-function choice() {
-  const roll = (salt) => chance(id("seed").value, play.steps.length * 7 + salt);
-  const onAir = walk.frames[walk.frames.length - 1].onAir.length > 0;
-  if (onAir) {
-    const wanted = roll(1) * 100 < Number(id("loss").value) ? "lost" : roll(2) * 100 < Number(id("delay").value) ? "delayed" : "arrives";
-    return fated(wanted) ?? fated("arrives") ?? fated("lost");
-  }
-  const usual = walk.possible.filter((step) => id("breakdowns").checked || !BREAKDOWN.test(step.action));
-  return usual[Math.floor(roll(3) * usual.length)];
+// What happens by itself: the crossing goes on, messages get lost and delayed as often as the sliders say, and now and
+// then something fails. Nothing more once all are across and idle.
+function next() {
+  const number = (name) => Number(id(name).value);
+  const chances = { seed: number("seed"), loss: number("loss"), delay: number("delay"), breakdowns: id("breakdowns").checked };
+  return post("api/next", { run: runOf(play.scenario, play.text, play.steps), chances });
 }
 
 function stop() {
@@ -155,7 +143,7 @@ function toggle() {
   id("auto").setAttribute("aria-pressed", "true");
   timer = setInterval(() => attempt(async () => {
     if (!timer) return;
-    const step = choice();
+    const step = await next();
     if (!step || play.steps.length >= 1_500) { stop(); return; }
     await take(step);
   }), PAUSE_MS);
