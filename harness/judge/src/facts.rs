@@ -481,19 +481,20 @@ impl Observer {
         Fact::Counted { cause, count }
     }
 
-    /// The notes that the sequence chart has.
+    /// The notes that the sequence chart has at this robot.
     fn notes(&mut self, record: &Record) -> Vec<Fact> {
         let is_drop = matches!(
             record.entry,
             Entry::Dropped { .. } | Entry::Unrecorded { .. }
         );
         let notes = self.chart.marks(record).into_iter();
+        let own = self.chart.names().position(|name| name == record.robot);
         let note = |mark| match mark {
-            Mark::Note { text, .. } => Some(Fact::Note {
+            Mark::Note { lane, text } if Some(lane) == own => Some(Fact::Note {
                 is_warning: is_drop,
                 text,
             }),
-            Mark::Arrow(_) => None,
+            Mark::Note { .. } | Mark::Arrow(_) => None,
         };
         notes.filter_map(note).collect()
     }

@@ -8,8 +8,9 @@ use crossguard_robot::zone::Conduct;
 
 /// A message in a few words: what it says to the protocol, where its commands take place, and what its sender
 /// shows to people.
+#[must_use]
 pub fn text_of(heard: &Heard) -> String {
-    let shown = shown(heard).filter(|shown| shown.is_anything());
+    let shown = shown(heard).filter(SignalsShown::is_anything);
     let shown = shown.map(|shown| format!(", shows {shown}"));
     said_in(heard) + &shown.unwrap_or_default()
 }
