@@ -4,6 +4,7 @@
 //! about all runs afterwards. As a second opinion stateright explores the same model before that, so that its
 //! memory is free again. A check with both is exhaustive only when both have visited everything and agree.
 
+use crossguard_protocol::Output;
 use stateright::{Checker, Expectation, HasDiscoveries, Model as _, Property};
 
 use crate::exploration::by_stateright;
@@ -272,9 +273,7 @@ pub(crate) fn chart_step(
     action: Action,
 ) -> Option<(ModelState, ChartStep)> {
     let (next, step) = model.successor(state, action)?;
-    let outputs = step.map_or_else(Vec::new, |step| {
-        step.outputs().iter().map(ToString::to_string).collect()
-    });
+    let outputs = step.map_or_else(Vec::new, |step| step.outputs().iter().map(worded).collect());
     let (place, action) = placed(model, action);
     let step = ChartStep {
         place,
@@ -282,6 +281,15 @@ pub(crate) fn chart_step(
         outputs,
     };
     Some((next, step))
+}
+
+/// An output in words. This model has no durations: go lasts until something ends it.
+fn worded(output: &Output) -> String {
+    match output {
+        Output::CorridorOpened(_) => "corridor opened".to_owned(),
+        Output::CorridorExtended(_) => "corridor extended".to_owned(),
+        output => output.to_string(),
+    }
 }
 
 /// What a person does who has crossed.
