@@ -456,5 +456,11 @@ fn summarize(report: &CheckReport) -> Result<(), Failure> {
         "{verified} of {} scenarios verified exhaustively, {} states in all.",
         scenarios.len(),
         HumanCount(states as u64)
-    ))
+    ))?;
+    print(if scenarios.iter().any(|report| report.failed()) {
+        "Next: --charts FOLDER keeps what breaks a property; `crossguard studio --replay FILE` walks along it."
+    } else {
+        "Next: `crossguard check paper-literal` shows where the paper's own wording fails; `crossguard studio`\n\
+         plays a scenario step by step."
+    })
 }

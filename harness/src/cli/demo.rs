@@ -237,6 +237,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         report(&outcome)
     };
+    let told = told.and_then(|()| match (&arguments.report, &arguments.log) {
+        (None, None) if !arguments.json => print(NEXT),
+        _ => Ok(()),
+    });
     let captured = super::finish_capture(options.capture);
     let written = match &arguments.report {
         Some(path) => write_page(path, options.scenario.street(), &log, arguments.json),
@@ -375,6 +379,11 @@ fn report(outcome: &Outcome) -> Result<(), Failure> {
         )),
     }
 }
+
+/// What else can be looked at.
+const NEXT: &str = "
+Next: --report crossing.html makes a page of a run; --log crossing.jsonl keeps it, and
+`crossguard studio crossing.jsonl` shows it step by step. --scenario has others: --help.";
 
 /// What the columns of [`times`] mean.
 const LEGEND: &str = "\

@@ -49,6 +49,10 @@ use super::interrupts::interrupts;
 use super::ranges::{any, group};
 use super::{Failure, destinations, print};
 
+/// What a robot says when a duty begins.
+const ON_DUTY: &str =
+    "on duty: it helps nobody else before the road is clear; type clear once nobody is on the road";
+
 /// How long the loop waits before it looks at the other things.
 const TICK: Duration = Duration::from_millis(20);
 
@@ -435,6 +439,11 @@ impl Console<'_> {
                 }
                 if state.state() != self.robot.state() {
                     texts.push(format!("now {:?} ({})", state.state(), state.role()));
+                }
+                // Nothing else says what ends a duty.
+                let is_news = self.robot.duty().is_none() || state.state() != self.robot.state();
+                if state.duty().is_some() && is_news {
+                    texts.push(ON_DUTY.to_owned());
                 }
             }
             Entry::Dropped { cause, detail, .. }

@@ -290,7 +290,7 @@ fn faults_are_survived_and_counted() {
     let arguments = format!("--speed 50 --seed 2 --json --faults {faults}");
     let result = json(&demo(&arguments));
     assert_eq!(result["crossings"], 1);
-    assert_eq!(result["traceValid"], true);
+    assert_eq!(result["traceValid"], true, "{}", result["traceError"]);
     let counters = &result["counters"]["Go2"]["simulated"];
     for fault in ["loss", "burst loss"] {
         assert!(counters[fault].as_u64() > Some(0), "{fault}: {counters}");
