@@ -14,8 +14,8 @@ mod simulated;
 use std::fmt;
 
 use crossguard_codec::{
-    ControlMode, Dimensions, JobRole, Position, RobotCategory, RobotState,
-    SignalMeans, SlowState, TaskParameters,
+    ControlMode, Dimensions, JobRole, Position, RobotCategory, RobotState, SignalMeans, SlowState,
+    TaskParameters,
 };
 use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId, StopReason};
 use serde::{Deserialize, Serialize};

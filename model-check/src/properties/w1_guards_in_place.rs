@@ -41,7 +41,10 @@ fn is_gone_untold(view: &View, place: usize, body: Body) -> bool {
     else {
         return false;
     };
-    // By its place: it may have changed its pseudonym since.
+    // By its place: it may have changed its pseudonym since. Nobody has the name of one that has booted again since.
     let mut commands = view.history.commands_with(id);
-    commands.any(|command| view.world.place_of(command.to) == Some(place) && !command.told)
+    commands.any(|command| {
+        let to = view.world.place_of(command.to);
+        to.is_none_or(|to| to == place) && !command.told
+    })
 }
