@@ -77,14 +77,21 @@ use printable::{Printable, printable_json};
     name = "crossguard",
     version,
     max_term_width = 100,
-    after_help = "Exit codes: 0 all is well, 1 something was found to be wrong, 2 bad usage or input, 3 incomplete. \
-        Ctrl-C and SIGTERM end a command in order, with what it has: 3 if that is less than was asked for; a \
-        second Ctrl-C ends it at once, with 130."
+    after_help = AFTER_HELP
 )]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
 }
+
+#[cfg(feature = "full")]
+const AFTER_HELP: &str = "\
+Exit codes: 0 all is well, 1 something was found to be wrong, 2 bad usage or input, 3 incomplete. Ctrl-C and SIGTERM end \
+a command in order, with what it has: 3 if that is less than was asked for; a second Ctrl-C ends it at once, with 130.";
+#[cfg(not(feature = "full"))]
+const AFTER_HELP: &str = "\
+This is a small build. All commands, among them run, validate, report, studio, fuzz and simulate: \
+cargo run --release --features full -- --help";
 
 #[derive(Subcommand)]
 enum Command {

@@ -367,7 +367,7 @@ mod tests {
     use crate::fsm::diagram;
 
     /// Up to renaming.
-    const STATES: usize = 51_274;
+    const STATES: usize = 32_554;
 
     #[test]
     fn whatever_peers_say_every_step_of_a_robot_is_valid() {

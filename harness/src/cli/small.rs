@@ -23,7 +23,9 @@ pub(super) fn build_all() -> Failure {
              cargo build --release --features full",
         );
     };
-    complain("this is a small build; cargo builds all of it first, which takes about five minutes");
+    complain(
+        "this needs a full build, --features full: cargo makes it now, in about five minutes, unless it is there",
+    );
     let mut all = Command::new(cargo);
     all.args(["run", "--features", "full"]);
     if !cfg!(debug_assertions) {

@@ -81,7 +81,7 @@ fn point_6_another_user_reads_no_key_of_a_pki() {
             .filter(|it| Path::new(it).extension() == Some("key".as_ref()))
             .count()
     };
-    assert_eq!((keys(read), keys(all)), (0, 18), "{said}");
+    assert_eq!((keys(read), keys(all)), (0, 19), "{said}");
     assert!(read.contains("./root.cert"), "{said}");
     let write = "for it in $(find .); do test -w $it && echo $it; done";
     let mut stranger = std::process::Command::new("sh");

@@ -1,6 +1,7 @@
 //! Where a leader has sent its followers: no two bodies to one place.
 //!
-//! A follower stays where its newest accepted command of a session has led it, until it accepts another one.
+//! A follower stays where its newest accepted command of a session has led it. In the next stage two followers are commanded one
+//! after the other: the place of one that has been commanded away is no target any more.
 
 use std::collections::BTreeMap;
 
@@ -24,7 +25,7 @@ pub(super) struct Targets {
     /// Of its newest command to each follower.
     commanded: BTreeMap<(SessionId, StationId), (RequestId, Option<Position>)>,
     /// Of the newest command that each follower has accepted.
-    accepted: BTreeMap<(SessionId, StationId), Position>,
+    accepted: BTreeMap<(SessionId, StationId), (RequestId, Position)>,
 }
 
 impl Targets {
@@ -59,12 +60,13 @@ impl Targets {
             self.accepted.remove(&follower);
             return Ok(());
         };
-        self.accepted.insert(follower, place);
-        let others = self.accepted.iter().filter(|(other, _)| {
+        self.accepted.insert(follower, (request, place));
+        let others = self.accepted.iter().filter(|(other, (accepted, _))| {
             let (of, station) = **other;
-            of == session && station != from
+            let stays = |(commanded, _): &(RequestId, Option<Position>)| commanded == accepted;
+            of == session && station != from && self.commanded.get(*other).is_some_and(stays)
         });
-        for ((_, other), at) in others {
+        for ((_, other), (_, at)) in others {
             let metres = f64::from(distance(&place, at).0) / 10.0;
             if metres < APART_M - ROUNDING_M {
                 return Err(Fault::SamePlace {
