@@ -37,26 +37,29 @@ impl Targets {
         }
     }
 
-    /// The leader is told something: a follower that accepts a command goes to its target.
+    /// The leader is told something: a follower that accepts a command goes to its target, and one that rejects it stays.
     pub(super) fn told(&mut self, input: Input) -> Result<(), Fault> {
         let Input::Rmcm(Rmcm::Answer(Answer {
             from,
             session,
             request,
-            verdict: Verdict::Accepted,
+            verdict,
         })) = input
         else {
             return Ok(());
         };
         let follower = (session, from);
-        let Some((_, place)) = self
-            .commanded
-            .get(&follower)
-            .filter(|(commanded, _)| *commanded == request)
-        else {
+        let newest = self.commanded.get(&follower).copied();
+        let Some((_, place)) = newest.filter(|(commanded, _)| *commanded == request) else {
             return Ok(());
         };
-        let Some(place) = *place else {
+        if verdict != Verdict::Accepted {
+            if let Some((accepted, at)) = self.accepted.get(&follower) {
+                self.commanded.insert(follower, (*accepted, Some(*at)));
+            }
+            return Ok(());
+        }
+        let Some(place) = place else {
             self.accepted.remove(&follower);
             return Ok(());
         };
@@ -110,5 +113,83 @@ fn position_of(target: Target) -> Option<Position> {
             ..
         } => Some(Position::at(latitude, longitude)),
         Target::Offset { .. } | Target::Lane(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crossguard_codec::{TaskParameters, encode, rmcm_from_commands};
+    use crossguard_protocol::{Rejection, SessionNumber, TaskType, UniqueNumber};
+
+    use super::*;
+
+    const SESSION: SessionId = SessionId {
+        leader: StationId(9),
+        number: SessionNumber(UniqueNumber { boot: 1, count: 0 }),
+    };
+
+    /// A leader that sends followers to block, at this latitude each.
+    #[derive(Default)]
+    struct Leader(Targets);
+
+    impl Leader {
+        fn commands(&mut self, request: u8, to: u32, latitude: f64) {
+            let ids = Identifiers::default();
+            let command = Command {
+                session: SESSION,
+                to: StationId(to),
+                request: RequestId(request),
+                task: TaskType::BLOCK,
+            };
+            let parameters = TaskParameters {
+                target: Some(Target::Position {
+                    latitude,
+                    longitude: 8.4,
+                    altitude: None,
+                }),
+                ..TaskParameters::default()
+            };
+            let position = Position::at(49.0, 8.4);
+            let rmcm = rmcm_from_commands(&ids, &position, &[(command, parameters)], 0).unwrap();
+            self.0.sent(&ids, &encode(&ids, &rmcm).unwrap());
+        }
+
+        fn hears(&mut self, request: u8, from: u32, verdict: Verdict) -> Result<(), Fault> {
+            self.0.told(Input::Rmcm(Rmcm::Answer(Answer {
+                from: StationId(from),
+                session: SESSION,
+                request: RequestId(request),
+                verdict,
+            })))
+        }
+    }
+
+    /// Followers 1 and 2 at their places, and both commanded on: 1 to where 2 stands, which it accepts first.
+    fn both_commanded_on() -> Leader {
+        let mut leader = Leader::default();
+        for (to, latitude) in [(1, 49.0), (2, 49.0001)] {
+            leader.commands(1, to, latitude);
+            leader.hears(1, to, Verdict::Accepted).unwrap();
+        }
+        leader.commands(2, 1, 49.0001);
+        leader.commands(2, 2, 49.0002);
+        leader.hears(2, 1, Verdict::Accepted).unwrap();
+        leader
+    }
+
+    #[test]
+    fn the_place_of_one_that_goes_on_as_well_is_free() {
+        let mut leader = both_commanded_on();
+        leader.hears(2, 2, Verdict::Accepted).unwrap();
+    }
+
+    #[test]
+    fn one_that_rejects_the_next_command_keeps_its_place() {
+        let mut leader = both_commanded_on();
+        let rejected = Verdict::Rejected(Rejection::UnsupportedTask);
+        leader.hears(2, 2, rejected).unwrap();
+        leader.commands(3, 1, 49.0001);
+        let fault = leader.hears(3, 1, Verdict::Accepted);
+        assert!(matches!(fault, Err(Fault::SamePlace { .. })), "{fault:?}");
     }
 }
