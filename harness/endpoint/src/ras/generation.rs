@@ -301,7 +301,7 @@ fn report(coordination: &Coordination) -> impl PartialEq + use<> {
 
 #[cfg(test)]
 mod tests {
-    use crossguard_codec::Position;
+    use crossguard_codec::{Position, PublicSignal, SignalMeans, SignalsShown, SlowState};
     use crossguard_protocol::{
         Farewell, Heartbeat, OfferNumber, SessionId, SessionNumber, StationId, UniqueNumber,
     };
@@ -412,6 +412,29 @@ mod tests {
         let state = RobotState::default();
         assert!(!generation.low_frequency_due(499, &state));
         assert!(generation.low_frequency_due(500, &state));
+    }
+
+    /// Hazard: people are told to wait, and for half a second nobody hears of it.
+    #[test]
+    fn the_low_frequency_container_goes_along_at_once_when_something_else_is_shown() {
+        let showing = |to_pedestrians| {
+            let signals = SignalsShown {
+                to_vehicles: PublicSignal::None,
+                to_pedestrians,
+                means: SignalMeans::GESTURE,
+            };
+            let slow = Some(SlowState {
+                signals: Some(signals),
+                ..SlowState::default()
+            });
+            RobotState {
+                slow,
+                ..at(49.0, 0.0, 0.0)
+            }
+        };
+        let generation = after_one(&showing(PublicSignal::None));
+        assert!(!generation.low_frequency_due(1, &showing(PublicSignal::None)));
+        assert!(generation.low_frequency_due(1, &showing(PublicSignal::Stop)));
     }
 
     #[test]
