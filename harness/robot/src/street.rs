@@ -46,9 +46,9 @@ pub struct Street {
 struct People {
     /// When somebody looked last, in microseconds.
     now_us: u64,
-    /// Those who wait.
+    /// People at the kerbs.
     waiting: Vec<Waiting>,
-    /// Those who cross, and have just crossed.
+    /// People on the road, and people who have just crossed.
     walking: Vec<Walker>,
 }
 

@@ -1,15 +1,15 @@
 //! Robots that take nothing unsigned, beside stations that another implementation encoded and signed, in the forms that
 //! IEEE 1609.2 allows and this kit does not use: they are heard, they are on the map, and pedestrians wait for the car.
-//!
 //! `codec/judges/beside.py` makes `beside.json`. Its car passes the crossing 9 s after its first message.
 
 mod support;
+#[path = "support/zone.rs"]
+mod zone;
 
 use std::collections::BTreeMap;
 
 use crossguard_codec::security::{Certificate, Duration, Time64};
 use crossguard_codec::{Identifiers, Identity, Kind, Part};
-use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::station::{Mode, Security};
 use crossguard_endpoint::{Act, Effect, Stimulus};
@@ -20,7 +20,6 @@ use crossguard_robot::pki::{self, Pki, Term};
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::street::Road;
-use crossguard_robot::zone::Zone;
 use serde::Deserialize;
 
 use self::support::{BEGAN_ITS, Street, TICK_MS};
@@ -87,11 +86,6 @@ impl Done {
 
 const LEADER: usize = 0;
 
-fn strip(south: f64, north: f64) -> Area {
-    let corners = [[-3.0, south], [5.0, south], [5.0, north], [-3.0, north]];
-    Area::Polygon(corners.to_vec())
-}
-
 /// A leader that watches a crossing, and a helper. In the folder of each are the others' root and authority beside its own.
 fn street(others: &Others) -> Street<Done> {
     let identifiers = Identifiers::default();
@@ -123,12 +117,13 @@ fn street(others: &Others) -> Street<Done> {
         let body = (build, Place::new(-f64::from(station), -2.0), 5.0);
         support::machine(station, body, plan, road, security)
     };
-    let zone = Zone {
-        waiting: Some(strip(-2.5, 9.5)),
-        ..Zone::of_road(strip(0.0, 7.0))
-    };
     let plan = Some(Plan::crossing(Site::default()));
-    let leader = machine(1, Build::Humanoid, plan, Road::Watched(zone));
+    let leader = machine(
+        1,
+        Build::Humanoid,
+        plan,
+        Road::Watched(zone::of_the_crossing()),
+    );
     let helper = machine(2, Build::Quadruped, None, Road::Unknown);
     Street::new(vec![Some(leader), Some(helper)], Done::note)
 }

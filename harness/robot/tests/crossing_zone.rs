@@ -2,8 +2,9 @@
 //! anybody's word, a call that nobody needs any more ends, and nobody is called for a passer-by.
 
 mod support;
+#[path = "support/zone.rs"]
+mod zone;
 
-use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_endpoint::station::Security;
 use crossguard_endpoint::{Act, Effect};
@@ -14,17 +15,11 @@ use crossguard_robot::perception::SensorFrame;
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::street::Road;
-use crossguard_robot::zone::Zone;
 
 use self::support::{Street, TICK_MS};
 
 /// How many times as fast as real the bodies move.
 const SPEED: f64 = 5.0;
-
-fn strip(south: f64, north: f64) -> Area {
-    let corners = [[-3.0, south], [5.0, south], [5.0, north], [-3.0, north]];
-    Area::Polygon(corners.to_vec())
-}
 
 fn machine(station: u32, build: Build, plan: Option<Plan>, road: Road) -> Machine {
     let place = Place::new(-f64::from(station), -2.0);
@@ -77,12 +72,13 @@ impl std::ops::Deref for Crossing {
 
 impl Crossing {
     fn new(with_helper: bool) -> Self {
-        let zone = Zone {
-            waiting: Some(strip(-2.5, 9.5)),
-            ..Zone::of_road(strip(0.0, 7.0))
-        };
         let plan = Some(Plan::crossing(Site::default()));
-        let leader = machine(1, Build::Humanoid, plan, Road::Watched(zone));
+        let leader = machine(
+            1,
+            Build::Humanoid,
+            plan,
+            Road::Watched(zone::of_the_crossing()),
+        );
         let helper = machine(2, Build::Quadruped, None, Road::Unknown);
         let robots = vec![Some(leader), with_helper.then_some(helper)];
         Self(Street::new(robots, Done::note))

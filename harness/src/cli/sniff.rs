@@ -260,7 +260,7 @@ impl Printer<'_> {
 }
 
 impl Arguments {
-    /// Whether a packet is one of those that are asked for.
+    /// The options let this packet through.
     fn wants(&self, seen: &Seen) -> bool {
         let kinds = &self.kinds;
         let is_kind = kinds.is_empty() || kinds.iter().any(|it| it.eq_ignore_ascii_case(seen.kind));
