@@ -208,13 +208,18 @@ impl Track {
     fn intend(&mut self, setup: &Setup, sighting: &Sighting) {
         let rules = &setup.waiting;
         let velocity = sighting.velocity.unwrap_or_default();
-        let stands = velocity.length_cm() <= u32::from(rules.speed_max_cmps)
-            && self.stood.distance_cm(self.at) <= sway_cm(setup);
-        if !stands {
-            self.stood = self.at;
-        }
+        let is_slow = velocity.length_cm() <= u32::from(rules.speed_max_cmps);
         let is_on_foot = matches!(self.what, RoadUser::Pedestrian | RoadUser::WheelchairUser);
         let comes = is_on_foot && !self.is_on_road() && leads_to_road(setup, self.at, velocity);
+        if !is_slow || self.stood.distance_cm(self.at) > sway_cm(setup) {
+            // If they stand, they stand here from now on.
+            self.stood = self.at;
+            if !comes {
+                self.dwell = None;
+            }
+            // A person who crosses does not wait any more.
+            self.waits &= !self.is_on_road();
+        }
         let may_wait = setup.ground.waiting.is_some()
             && setup.ground.is_zone(self.at)
             && self.across == Millis::ZERO
@@ -222,13 +227,9 @@ impl Track {
         let least = rules.confidence_min / if self.waits { 2 } else { 1 };
         if !may_wait || sighting.confidence < least {
             (self.dwell, self.waits) = (None, false);
-        } else if stands || comes {
+        } else if is_slow || comes {
             let left = *self.dwell.get_or_insert(rules.dwell);
             self.waits |= left == Millis::ZERO;
-        } else {
-            self.dwell = None;
-            // A person who crosses does not wait any more.
-            self.waits &= !self.is_on_road();
         }
     }
 }
