@@ -7,7 +7,7 @@
 mod links;
 mod scenario;
 
-pub use links::free_ports;
+pub use links::Links;
 pub use scenario::{NoScenario, Participant, Scenario};
 
 use std::collections::BTreeMap;
@@ -38,7 +38,7 @@ use crossguard_robot::runtime::{Clock, Order, Running, Setup};
 use crossguard_robot::sign::Sign;
 use crossguard_robot::street::{Road, Street};
 use crossguard_robot::trace::{self, Entry, Record};
-use crossguard_robot::transport::{Faults, LinkError};
+use crossguard_robot::transport::Faults;
 use scenario::Ending;
 
 /// How many records the log may lag behind.
@@ -62,8 +62,8 @@ pub struct Options {
     pub faults: Faults,
     /// Seed of faults and gait.
     pub seed: u64,
-    /// Port of the first robot; the others have the next ones.
-    pub port: u16,
+    /// Port of the first robot; the others have the next ones. `None`: the first that are free.
+    pub port: Option<u16>,
     /// How much security there is.
     pub security_mode: Mode,
     /// The security of each participant, in their order; off for those beyond the list.
@@ -179,14 +179,8 @@ pub enum Seen<'a> {
 }
 
 /// Runs a demonstration. `watch` sees everything as it happens.
-///
-/// # Errors
-/// When a socket cannot be opened.
-pub fn run(
-    options: &Options,
-    watch: &mut dyn FnMut(Seen<'_>),
-) -> Result<(Outcome, Vec<u8>), LinkError> {
-    let mut demo = start(options, watch)?;
+pub fn run(options: &Options, links: Links, watch: &mut dyn FnMut(Seen<'_>)) -> (Outcome, Vec<u8>) {
+    let mut demo = start(options, links, watch);
     let (mut crossings, mut retries) = (0, 0);
     let is_stopped = || options.stop.load(Ordering::Relaxed);
     for _ in 0..options.trials {
@@ -202,22 +196,20 @@ pub fn run(
             }
         }
     }
-    Ok(demo.finish(options, crossings, retries))
+    demo.finish(options, crossings, retries)
 }
 
-fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<Demo<'a>, LinkError> {
+fn start<'a>(options: &Options, links: Links, watch: &'a mut dyn FnMut(Seen<'_>)) -> Demo<'a> {
     let mut journal = Journal::new();
     let records = journal.reader(LOG, WhenFull::End, Cause::LogFull);
     let clock = Clock::start();
     let participants = options.scenario.participants(options.followers);
-    // All sockets are open before any robot says anything.
-    let links = links::open(options, participants.len())?;
     let securities: Vec<_> = options.security.clone();
     let stations = stations(&participants, &securities);
     let mut securities = securities.into_iter();
     let (mut robots, mut signs) = (Vec::new(), Vec::new());
     let street = Street::default();
-    for ((participant, link), nth) in participants.into_iter().zip(links).zip(1..) {
+    for ((participant, link), nth) in participants.into_iter().zip(links.halves).zip(1..) {
         let (site, seed) = (options.scenario.site(), options.seed.wrapping_add(nth));
         let (build, place) = (participant.build, participant.place);
         let body = Simulated::new(build, site, place, options.time_scale, seed);
@@ -250,7 +242,7 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
         .start();
         robots.push((participant, running));
     }
-    Ok(Demo {
+    Demo {
         scenario: options.scenario.clone(),
         robots,
         records,
@@ -265,7 +257,7 @@ fn start<'a>(options: &Options, watch: &'a mut dyn FnMut(Seen<'_>)) -> Result<De
         has_struck: false,
         perceived: options.perceived.clone(),
         watch,
-    })
+    }
 }
 
 /// How long a crossing may take. The paper's takes about 26 s; commands may have to be given again.

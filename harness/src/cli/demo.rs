@@ -1,6 +1,7 @@
 //! `crossguard demo`.
 
 use std::io::Write;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -23,7 +24,7 @@ use super::report::write_page;
 #[cfg(not(feature = "full"))]
 use super::small::write_page;
 use super::{Failure, destinations, print, print_json};
-use crate::demo::{self, Options, Outcome, Scenario, Seen};
+use crate::demo::{self, Links, Options, Outcome, Scenario, Seen};
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
@@ -188,9 +189,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             ..arguments.faults.clone()
         },
         seed: arguments.seed,
-        port: arguments
-            .port
-            .unwrap_or_else(|| demo::free_ports(names.len())),
+        port: arguments.port,
         security_mode: arguments.security.mode(),
         security: arguments.security.of_robots(&names)?,
         capture: super::create_capture(arguments.pcap.as_deref())?,
@@ -207,8 +206,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let chart = Chart::new(&columns, Identifiers::default()).within(self::columns());
     let shows_chart = is_told && names.len() <= CHARTED && chart.is_some();
     let mut chart = chart.unwrap_or_default();
+    let links = Links::open(&options, names.len()).map_err(Failure::input)?;
     if is_told {
-        introduce(&options, names.len(), arguments.security.is_throw_away())?;
+        let first = usize::from(links.first_port);
+        let ports = first..=first + names.len() - 1;
+        introduce(&options, ports, arguments.security.is_throw_away())?;
     }
     if shows_chart {
         print(chart.header())?;
@@ -217,7 +219,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     // If nobody reads the chart any more, the crossing goes on, and the log is complete.
     let mut reads = true;
-    let (outcome, log) = demo::run(&options, &mut |seen| {
+    let (outcome, log) = demo::run(&options, links, &mut |seen| {
         if let (Some(file), Seen::Record(record)) = (&mut log_file, seen) {
             file.write(record);
         }
@@ -225,8 +227,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             let lines = lines(&mut chart, names[0], seen);
             reads = lines.iter().all(|line| print(line).is_ok());
         }
-    })
-    .map_err(Failure::input)?;
+    });
     if shows_chart && reads {
         // Where nobody reads any more, the log is complete.
         let _ = chart.rest().iter().try_for_each(print);
@@ -291,7 +292,11 @@ impl DemoLog {
     }
 }
 
-fn introduce(options: &Options, robots: usize, is_throw_away: bool) -> Result<(), Failure> {
+fn introduce(
+    options: &Options,
+    ports: RangeInclusive<usize>,
+    is_throw_away: bool,
+) -> Result<(), Failure> {
     let security = match options.security_mode {
         Mode::Off => "are not signed",
         Mode::Sign => "are signed, and need not be",
@@ -315,8 +320,8 @@ fn introduce(options: &Options, robots: usize, is_throw_away: bool) -> Result<()
             format!(", {all_s:.0} s for all {trials}")
         }
     };
-    let (port, last_port) = (options.port, usize::from(options.port) + robots - 1);
-    let over = format!("UDP on 127.0.0.1, ports {port} to {last_port}");
+    let (first, last) = (ports.start(), ports.end());
+    let over = format!("UDP on 127.0.0.1, ports {first} to {last}");
     print(format_args!(
         "{} {}\nThe robots coordinate over {over}, and move {} times as fast as \
          real: about\n{seconds:.0} s per crossing{together}. Packets {security}{pki}.\n",

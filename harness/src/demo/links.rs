@@ -1,6 +1,6 @@
 //! Where the robots of a demonstration meet: all of it on the loopback interface.
 
-use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
+use std::net::{Ipv4Addr, SocketAddr};
 
 use crossguard_robot::transport::{Framing, Halves, Link, LinkError, Transport, WithFaults};
 
@@ -9,19 +9,45 @@ use super::Options;
 /// Ports that a demonstration may begin at: the usual one is the first.
 const PORTS: std::ops::RangeInclusive<u16> = 47_401..=65_500;
 
-/// The first of so many free ports in a row, from the usual one on; that one where there are none.
-#[must_use]
-pub fn free_ports(robots: usize) -> u16 {
-    let is_free = |port| UdpSocket::bind((Ipv4Addr::LOCALHOST, port)).is_ok();
-    let mut starts = PORTS.step_by(robots.max(1));
-    let found = starts.find(|first| (*first..).take(robots).all(is_free));
-    found.unwrap_or(*PORTS.start())
+/// The links of a demonstration, one for each robot: open, before any robot says anything.
+pub struct Links {
+    /// Port of the first robot; the others have the next ones.
+    pub first_port: u16,
+    pub(super) halves: Vec<Halves>,
 }
 
-/// Opens a link for each robot.
-pub(super) fn open(options: &Options, robots: usize) -> Result<Vec<Halves>, LinkError> {
+impl Links {
+    /// Opens a link for each robot, from the first port of the options, or from the first that is free with those after it.
+    ///
+    /// # Errors
+    ///
+    /// When a port is in use, or none is free.
+    pub fn open(options: &Options, robots: usize) -> Result<Self, LinkError> {
+        from_a_free_port(options.port, robots, |first_port| {
+            let halves = open(options, first_port, robots)?;
+            Ok(Self { first_port, halves })
+        })
+    }
+}
+
+/// What opens so many ports in a row: from the port given, or from the first at which all are free.
+fn from_a_free_port<T>(
+    port: Option<u16>,
+    robots: usize,
+    open: impl Fn(u16) -> Result<T, LinkError>,
+) -> Result<T, LinkError> {
+    if let Some(port) = port {
+        return open(port);
+    }
+    let is_taken = |it: &Result<T, _>| matches!(it, Err(LinkError::InUse { .. }));
+    let tries = PORTS.step_by(robots.max(1)).map(&open);
+    let free = tries.skip_while(is_taken).next();
+    free.unwrap_or_else(|| open(*PORTS.start()))
+}
+
+fn open(options: &Options, first: u16, robots: usize) -> Result<Vec<Halves>, LinkError> {
     let address = |port| SocketAddr::from((Ipv4Addr::LOCALHOST, port));
-    let addresses: Vec<_> = (options.port..).take(robots).map(address).collect();
+    let addresses: Vec<_> = (first..).take(robots).map(address).collect();
     let open = |(&address, seed): (&SocketAddr, u64)| -> Result<Halves, LinkError> {
         let peers = addresses.iter().filter(|&&peer| peer != address);
         let link = Link::Peers {
@@ -45,9 +71,20 @@ mod tests {
 
     #[test]
     fn point_9_a_demonstration_takes_other_ports_than_those_that_are_taken() {
-        let first = free_ports(2);
-        let _taken = UdpSocket::bind((Ipv4Addr::LOCALHOST, first + 1)).unwrap();
-        let next = free_ports(2);
+        let open = |first| {
+            let link = |port| Link::Peers {
+                address: SocketAddr::from((Ipv4Addr::LOCALHOST, port)),
+                peers: Vec::new(),
+                framing: Framing::default(),
+            };
+            let both = [link(first).open()?, link(first + 1).open()?];
+            Ok((first, both))
+        };
+        let (first, [one, _held]) = from_a_free_port(None, 2, open).unwrap();
+        drop(one);
+        let (next, _) = from_a_free_port(None, 2, open).unwrap();
         assert!(next > first && (next - first).is_multiple_of(2), "{next}");
+        assert!(from_a_free_port(Some(next), 2, open).is_ok());
+        assert!(from_a_free_port(Some(first), 2, open).is_err());
     }
 }
