@@ -79,10 +79,25 @@ impl World<'_> {
         if self.walkers.iter().any(|it| it.session_is(session)) {
             self.met.insert(P1.0);
         }
-        if self.on_road(session).next().is_some() {
+        // Nobody knows of a person who has stepped on the road since the sensors' last chance to show them.
+        let seen_us = self.now_us.saturating_sub(self.shows_within_us(place));
+        let mut people = self.walkers.iter().filter(|it| it.session_is(session));
+        if people.any(|it| it.is_on_road(self.now_us) && it.is_on_road(seen_us)) {
             return Err(self.breaks(P1, place));
         }
         Ok(())
+    }
+
+    /// Within which time a robot's sensors show everybody on the road, in microseconds: as many frames as may miss somebody,
+    /// and the lag of one. Without sensors it knows everybody.
+    fn shows_within_us(&self, place: usize) -> u64 {
+        let sensing = self.swarm.sensing.as_ref();
+        let times_ms = sensing.into_iter().flat_map(|it| {
+            let frames = u32::from(it.miss_max).max(1);
+            let sources = it.sources[place].iter();
+            sources.map(move |source| frames * source.period_ms + source.latency_ms)
+        });
+        u64::from(times_ms.max().unwrap_or(0)) * 1_000
     }
 
     /// P3, when the sign of a leader begins to show go.
