@@ -285,7 +285,10 @@ fn help_request(source: &mut impl Source) -> HelpRequest {
 }
 
 fn place(source: &mut impl Source) -> Place {
-    Place(source.number(u32::MAX, PLACE))
+    // Now and then one that nobody knows.
+    let is_known = source.likely(Some(true));
+    let hint = if is_known { PLACE } else { Place::UNKNOWN.0 };
+    Place(source.number(u32::MAX, hint))
 }
 
 /// Any availability.

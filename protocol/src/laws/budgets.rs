@@ -4,7 +4,7 @@
 
 use crate::config::Config;
 use crate::id::SessionNumber;
-use crate::state::{Contact, Lease, Member, Outstanding, Robot};
+use crate::state::{Contact, Identity, Lease, Member, Outstanding, Robot};
 use crate::time::Millis;
 
 use super::arithmetic::left_ms;
@@ -17,6 +17,8 @@ pub fn all(config: &Config, step: &Taken) {
     a_command_gets_no_more_time(config, step);
     a_lost_leader_gets_no_more_time(config, step);
     a_silent_follower_gets_no_more_time(config, step);
+    an_execution_gets_no_more_time(config, step);
+    an_identity_lock_gets_no_more_time(config, step);
 }
 
 /// L1: the time until a request has a team or is given up, and the request.
@@ -103,6 +105,33 @@ pub fn a_silent_follower_gets_no_more_time(config: &Config, step: &Taken) {
             (Lease::Expired(now), _) => assert!(left_ms(now) <= u64::from(config.t_lost().0)),
         }
     });
+}
+
+/// L2: no report gives a command that is executed more time. It begins with the `T_exec` of its task.
+pub fn an_execution_gets_no_more_time(config: &Config, step: &Taken) {
+    each_follower(&step.after, &step.before, |member, known| {
+        let Some(now) = member.order else {
+            return;
+        };
+        match by_the_same_offer(member, known).and_then(|known| known.order) {
+            Some(before) if before.request == now.request => {
+                assert!(left_ms(now.execution) <= left_ms(before.execution));
+            }
+            _ => assert!(left_ms(now.execution) <= u64::from(config.t_exec(now.task).0)),
+        }
+    });
+}
+
+/// I18: nothing prolongs the lock of an identity, neither commands nor the renewal of a session.
+pub fn an_identity_lock_gets_no_more_time(config: &Config, step: &Taken) {
+    let Identity::Locked(now) = step.after.identity() else {
+        return;
+    };
+    match step.before.identity() {
+        Identity::Locked(before) => assert!(left_ms(now) <= left_ms(before)),
+        Identity::Unlocked => assert!(left_ms(now) <= u64::from(config.t_lock_session().0)),
+        Identity::Expiring => panic!("a lock that was over holds again"),
+    }
 }
 
 /// L1, L2, L4, L5: time that passes is used up: each budget falls by it, or to nothing.

@@ -1,8 +1,8 @@
 //! Laws of farewells: who leaves says so, and is let go.
 
-use crate::id::OfferNumber;
+use crate::id::{OfferNumber, SessionId};
 use crate::input::{Event, Input, Timer};
-use crate::message::{Coordination, Farewell};
+use crate::message::{Coordination, Ending, Farewell};
 use crate::state::{Identity, Role};
 
 use super::part::{leading, own_number, requesting};
@@ -13,6 +13,19 @@ pub fn all(step: &Taken) {
     who_leaves_says_so(step);
     who_left_is_let_go(step);
     a_farewell_is_not_prolonged(step);
+    only_the_application_completes(step);
+}
+
+/// W2: a session is named as completed, which frees its guards, only by the application of its leader, and while it lasts.
+/// One of which the robot knows nothing any more was aborted.
+pub fn only_the_application_completes(step: &Taken) {
+    let (before, after) = (step.before.farewell(), step.after.farewell());
+    if let Some(Farewell::Ended(number, Ending::Completed)) = after
+        && before != after
+    {
+        assert!(step.input == Input::Local(Event::TaskCompleted));
+        assert!(step.before.session() == Some(SessionId::of(step.before.station(), number)));
+    }
 }
 
 /// L4: a helper or follower that leaves by its own decision names what it leaves.

@@ -189,6 +189,7 @@ pub fn ends_follow_the_policy(config: &Config, step: &Taken) {
     if let Some((maneuver, policy)) = step.said.fallen_back {
         assert!(policy == config.settings().fallback[usize::from(maneuver.task.value())]);
         assert!(step.after.duty() == Some(Duty::FallingBack(maneuver)));
+        assert!(!is_body_lost(step));
     }
     if let Some(maneuver) = executing(&step.before)
         && ending_told(step, maneuver.id.session) == Some(Ending::Completed)
@@ -208,15 +209,21 @@ pub fn ends_follow_the_policy(config: &Config, step: &Taken) {
         }
         StopReason::Unavailable(why) => {
             let told = Availability::Unavailable(why);
-            step.input == Input::Local(Event::AvailabilityChanged(told))
-                && matches!(
-                    why,
-                    Unavailability::Teleoperated
-                        | Unavailability::EmergencyStop
-                        | Unavailability::LocalFault
-                )
+            step.input == Input::Local(Event::AvailabilityChanged(told)) && is_body_lost(step)
         }
     });
+}
+
+/// Whether the application says that the body is not the robot's own to command any more.
+fn is_body_lost(step: &Taken) -> bool {
+    matches!(
+        step.input,
+        Input::Local(Event::AvailabilityChanged(Availability::Unavailable(
+            Unavailability::Teleoperated
+                | Unavailability::EmergencyStop
+                | Unavailability::LocalFault
+        )))
+    )
 }
 
 /// W2: a follower sees people on the road from when its own application says so until that says that the road is clear.

@@ -9,7 +9,7 @@ use crate::id::{OfferNumber, RequestId, SessionId, StationId, UniqueNumber};
 use crate::input::{Event, Input};
 use crate::message::{Coordination, Failure, Farewell, Progress, Ram, Rmcm, Verdict};
 use crate::output::{GoneReason, Maneuver, OutputKind};
-use crate::state::{Identity, Member, Phase, Robot, Role, State};
+use crate::state::{Identity, Leading, Member, Phase, Robot, Role, State};
 use crate::time::Millis;
 
 use super::arithmetic::{beat_is_newer, request_is_newer};
@@ -239,7 +239,7 @@ pub fn reports_count_only_when_heard(step: &Taken) {
 }
 
 /// W1: a follower that was out of position counts as in it again by a newer heartbeat than all before alone, and one that was
-/// in position counts as out of it by one that is as new.
+/// in position counts as out of it by one that is as new. L2: that a maneuver has ended is believed of any.
 pub fn a_place_counts_by_the_newest_echo(step: &Taken) {
     let Input::Ram { ram, .. } = step.input else {
         return;
@@ -262,6 +262,12 @@ pub fn a_place_counts_by_the_newest_echo(step: &Taken) {
             (Some(Progress::InPosition), Some(Progress::Executing)) => {
                 let counts = order.progress == told;
                 assert!(counts == (member.echoed == Some(echo)));
+            }
+            // An end counts whichever heartbeat it echoes, if that was sent at all.
+            (Some(Progress::Executing | Progress::InPosition), Some(end)) if !runs(end) => {
+                let is_sent = |leads: &Leading| !beat_is_newer(echo, leads.heartbeat);
+                let counts = order.progress == told;
+                assert!(counts == leading(&step.before).is_some_and(is_sent));
             }
             _ => {}
         }

@@ -339,6 +339,26 @@ fn an_escort_stays_with_its_person() {
     assert_eq!(team.alone, 0);
 }
 
+/// The body of an escort has reached the other side, and somebody stands on the road close behind it.
+#[test]
+fn an_escort_is_not_done_under_the_eyes_of_people() {
+    let completed = |team: &Team| team.told(1, |it| matches!(it, Event::ManeuverCompleted(_)));
+    let mut team = team(plan(&[leg(TaskType::MOVE, Point::new(100, 800))]), true);
+    team.people = vec![person(1, 100, -100)];
+    team.robots[1].body.at = Point::new(0, -100);
+    team.pass_until("go", Team::shows_go);
+    team.people[0] = walking(team.people[0], 0, 100);
+    team.pass_until("the last metre", |it| it.people[0].at.north_cm() > 620);
+    team.people[0] = walking(team.people[0], 0, 0);
+    team.pass(10_000);
+    assert!(team.robots[1].body.at.distance_cm(Point::new(100, 800)) < 10);
+    assert_eq!(completed(&team), 0);
+    team.people[0] = walking(team.people[0], 0, 60);
+    team.pass_until("idle", Team::is_idle);
+    assert!(completed(&team) > 0);
+    assert_eq!(team.alone, 0);
+}
+
 /// Go is over by then: an escort that waited for the next one would stand on the road until its leader gives up.
 #[test]
 fn an_escort_does_not_wait_on_the_road_for_people_who_come_late() {
@@ -478,6 +498,20 @@ fn a_guard_that_knows_nothing_of_the_road_waits_for_a_person() {
         assert_eq!(team.robots[1].robot.duty(), None);
         assert!(!team.robots[1].crossing.waits_for_clear());
     }
+}
+
+/// A person says that the road is clear, and the guard sees somebody step on it before its body is free.
+#[test]
+fn a_word_that_somebody_is_seen_after_frees_no_guard() {
+    let mut team = left_alone(TaskType::BLOCK, true);
+    team.pass_until("a duty", |it| it.robots[1].robot.duty().is_some());
+    team.hear(1, Input::BodyIsFree(false));
+    team.hear(1, Input::SaidClear);
+    team.people = vec![person(1, 100, 300)];
+    team.pass(1_000);
+    team.hear(1, Input::BodyIsFree(true));
+    team.pass(30_000);
+    assert!(team.robots[1].robot.duty().is_some());
 }
 
 #[test]

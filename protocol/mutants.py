@@ -1,0 +1,193 @@
+#!/usr/bin/env python3
+"""Mutants of the protocol made by hand, each a mistake that somebody might make, and the judges that must notice it.
+
+usage: protocol/mutants.py [PART OF A NAME OR FILE]...
+
+Each mutant replaces one piece of text of one file, in a copy of the committed tree. The judges are the laws of one
+step with random values. It ends with 1 where a mutant is not noticed, does not compile, or its text is gone.
+"""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+# Name, file below protocol, text that stands there once, text in its place.
+MUTANTS = [
+    ("the corridor asks the first two guards alone", "src/corridor.rs",
+     "self.members.iter().find_map(|member| {", "self.members.iter().take(2).find_map(|member| {"),
+    ("go lasts as long as the shortest of the first two leases", "src/corridor.rs",
+     "self.members.iter().filter_map(left).min()", "self.members.iter().take(2).filter_map(left).min()"),
+    ("time to cross is asked of the first two guards alone", "src/corridor.rs",
+     "            .iter()\n            .all(|member| left(member)",
+     "            .iter()\n            .take(2)\n            .all(|member| left(member)"),
+    ("a majority of the guards is enough", "src/corridor.rs",
+     "if self.members.len() < usize::from(self.request.followers) {",
+     "if self.members.len() * 2 <= usize::from(self.request.followers) {"),
+    ("any echo renews the third guard and those after it", "src/roles.rs",
+     "let heard = leading.update_member(from, |member| {",
+     "let third = leading.members.iter().skip(2).any(|it| it.station == from);\n"
+     "                let age = if third { Millis::ZERO } else { age };\n"
+     "                let heard = leading.update_member(from, |member| {"),
+    ("the third guard is commanded off an occupied road", "src/maneuver.rs",
+     "let guards = member.is_some_and(|member| member.guards(step.config));",
+     "let third = leading.members.iter().skip(2).any(|it| it.station == follower);\n"
+     "        let guards = !third && member.is_some_and(|member| member.guards(step.config));"),
+    ("the best of three offers is dropped", "src/help.rs",
+     "        let number = requesting.number;\n        let leading",
+     "        if requesting.offers.len() >= 3 {\n"
+     "            let best = requesting.offers.iter().next().map(|it| it.station);\n"
+     "            requesting.forget_offer(|it| Some(it.station) == best);\n        }\n"
+     "        let number = requesting.number;\n        let leading"),
+    ("a lease counts from the arrival of the echo", "src/roles.rs",
+     "settings().t_lease.saturating_sub(age)", "settings().t_lease.saturating_sub(Millis(age.0.min(0)))"),
+    ("an echo renews the identity lock", "src/identity.rs",
+     "(Identity::Unlocked, false) | (Identity::Locked(_)",
+     "(Identity::Locked(_), true) if step.renewed => {\n"
+     "                self.identity = Identity::Locked(Countdown::armed(step.config.t_lock_session()));\n            }\n"
+     "            (Identity::Unlocked, false) | (Identity::Locked(_)"),
+    ("each report gives the maneuver all its time again", "src/maneuver.rs",
+     "        if !report.progress.is_running() {\n            order.execution = Countdown::OFF;\n        }",
+     "        order.execution = if report.progress.is_running() {\n"
+     "            Countdown::armed(step.config.t_exec(order.task))\n"
+     "        } else {\n            Countdown::OFF\n        };"),
+    ("an offer promises a longer safety timer than the helper has", "src/help.rs",
+     "t_safety: step.config.settings().t_safety,\n            reservation",
+     "t_safety: Millis(step.config.settings().t_safety.0.saturating_mul(2)),\n            reservation"),
+    ("an unknown place is no place", "src/task.rs",
+     "self.0 == other.0 || self.0 == Self::UNKNOWN.0 || other.0 == Self::UNKNOWN.0", "self.0 == other.0"),
+    ("a session of which nothing is known ended completed", "src/termination.rs",
+     "None => self.say_farewell(step, Farewell::Ended(session.number, Ending::Aborted)),",
+     "None => self.say_farewell(step, Farewell::Ended(session.number, Ending::Completed)),"),
+    ("bad news counts with a newer echo alone", "src/message.rs",
+     "(Self::InPosition, Self::Executing) => !matches!(echo, Ordering::Less),",
+     "(Self::InPosition, Self::Executing) => matches!(echo, Ordering::Greater),"),
+    ("a failure is news with a newer echo alone", "src/message.rs",
+     "(Self::Executing | Self::InPosition, _) => !self.is_running(),",
+     "(Self::Executing | Self::InPosition, _) => !self.is_running() && matches!(echo, Ordering::Greater),"),
+    ("a rival at another place counts", "src/roles.rs",
+     "                claim.goes_before(other, Claim::of(own.request), station)?;\n",
+     "                let here = Claim { place: own.request.place, ..claim };\n"
+     "                here.goes_before(other, Claim::of(own.request), station)?;\n"),
+    ("a maneuver starts before its acknowledgement", "src/maneuver.rs",
+     "        step.out.push(answer(Verdict::Accepted));\n        if let Some(maneuver) = superseded {",
+     "        if let Some(maneuver) = superseded {"),
+    ("an aborted session frees its guards", "src/termination.rs",
+     "if why == ReleaseReason::TaskCompleted && !following.sees_people {",
+     "if matches!(why, ReleaseReason::TaskCompleted | ReleaseReason::SessionEnded) && !following.sees_people {"),
+    ("who sees people is freed by a completed session", "src/termination.rs",
+     "if why == ReleaseReason::TaskCompleted && !following.sees_people {",
+     "if why == ReleaseReason::TaskCompleted {"),
+    ("an old heartbeat renews contact", "src/roles.rs",
+     "if !heartbeat.is_newer_than(self.heard) {\n            return Err(Ignored::OldHeartbeat);\n        }\n        self.heard = heartbeat;\n        self.renew_contact",
+     "if !heartbeat.is_newer_than(self.heard) {\n            self.renew_contact(step);\n            return Ok(());\n        }\n        self.heard = heartbeat;\n        self.renew_contact"),
+    ("a rejected command is forgotten", "src/maneuver.rs",
+     "            self.refused = Some(Refusal {\n                request: command.request,\n                reason,\n            });\n", ""),
+    ("an end under people is no duty", "src/termination.rs",
+     "if leading.corridor != Corridor::Clear && ending == Ending::Aborted {",
+     "if leading.corridor == Corridor::Open && ending == Ending::Aborted {"),
+    ("a leader that yields leaves its corridor open", "src/termination.rs",
+     "        leading.shut(step, CorridorClosure::Yielded(other));\n", ""),
+    ("the word of one follower is taken for another's", "src/maneuver.rs",
+     "let heard = leading.update_member(answer.from, |member| member.hear_answer(step, answer));",
+     "let first = leading.members.iter().next().map_or(answer.from, |it| it.station);\n"
+     "        let heard = leading.update_member(first, |member| member.hear_answer(step, answer));"),
+    ("an emergency stop is answered by the task's policy", "src/idle.rs",
+     "Some(maneuver) if reason.can_fall_back() =>", "Some(maneuver) if reason.can_fall_back() || true =>"),
+    ("one frame less clears the road", "crossing/src/occupancy.rs",
+     "**empty > sensors.miss_max", "**empty >= sensors.miss_max"),
+    ("silence clears nothing and ends nothing", "crossing/src/occupancy.rs",
+     "        if !self.is_fresh(sensors) {\n            self.start_anew();\n        }\n    }\n\n    /// Whether a frame",
+     "    }\n\n    /// Whether a frame"),
+    ("a stale frame counts", "crossing/src/occupancy.rs",
+     "if age > sensors.age_max {", "if age > sensors.age_max.saturating_add(sensors.age_max) {"),
+    ("a frame that was overtaken leaves the count", "crossing/src/occupancy.rs",
+     "            if age > newest {\n                self.start_anew();\n            }\n", ""),
+    ("one covered part is enough", "crossing/src/occupancy.rs",
+     "setup.ground.parts != Coverage::NONE && covered.has(setup.ground.parts)",
+     "setup.ground.parts != Coverage::NONE && covered != Coverage::NONE"),
+    ("what was covered when somebody was seen is forgotten", "crossing/src/occupancy.rs",
+     "self.owed = self.owed.union(covered);", "self.owed = Coverage::NONE;"),
+    ("frames count under go", "crossing/src/crossing.rs",
+     "            self.occupancy.start_anew();\n            self.quiet = Millis::ZERO;\n", ""),
+    ("a stale frame with somebody on the road is nothing", "crossing/src/crossing.rs",
+     "                self.occupancy.occupy(setup);\n            }\n            return out.put(Output::Dropped(why));",
+     "            }\n            return out.put(Output::Dropped(why));"),
+    ("a guard is done under the eyes of people", "crossing/src/crossing.rs",
+     "if task.is_completed && !(is_guarding && sees_somebody) {", "if task.is_completed {"),
+    ("who is on the road is not told", "crossing/src/crossing.rs",
+     "if self.occupancy.owes() && !self.is_person_told {", "if self.occupancy.owes() && self.is_person_told {"),
+    ("the word of a person outlives the person who is seen after it", "crossing/src/crossing.rs",
+     "                obligation.is_said_clear = false;\n            }\n        } else if frame.age",
+     "            }\n        } else if frame.age"),
+    ("go is longer than the guards are at their places", "crossing/src/crossing.rs",
+     "self.sign = left.min(there);", "self.sign = left.max(there);"),
+    ("go stays where something hinders", "crossing/src/crossing.rs",
+     "            self.show_stop(out);\n            out.put(Output::Hindered(why));\n            out.tell(Event::CloseCorridor);\n        }\n    }\n\n    fn show_go",
+     "            out.put(Output::Hindered(why));\n        }\n    }\n\n    fn show_go"),
+    ("a fallback ends before the sign of its leader has", "crossing/src/crossing.rs",
+     "About::Duty(_) => setup.t_safety,", "About::Duty(_) => Millis::ZERO,"),
+    ("a position holds for ever", "crossing/src/position.rs",
+     "        self.left = self.left.saturating_sub(time);\n", ""),
+    ("the error of a position counts in its favour", "crossing/src/position.rs",
+     "off.cm.saturating_add(error) <= tolerance", "off.cm.saturating_sub(error) <= tolerance"),
+    ("a vehicle stands where it was reported", "crossing/src/traffic.rs",
+     "saturating_mul(u64::from(age.0)) / 1_000 + u64", "saturating_mul(u64::from(age.0)) / 1_000_000 + u64"),
+    ("a vehicle brakes at once", "crossing/src/traffic.rs",
+     "left > reacting.saturating_add(braking)", "left > braking"),
+    ("one vehicle too many is none", "crossing/src/traffic.rs",
+     "key.or(self.further.map(|(key, _)| key))", "key"),
+    ("an id is somebody wherever it is", "crossing/src/tracks.rs",
+     "                && track.at.distance_cm(sighting.at) <= track.reach_cm(setup, sighting, age)\n", ""),
+    ("whom nobody sees has left the road", "crossing/src/tracks.rs",
+     "track.is_on_road() || track.is_lost_waiting()", "track.is_lost_waiting()"),
+    ("who is one too many does not wait", "crossing/src/tracks.rs",
+     "                    self.crowd = FRESH;\n", ""),
+]
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+ENVIRONMENT = os.environ | {"RUST_BACKTRACE": "1", "PROPTEST_RNG_SEED": "1"}
+JUDGES = {
+    "src": "-p crossguard-proofs --test harnesses --test teams -- of_the_protocol followers",
+    "crossing": "-p crossguard-crossing",
+}
+
+
+def judged(tree, file, path, text):
+    path.write_text(text)
+    judge = ["cargo", "test", "--quiet", "--locked", *JUDGES[file.split("/")[0]].split()]
+    done = subprocess.run(judge, cwd=tree, capture_output=True, text=True, env=ENVIRONMENT)
+    said = done.stdout + done.stderr
+    if "could not compile" in said:
+        return "DOES NOT COMPILE: " + next(it for it in said.splitlines() if it.startswith("error"))
+    if not done.returncode:
+        return "NOT NOTICED"
+    tests = re.findall(r"^test (\S+) \.\.\. FAILED", said, re.M) + re.findall(r"^(\S+) --- FAILED", said, re.M)
+    laws = re.findall(r"^ +\d+: (?:\w+::)*(\w+)\n +at \S*protocol/src/laws/", said, re.M)
+    return "noticed by " + ", ".join(laws[:1] + tests[:2])
+
+
+def main():
+    chosen = [it for it in MUTANTS if all(part in f"{it[0]} {it[1]}" for part in sys.argv[1:])]
+    missed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        tree = pathlib.Path(folder) / "tree"
+        subprocess.run(["git", "clone", "--quiet", str(ROOT), str(tree)], check=True)
+        for name, file, before, after in chosen:
+            path = tree / "protocol" / file
+            text = path.read_text()
+            if text.count(before) != 1:
+                said = f"ITS TEXT STANDS {text.count(before)} TIMES IN {file}"
+            else:
+                said = judged(tree, file, path, text.replace(before, after))
+                path.write_text(text)
+            missed += said[0].isupper()
+            print(f"{name}: {said}", flush=True)
+    print(f"{len(chosen)} mutants, {missed} not noticed")
+    return missed > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
