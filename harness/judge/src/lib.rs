@@ -21,10 +21,10 @@ pub mod chart;
 pub mod facts;
 #[cfg(feature = "full")]
 pub mod playback;
-#[cfg(feature = "full")]
+#[cfg(feature = "foreign")]
 pub mod readable;
 pub mod sequence;
-#[cfg(feature = "full")]
+#[cfg(feature = "foreign")]
 pub mod signature;
 #[cfg(feature = "full")]
 pub mod sim;

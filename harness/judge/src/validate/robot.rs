@@ -3,12 +3,12 @@
 use std::collections::VecDeque;
 
 use crossguard_codec::{Identifiers, Service};
-#[cfg(feature = "full")]
+#[cfg(feature = "foreign")]
 use crossguard_codec::{Unheard, its::ItsMessage};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::counters::{CauseName, Counts};
 use crossguard_endpoint::station::listen::overhear;
-#[cfg(feature = "full")]
+#[cfg(feature = "foreign")]
 use crossguard_endpoint::station::service_of;
 use crossguard_protocol::{
     Config, Decimetres, Input, Output, Outputs, Rmcm, Robot, Settings, StationId,
@@ -241,7 +241,7 @@ impl Follow {
     }
 
     /// The service and the sender of a message that the protocol has no part in.
-    #[cfg(feature = "full")]
+    #[cfg(feature = "foreign")]
     fn of_etsi(&self, octets: &[u8]) -> Result<(Option<Service>, StationId), Fault> {
         let message = ItsMessage::decode(&self.identifiers, octets);
         let message = message.map_err(Unheard::from).map_err(Fault::NoMessage)?;
@@ -250,7 +250,7 @@ impl Follow {
     }
 
     /// Messages of robots are all that is known here.
-    #[cfg(not(feature = "full"))]
+    #[cfg(not(feature = "foreign"))]
     fn of_etsi(&self, octets: &[u8]) -> Result<(Option<Service>, StationId), Fault> {
         let message = overhear(&self.identifiers, octets).map_err(Fault::NoMessage)?;
         Ok((Some(message.service), message.from))
