@@ -155,10 +155,11 @@ pub fn command() -> clap::Command {
     ranges::with_negative_numbers(Arguments::command())
 }
 
-/// Does what the arguments of this process say.
+/// Does what the arguments of this process say. `version` is what `--version` prints.
 #[must_use]
-pub fn main() -> ExitCode {
-    let arguments = Arguments::from_arg_matches(&command().get_matches());
+pub fn main(version: &'static str) -> ExitCode {
+    let command = command().version(version);
+    let arguments = Arguments::from_arg_matches(&command.get_matches());
     let arguments = arguments.unwrap_or_else(|error| error.exit());
     let done = match arguments.command {
         Command::Demo(arguments) => demo::run(&arguments),

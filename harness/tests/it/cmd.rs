@@ -2,6 +2,9 @@
 
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::process::Command;
+
+use crossguard_testkit::command::*;
 
 /// The files that the commands find.
 fn files() -> BTreeSet<String> {
@@ -19,4 +22,28 @@ fn commands_say_what_their_pages_show_and_leave_nothing_behind() {
     cases.case("tests/cmd/*.md").env("COLUMNS", "120");
     cases.run();
     assert_eq!(files(), before);
+}
+
+/// Whether git knows this commit in the folder of the harness.
+fn knows(commit: &str) -> bool {
+    let mut git = Command::new("git");
+    git.args(["-C", env!("CARGO_MANIFEST_DIR"), "rev-parse", "--verify"]);
+    let known = git.arg(format!("{commit}^{{commit}}")).output();
+    known.is_ok_and(|it| it.status.success())
+}
+
+#[test]
+fn the_version_has_the_commit_where_there_is_one() {
+    let said = stdout(&run_line("--version"));
+    let (name, commit) = said.trim_end().split_once(" (").unwrap_or((&said, ")"));
+    let version = env!("CARGO_PKG_VERSION");
+    assert_eq!(name.trim_end(), format!("crossguard {version}"));
+    let commit = commit.strip_suffix(')').expect("it ends");
+    let commit = commit.strip_suffix("-dirty").unwrap_or(commit);
+    let is_known = if commit.is_empty() {
+        !knows("HEAD")
+    } else {
+        knows(commit)
+    };
+    assert!(is_known, "{said}");
 }
