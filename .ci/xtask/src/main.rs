@@ -34,6 +34,12 @@ enum Command {
     Quick,
     /// Runs .ci/run, which checks everything.
     Full,
+    /// Makes what a release consists of, into target/dist: archives, a Debian package, a wheel, bills of material, checksums.
+    Dist {
+        /// Install and use each of them in a Debian without Rust and without network. Wants root.
+        #[arg(long = "try")]
+        is_tried: bool,
+    },
 }
 
 fn main() -> ExitCode {
@@ -55,5 +61,6 @@ fn run(command: &Command) -> Result<bool, NotStarted> {
         Command::Bless { part } => bless::bless(root, part.as_deref().unwrap_or_default()),
         Command::Quick => steps::quick(root),
         Command::Full => steps::full(root),
+        Command::Dist { is_tried } => steps::dist(root, *is_tried),
     }
 }

@@ -63,3 +63,9 @@ pub(crate) fn quick(root: &Path) -> Result<bool, NotStarted> {
 pub(crate) fn full(root: &Path) -> Result<bool, NotStarted> {
     run(root, ("full", ".ci/run"), &[])
 }
+
+/// Makes what a release consists of, and tries it.
+pub(crate) fn dist(root: &Path, is_tried: bool) -> Result<bool, NotStarted> {
+    let is_made = run(root, ("dist", ".ci/dist"), &[])?;
+    Ok(is_made && (!is_tried || run(root, ("try", ".ci/dist-try"), &[])?))
+}
