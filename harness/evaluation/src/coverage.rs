@@ -5,7 +5,7 @@
 
 use crossguard_endpoint::ras::motion::{Point, distance_m};
 
-use super::grid::Grid;
+use super::net::Streets;
 use super::trace::{Run, Track};
 
 /// The observation coverage ratio of robots on these ways, 0..1. A person in the zones of two robots
@@ -14,7 +14,7 @@ use super::trace::{Run, Track};
 pub fn coverage(run: &Run, robots: &[Track], radius_m: f64) -> f64 {
     let (mut seen, mut all) = (0_u32, 0_u32);
     for track in &run.pedestrians {
-        for (index, motion) in track.samples().iter().enumerate() {
+        for (index, motion) in (track.first_sample()..).zip(track.samples()) {
             all += 1;
             let near =
                 |robot: &Track| distance_m(robot.place_at(index), motion.position_m) <= radius_m;
@@ -31,25 +31,36 @@ pub struct Places {
     pub travel_s: f64,
     /// Share of that time at an intersection.
     pub at_intersections: f64,
-    /// Share of it on the road away from the crossings.
+    /// Share of it on the road away from the crossings; 0 where the streets are no grid, whose lanes are not known.
     pub on_road_between: f64,
     /// Share of the time in which a robot sees them that they are at an intersection; 0 where no robot does.
     pub covered_at_intersections: f64,
 }
 
-/// Where people are on a grid, and where robots on these ways see them, from samples `sample_ms` apart.
+/// Where people are on the streets, and where robots on these ways see them, from samples `sample_ms` apart.
 #[must_use]
-pub fn places(run: &Run, grid: &Grid, robots: &[Track], radius_m: f64, sample_ms: u64) -> Places {
+pub fn places(
+    run: &Run,
+    streets: &Streets,
+    robots: &[Track],
+    radius_m: f64,
+    sample_ms: u64,
+) -> Places {
+    let is_between = |place| {
+        streets
+            .grid()
+            .is_some_and(|grid| grid.is_on_road_between(place))
+    };
     let (mut all, mut at, mut between, mut seen, mut seen_at) = (0_u32, 0_u32, 0_u32, 0_u32, 0_u32);
     for track in &run.pedestrians {
-        for (index, motion) in track.samples().iter().enumerate() {
+        for (index, motion) in (track.first_sample()..).zip(track.samples()) {
             let place = motion.position_m;
-            let is_at = grid.is_at_intersection(place);
+            let is_at = streets.is_at_intersection(place);
             let near = |robot: &Track| distance_m(robot.place_at(index), place) <= radius_m;
             let is_seen = robots.iter().any(near);
             all += 1;
             at += u32::from(is_at);
-            between += u32::from(grid.is_on_road_between(place));
+            between += u32::from(is_between(place));
             seen += u32::from(is_seen);
             seen_at += u32::from(is_seen && is_at);
         }
@@ -128,7 +139,7 @@ mod tests {
 
     #[test]
     fn people_are_at_intersections_or_between_them_and_robots_see_some() {
-        let grid = Preset::Kerb.grid();
+        let grid = Streets::Grid(Preset::Kerb.grid());
         // On a corner, in the middle of a street's lanes, on the sidewalk beside, and on the next corner.
         let run = standing_at(&[[92.1, 92.1], [50.0, 100.0], [78.0, 92.1], [0.0, 0.0]]);
         let robots = [Track::standing([92.1, 92.1])];

@@ -150,6 +150,15 @@ impl Grid {
             .all(|off_m| *off_m <= INTERSECTION_M)
     }
 
+    /// Whether a place is on a street or its sidewalks, or at an intersection.
+    #[must_use]
+    pub fn has(&self, place: Point) -> bool {
+        let [east_m, north_m] = self.off_intersection_m(place);
+        let wide_m = self.corner_m() + self.sidewalk_m / 2.0 + EDGE_M;
+        let (near, far) = (east_m.min(north_m), east_m.max(north_m));
+        self.is_at_intersection(place) || (near <= wide_m && far <= self.segment_m / 2.0)
+    }
+
     /// Whether a place is on the lanes of a street away from its intersections, where there are no crossings.
     #[must_use]
     pub fn is_on_road_between(&self, place: Point) -> bool {

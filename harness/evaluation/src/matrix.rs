@@ -84,17 +84,19 @@ pub fn obs(traces: &[Traces], axes: &Axes, goes_on: impl Fn() -> bool) -> Vec<Ob
     let mut cells = Vec::new();
     for traces in traces {
         for &robots in &axes.robots {
-            let (duration_ms, sample_ms) = (traces.duration_ms(), traces.sample_ms);
-            let grid = &traces.grid;
-            let ways = axes.stationing.robots(grid, robots, duration_ms, sample_ms);
             for &radius_m in &axes.radii_m {
                 if !goes_on() {
                     return cells;
                 }
-                let runs = || traces.runs.iter().take(axes.seeds);
-                let percent = runs().map(|run| 100.0 * coverage(run, &ways, radius_m));
-                let found = runs().map(|run| places(run, grid, &ways, radius_m, sample_ms));
-                let found: Vec<Places> = found.collect();
+                let (streets, sample_ms) = (&traces.streets, traces.sample_ms);
+                let runs = traces.runs.iter().take(axes.seeds).map(|run| {
+                    let ways =
+                        axes.stationing
+                            .robots(streets, robots, run.duration_ms(), sample_ms);
+                    let found = places(run, streets, &ways, radius_m, sample_ms);
+                    (100.0 * coverage(run, &ways, radius_m), found)
+                });
+                let (percent, found): (Vec<f64>, Vec<Places>) = runs.unzip();
                 let share =
                     |of: fn(&Places) -> f64| Estimate::of(found.iter().map(|it| 100.0 * of(it)));
                 cells.push(ObsCell {
@@ -262,10 +264,10 @@ fn measure(
 ) -> Result<Done, RobotError> {
     let file = &traces[job.traces];
     let run = &file.runs[job.run];
-    let (duration_ms, sample_ms) = (file.duration_ms(), file.sample_ms);
+    let duration_ms = run.duration_ms();
     let robots = axes
         .stationing
-        .robots(&file.grid, job.robots, duration_ms, sample_ms);
+        .robots(&file.streets, job.robots, duration_ms, file.sample_ms);
     let mut behaviour = behaviour.clone();
     behaviour.clustering.radius_m = job.radius_m;
     let (measured, silences) = simulate(run, duration_ms, &robots, &behaviour, sizes)?;

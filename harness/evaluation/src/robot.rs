@@ -135,7 +135,8 @@ impl<'a> Robot<'a> {
         let reach_m = self.radius_m + SENSED_BEYOND_M;
         self.perceived.clear();
         let people = (0_u32..).zip(&run.pedestrians).zip(&self.unseen);
-        for ((id, track), _) in people.filter(|(_, unseen)| !**unseen) {
+        for ((id, track), _) in people.filter(|((_, it), unseen)| !**unseen && it.is_there(now_us))
+        {
             let motion = track.motion(now_us);
             if distance_m(motion.position_m, place) <= reach_m {
                 self.perceived.push(PerceivedVru {

@@ -38,5 +38,9 @@ pub const fn file(preset: Preset, pedestrians: usize) -> Option<&'static [u8]> {
 /// # Errors
 /// When the program is damaged.
 pub fn traces(preset: Preset, pedestrians: usize) -> Option<Result<Traces, TraceError>> {
-    file(preset, pedestrians).map(Traces::read)
+    let traces = file(preset, pedestrians).map(Traces::read)?;
+    Some(traces.map(|traces| Traces {
+        is_proven: true,
+        ..traces
+    }))
 }

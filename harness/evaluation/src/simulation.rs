@@ -113,6 +113,40 @@ enum Role<'a> {
     Robot(Box<Robot<'a>>),
 }
 
+impl Role<'_> {
+    /// Whether it is on the street. Robots always are.
+    fn is_there(&self, now_us: u64) -> bool {
+        match self {
+            Self::Vehicle { track, .. } | Self::Device { track, .. } => track.is_there(now_us),
+            Self::Robot(_) => true,
+        }
+    }
+
+    /// When it is switched on: what begins with the run during its first seconds, who comes later at once.
+    fn on_us(&self, random: &mut ChaCha8Rng) -> u64 {
+        match self {
+            Self::Vehicle { track, .. } | Self::Device { track, .. } if track.begin_ms() > 0 => {
+                track.begin_ms() * 1_000 + random.random_range(0..CHECK_US)
+            }
+            _ => random.random_range(0..SETTLING_US),
+        }
+    }
+
+    /// The silence of a device that ends now, if it is silent.
+    fn silence_until(&mut self, now_ms: u64) -> Option<Silence> {
+        let Self::Device {
+            person,
+            silent_since_ms,
+            ..
+        } = self
+        else {
+            return None;
+        };
+        let from_ms = silent_since_ms.take()?;
+        Some(Silence::new(*person, from_ms, now_ms))
+    }
+}
+
 struct Station<'a> {
     role: Role<'a>,
     /// Frames that are built and ready at their time, and then wait for the channel.
@@ -242,8 +276,8 @@ impl<'a> Simulation<'a> {
         let stations: Vec<Station> = vehicles.chain(devices).chain(robots).map(station).collect();
         let mut random = ChaCha8Rng::seed_from_u64(run.seed);
         let mut events = BinaryHeap::from([Reverse((WINDOW_US, Event::Window))]);
-        for number in 0..stations.len() {
-            let on_us = random.random_range(0..SETTLING_US);
+        for (number, station) in stations.iter().enumerate() {
+            let on_us = station.role.on_us(&mut random);
             events.push(Reverse((on_us, Event::Check(number))));
         }
         let mut simulation = Self {
@@ -290,8 +324,8 @@ impl<'a> Simulation<'a> {
         let counts = now_us > SETTLING_US;
         let has_dcc = self.behaviour.dcc;
         self.channel.close_window(now_us, |number, busy_us| {
-            let is_robot = matches!(stations[number].role, Role::Robot(_));
-            if counts && !is_robot {
+            let role = &stations[number].role;
+            if counts && !matches!(role, Role::Robot(_)) && role.is_there(now_us) {
                 sums.busy_us += u64::from(busy_us);
                 sums.station_windows += 1;
                 sums.busy_max_us = sums.busy_max_us.max(busy_us);
@@ -308,11 +342,15 @@ impl<'a> Simulation<'a> {
     }
 
     fn check(&mut self, now_us: u64, number: usize) -> Result<(), RobotError> {
-        self.events
-            .push(Reverse((now_us + CHECK_US, Event::Check(number))));
         let now_ms = now_us / 1_000;
         let behaviour = self.behaviour;
         let station = &mut self.stations[number];
+        if !station.role.is_there(now_us) {
+            self.silences.extend(station.role.silence_until(now_ms));
+            return Ok(());
+        }
+        self.events
+            .push(Reverse((now_us + CHECK_US, Event::Check(number))));
         let congestion_ms = station.congestion.interval_ms();
         match &mut station.role {
             Role::Vehicle {
@@ -480,6 +518,7 @@ impl<'a> Simulation<'a> {
         let now_ms = now_us / 1_000;
         for (number, station) in self.stations.iter_mut().enumerate() {
             if matches!(station.role, Role::Vehicle { .. })
+                || !station.role.is_there(now_us)
                 || number == transmission.sender
                 || !self.channel.in_range(number, transmission.sender)
             {
@@ -502,19 +541,10 @@ impl<'a> Simulation<'a> {
     }
 
     /// When devices were silent; who still is, is until the end.
-    fn into_silences(self) -> Vec<Silence> {
-        let mut silences = self.silences;
-        silences.extend(self.stations.iter().filter_map(|station| {
-            let Role::Device {
-                person,
-                silent_since_ms: Some(from_ms),
-                ..
-            } = station.role
-            else {
-                return None;
-            };
-            Some(Silence::new(person, from_ms, self.end_us / 1_000))
-        }));
+    fn into_silences(mut self) -> Vec<Silence> {
+        let (mut silences, end_ms) = (self.silences, self.end_us / 1_000);
+        let stations = self.stations.iter_mut();
+        silences.extend(stations.filter_map(|it| it.role.silence_until(end_ms)));
         silences
     }
 

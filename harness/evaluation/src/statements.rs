@@ -20,8 +20,8 @@ use std::fmt::Display;
 use serde::Serialize;
 
 use super::behaviour::Behaviour;
-use super::grid::Grid;
 use super::matrix::Axes;
+use super::net::Streets;
 use super::paper::{PAPER, StatedRange};
 use super::statistics::Estimate;
 
@@ -61,7 +61,7 @@ const FIGURE_RULE: &str = "the range within two standard deviations of a run, at
 statements! {
     Grid "grid of streets": SAME;
     Crossings "sidewalks, and crossings near intersections only": "nobody is on a road farther than 20 m from an intersection";
-    Mobility "people and vehicles are moved by": SAME;
+    Mobility "people and vehicles are moved by": "SUMO, which this program ran itself; what a file says is no proof";
     NetworkStack "the network is simulated by": SAME;
     Vehicles "vehicles": SAME;
     Pedestrians "pedestrians": SAME;
@@ -143,9 +143,11 @@ pub struct Comparison {
 #[derive(Clone, Copy, Debug)]
 pub struct Setting<'a> {
     /// The streets.
-    pub grid: &'a Grid,
-    /// Vehicles.
-    pub vehicles: usize,
+    pub streets: &'a Streets,
+    /// Whether this program knows what moved everybody ([`Traces::is_proven`](super::trace::Traces::is_proven)).
+    pub is_proven: bool,
+    /// Vehicles, by run: one number where it is the same in all.
+    pub vehicles: &'a [usize],
     /// What was varied.
     pub axes: &'a Axes,
     /// How stations behave, where there are any.

@@ -4,6 +4,8 @@ use crossguard_endpoint::ras::motion::Point;
 use serde::Serialize;
 
 use super::grid::{Grid, Site};
+use super::net::Streets;
+use super::schedule::Schedule;
 use super::trace::Track;
 
 /// The corners of an intersection clockwise, as a robot walks around it.
@@ -15,7 +17,7 @@ const CLOCKWISE: [Site; 4] = [
 ];
 
 /// Where robots are.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Stationing {
     /// Where at its intersection the first robot stands, or begins to walk.
     pub robot_site: Site,
@@ -24,6 +26,9 @@ pub struct Stationing {
     pub robots_per_intersection: usize,
     /// How fast robots walk around their intersection, over its corners, in m/s; `None` if they stand.
     pub patrol_mps: Option<f64>,
+    /// Where each robot is by a file, instead of at intersections.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub robots_at: Option<Vec<Schedule>>,
 }
 
 impl Stationing {
@@ -34,15 +39,19 @@ impl Stationing {
             robot_site: site,
             robots_per_intersection: 1,
             patrol_mps: None,
+            robots_at: None,
         }
     }
 
-    /// Checks that `most` robots can be so on a grid.
+    /// Checks that `most` robots can be so on the streets.
     ///
     /// # Errors
     /// What is wrong.
-    pub fn check(&self, grid: &Grid, most: usize) -> Result<(), StationingError> {
-        let room = grid.nodes().len() * self.robots_per_intersection;
+    pub fn check(&self, streets: &Streets, most: usize) -> Result<(), StationingError> {
+        let room = match &self.robots_at {
+            Some(robots) => robots.len(),
+            None => streets.nodes().len() * self.robots_per_intersection,
+        };
         if !(1..=CLOCKWISE.len()).contains(&self.robots_per_intersection) {
             return Err(StationingError::PerIntersection(
                 self.robots_per_intersection,
@@ -65,15 +74,24 @@ impl Stationing {
     }
 
     /// Where `count` robots are in a run: the first ones at the middle intersection, the others at those
-    /// around it. Robots that walk have a sample every `sample_ms` for `duration_ms`.
+    /// around it. Robots that walk have a sample every `sample_ms` for `duration_ms`. On a net, whose sidewalks are not
+    /// known, they stand in the middle of intersections. By a file, the first ones of it are there.
     #[must_use]
     pub fn robots(
         &self,
-        grid: &Grid,
+        streets: &Streets,
         count: usize,
         duration_ms: u64,
         sample_ms: u64,
     ) -> Vec<Track> {
+        if let Some(robots) = &self.robots_at {
+            let robots = robots.iter().take(count);
+            return robots.map(|it| it.track(duration_ms, sample_ms)).collect();
+        }
+        let Streets::Grid(grid) = streets else {
+            let nodes = streets.nodes().into_iter().take(count);
+            return nodes.map(Track::standing).collect();
+        };
         let first = CLOCKWISE.iter().position(|it| *it == self.robot_site);
         let nodes = grid.nodes().into_iter();
         let posts = nodes.flat_map(|node| {
@@ -134,7 +152,7 @@ pub enum StationingError {
     )]
     NoCorner,
     /// There are more robots than places.
-    #[error("there is room for {room} robots at the intersections, not for {most}")]
+    #[error("there are places for {room} robots, not for {most}")]
     Room {
         /// How many robots there are.
         most: usize,
@@ -150,8 +168,8 @@ mod tests {
     use super::super::grid::Preset;
     use super::*;
 
-    fn grid() -> Grid {
-        Preset::Kerb.grid()
+    fn grid() -> Streets {
+        Streets::Grid(Preset::Kerb.grid())
     }
 
     #[test]

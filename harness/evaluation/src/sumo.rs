@@ -10,12 +10,13 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crossguard_endpoint::ras::motion::Point;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use super::fcd;
 use super::grid::Grid;
-use super::trace::{Run, Track};
+use super::trace::Run;
+use super::xml::SumoFileError;
 
 /// What a run is made of.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -75,9 +76,22 @@ pub enum SumoError {
     /// A file of its input or output cannot be written or read.
     #[error(transparent)]
     File(#[from] std::io::Error),
-    /// Its output is not what is expected.
-    #[error("SUMO's output is not understood: {0}")]
-    Output(String),
+    /// Its output cannot be used.
+    #[error("SUMO's output {0}")]
+    Output(#[from] SumoFileError),
+    /// Not everybody was there all the time.
+    #[error(
+        "SUMO moved {} people and {} vehicles for {} ms of a run of {pedestrians} and {vehicles} for {duration_s} s: \
+         fewer fit on these streets",
+        .run.pedestrians.len(), .run.vehicles.len(), .run.duration_ms(), pedestrians = .plan.pedestrians,
+        vehicles = .plan.vehicles, duration_s = .plan.duration_s
+    )]
+    NotAll {
+        /// What it moved.
+        run: Box<Run>,
+        /// What was to be.
+        plan: Plan,
+    },
 }
 
 impl Sumo {
@@ -113,8 +127,9 @@ impl Sumo {
             ("--route-files", text(&file("routes.xml"))),
             ("--seed", (seed % (1 << 31)).to_string()),
             ("--step-length", "0.1".to_owned()),
-            ("--end", seconds(plan.warm_up_s + plan.duration_s + 1)),
-            ("--fcd-output", text(&file("fcd.csv"))),
+            // The last sample is the last step.
+            ("--end", format!("{}.1", plan.warm_up_s + plan.duration_s)),
+            ("--fcd-output", text(&file("fcd.xml"))),
             ("--fcd-output.attributes", "x,y".to_owned()),
             ("--device.fcd.begin", seconds(plan.warm_up_s)),
             #[expect(clippy::cast_precision_loss, reason = "a second or so")]
@@ -130,7 +145,18 @@ impl Sumo {
             .into_iter()
             .flat_map(|(name, value)| [name.to_owned(), value]);
         self.call("sumo", &arguments.collect::<Vec<_>>())?;
-        read_positions(&file("fcd.csv"), plan, seed)
+        let run = fcd::read(File::open(file("fcd.xml"))?, seed)?.run;
+        let duration_ms = u64::from(plan.duration_s) * 1_000;
+        let is_whole = (run.vehicles.len(), run.pedestrians.len())
+            == (plan.vehicles, plan.pedestrians)
+            && run.is_whole(duration_ms);
+        if is_whole {
+            return Ok(run);
+        }
+        Err(SumoError::NotAll {
+            run: Box::new(run),
+            plan: *plan,
+        })
     }
 
     fn call(&self, program: &'static str, arguments: &[String]) -> Result<String, SumoError> {
@@ -269,44 +295,6 @@ fn routes(grid: &Grid, plan: &Plan, seed: u64) -> String {
         text.push_str("</person>\n");
     }
     text + "</routes>\n"
-}
-
-/// Positions from SUMO's floating car data as a table: time, id, x, y.
-fn read_positions(file: &Path, plan: &Plan, seed: u64) -> Result<Run, SumoError> {
-    let not_understood = |error: csv::Error| SumoError::Output(error.to_string());
-    let mut places: Vec<Vec<Point>> = vec![Vec::new(); plan.vehicles + plan.pedestrians];
-    let mut table = csv::ReaderBuilder::new()
-        .delimiter(b';')
-        .from_reader(File::open(file)?);
-    for row in table.deserialize::<(f64, String, f64, f64)>() {
-        let (_, id, x, y) = row.map_err(not_understood)?;
-        let number = id.get(1..).and_then(|number| number.parse::<usize>().ok());
-        let index = match (id.as_bytes().first(), number) {
-            (Some(b'v'), Some(number)) => Some(number),
-            (Some(b'p'), Some(number)) => Some(plan.vehicles + number),
-            _ => None,
-        };
-        let track = index.and_then(|index| places.get_mut(index));
-        let unknown = || SumoError::Output(format!("nobody is called {id:?}"));
-        track.ok_or_else(unknown)?.push([x, y]);
-    }
-    let samples =
-        usize::try_from(u64::from(plan.duration_s) * 1_000 / plan.sample_ms).unwrap_or(usize::MAX);
-    if let Some(short) = places.iter().position(|track| track.len() <= samples) {
-        let message = format!(
-            "track {short} has {} samples, not {}",
-            places[short].len(),
-            samples + 1
-        );
-        return Err(SumoError::Output(message));
-    }
-    let track = |places: &Vec<Point>| Track::new(plan.sample_ms, &places[..=samples]);
-    let (vehicles, pedestrians) = places.split_at(plan.vehicles);
-    Ok(Run {
-        seed,
-        vehicles: vehicles.iter().map(track).collect(),
-        pedestrians: pedestrians.iter().map(track).collect(),
-    })
 }
 
 #[cfg(test)]

@@ -20,6 +20,7 @@ use flate2::write::GzEncoder;
 use serde::{Deserialize, Serialize};
 
 use super::grid::Grid;
+use super::net::Streets;
 
 /// What a trace file says of itself.
 const FORMAT: &str = "crossguard-traces-1";
@@ -28,11 +29,14 @@ const UNPACKED_MAX: u64 = 1 << 30;
 /// Who is slower keeps the heading it had, in m/s.
 const STANDING_MPS: f64 = 0.2;
 
-/// Runs on one grid with the same number of people.
+/// Runs on the same streets.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Traces {
-    /// The grid.
-    pub grid: Grid,
+    /// The streets.
+    pub streets: Streets,
+    /// Whether this program knows what moved everybody: it ran SUMO itself, or carries the file along. What a file
+    /// says of itself is no proof.
+    pub is_proven: bool,
     /// Time between two samples, in ms.
     pub sample_ms: u64,
     /// The runs, each with its own seed.
@@ -54,6 +58,8 @@ pub struct Run {
 #[derive(Clone, PartialEq, Debug)]
 pub struct Track {
     sample_ms: u64,
+    /// Number of the run's sample at which it begins.
+    begin: usize,
     samples: Vec<Motion>,
 }
 
@@ -89,20 +95,18 @@ pub enum TraceError {
     /// Its numbers contradict each other.
     #[error("contradicts itself: {0}")]
     Contradictory(&'static str),
+    /// Somebody was not on its grid, or not all the time.
+    #[error("{0}; give what moved on a net of its own with --net and --fcd")]
+    Misfit(String),
 }
 
 impl Traces {
-    /// How many people are on foot.
+    /// How many people are on foot in a run, the mean over runs.
     #[must_use]
     pub fn pedestrians(&self) -> usize {
-        self.runs.first().map_or(0, |run| run.pedestrians.len())
-    }
-
-    /// How long every run is, in ms.
-    #[must_use]
-    pub fn duration_ms(&self) -> u64 {
-        let tracks = self.runs.iter().flat_map(|run| &run.pedestrians);
-        tracks.map(Track::duration_ms).min().unwrap_or(0)
+        let all: usize = self.runs.iter().map(|run| run.pedestrians.len()).sum();
+        let runs = self.runs.len().max(1);
+        (all + runs / 2) / runs
     }
 
     /// Reads a trace file.
@@ -135,8 +139,10 @@ impl Traces {
                 "runs need the same number of people, and some",
             ));
         }
+        runs.iter().try_for_each(|run| run.check(&file.grid))?;
         Ok(Self {
-            grid: file.grid,
+            streets: Streets::Grid(file.grid),
+            is_proven: false,
             sample_ms,
             runs,
         })
@@ -145,17 +151,64 @@ impl Traces {
     /// Writes a trace file.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// When it cannot be written, or is not of a grid.
     pub fn write(&self, to: impl Write) -> std::io::Result<()> {
+        let grid = self.streets.grid();
+        let grid = grid.ok_or_else(|| std::io::Error::other("a trace file is of a grid"))?;
         let file = File {
             format: FORMAT.to_owned(),
-            grid: self.grid.clone(),
+            grid: grid.clone(),
             sample_ms: self.sample_ms,
             runs: self.runs.iter().map(FileRun::pack).collect(),
         };
         let mut packed = GzEncoder::new(to, Compression::best());
         serde_json::to_writer(&mut packed, &file)?;
         packed.finish()?.flush()
+    }
+}
+
+impl Run {
+    /// How long it is, in ms: until the last one is gone.
+    #[must_use]
+    pub fn duration_ms(&self) -> u64 {
+        self.tracks().map(Track::end_ms).max().unwrap_or(0)
+    }
+
+    /// Whether everybody is there from its beginning until then.
+    #[must_use]
+    pub fn is_whole(&self, until_ms: u64) -> bool {
+        self.tracks()
+            .all(|it| (it.begin_ms(), it.end_ms()) == (0, until_ms))
+    }
+
+    fn tracks(&self) -> impl Iterator<Item = &Track> + Clone {
+        self.pedestrians.iter().chain(&self.vehicles)
+    }
+
+    /// Whether everybody is on the streets of this grid, all the time.
+    fn check(&self, grid: &Grid) -> Result<(), TraceError> {
+        let seed = self.seed;
+        let until_ms = self.duration_ms();
+        if let Some(short) = self.tracks().find(|it| it.end_ms() != until_ms) {
+            return Err(TraceError::Misfit(format!(
+                "run {seed} lasts {until_ms} ms, and somebody is there for {} ms only",
+                short.end_ms()
+            )));
+        }
+        let places = || {
+            self.tracks()
+                .flat_map(Track::samples)
+                .map(|it| it.position_m)
+        };
+        let outside = places().filter(|it| !grid.has(*it));
+        if let Some([east, north]) = outside.clone().next() {
+            return Err(TraceError::Misfit(format!(
+                "{} of {} places of run {seed} are off the streets of the grid, like ({east}, {north}) m",
+                outside.count(),
+                places().count()
+            )));
+        }
+        Ok(())
     }
 }
 
@@ -209,8 +262,15 @@ impl Track {
         });
         Self {
             sample_ms,
+            begin: 0,
             samples: samples.collect(),
         }
+    }
+
+    /// The same track, which begins at this sample of the run.
+    #[must_use]
+    pub fn from_sample(self, begin: usize) -> Self {
+        Self { begin, ..self }
     }
 
     /// The track of someone who stands at a place.
@@ -219,29 +279,49 @@ impl Track {
         Self::new(1_000, &[place, place])
     }
 
-    /// The place at a sample; behind its end, at its end.
+    /// The place at a sample of the run; before its beginning it is at its beginning, behind its end at its end.
     #[must_use]
     pub fn place_at(&self, sample: usize) -> Point {
+        let sample = sample.saturating_sub(self.begin);
         let there = self.samples.get(sample).or(self.samples.last());
         there.map_or([0.0, 0.0], |motion| motion.position_m)
     }
 
-    /// How long the track is, in ms.
+    /// When it begins, in ms from the beginning of the run.
     #[must_use]
-    pub fn duration_ms(&self) -> u64 {
-        (self.samples.len() as u64).saturating_sub(1) * self.sample_ms
+    pub const fn begin_ms(&self) -> u64 {
+        self.begin as u64 * self.sample_ms
     }
 
-    /// The motion at every sample.
+    /// When it ends, in ms from the beginning of the run.
+    #[must_use]
+    pub fn end_ms(&self) -> u64 {
+        self.begin_ms() + (self.samples.len() as u64).saturating_sub(1) * self.sample_ms
+    }
+
+    /// Whether somebody on this track is there, so many microseconds from the beginning of the run.
+    #[must_use]
+    pub fn is_there(&self, time_us: u64) -> bool {
+        (self.begin_ms() * 1_000..=self.end_ms() * 1_000).contains(&time_us)
+    }
+
+    /// Number of the run's sample at which it begins.
+    #[must_use]
+    pub const fn first_sample(&self) -> usize {
+        self.begin
+    }
+
+    /// The motion at every sample, from its first one on.
     #[must_use]
     pub fn samples(&self) -> &[Motion] {
         &self.samples
     }
 
-    /// The motion at `time_us` microseconds from its beginning: between two samples everything changes
+    /// The motion at `time_us` microseconds from the beginning of the run: between two samples everything changes
     /// evenly. Behind its end it stands at its end.
     #[must_use]
     pub fn motion(&self, time_us: u64) -> Motion {
+        let time_us = time_us.saturating_sub(self.begin_ms() * 1_000);
         let sample_us = self.sample_ms * 1_000;
         let index = usize::try_from(time_us / sample_us).unwrap_or(usize::MAX);
         let Some([before, after]) = self.samples.get(index..index.saturating_add(2)) else {
@@ -313,7 +393,7 @@ mod tests {
             500,
             &[[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0], [1.0, 1.0]],
         );
-        assert_eq!(track.duration_ms(), 2_000);
+        assert_eq!(track.end_ms(), 2_000);
         let there = track.motion(250_000);
         assert!((there.position_m[1] - 0.5).abs() < 1e-9);
         // From north at the first sample to north-east at the second.
@@ -357,13 +437,18 @@ mod tests {
         /// What is written is read again, to the centimetre.
         #[test]
         fn tracks_are_packed_without_loss(
-            places in proptest::collection::vec((-20_000_i32..20_000, -20_000_i32..20_000), 2..50)
+            places in proptest::collection::vec((0_i32..20_000, -500_i32..500), 2..50)
         ) {
             let places: Vec<Point> = places.iter()
                 .map(|&(x, y)| [f64::from(x) / 100.0, f64::from(y) / 100.0]).collect();
             let track = Track::new(500, &places);
             let run = Run { seed: 4, vehicles: vec![track.clone()], pedestrians: vec![track] };
-            let traces = Traces { grid: Preset::Plain.grid(), sample_ms: 500, runs: vec![run] };
+            let traces = Traces {
+                streets: Streets::Grid(Preset::Plain.grid()),
+                is_proven: false,
+                sample_ms: 500,
+                runs: vec![run],
+            };
             let mut packed = Vec::new();
             traces.write(&mut packed).unwrap();
             prop_assert_eq!(Traces::read(&packed[..]).unwrap(), traces);

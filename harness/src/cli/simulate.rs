@@ -10,13 +10,15 @@ use std::sync::atomic::Ordering;
 use crossguard_evaluation::coverage::greedy;
 use crossguard_evaluation::matrix;
 use crossguard_evaluation::messages::Sizes;
+use crossguard_evaluation::net::Streets;
 use crossguard_evaluation::paper::{PAPER, PaperSimulation};
 use crossguard_evaluation::statements::{self, Comparison};
+use crossguard_evaluation::stationing::Stationing;
 use crossguard_evaluation::sumo::{Plan, Sumo};
 use crossguard_evaluation::trace::{Run, Traces};
 use serde::Serialize;
 
-use self::options::{Air, Matrix, Output, Parameters, Placement, Streets};
+use self::options::{Air, Matrix, Mobility, Output, Parameters, Placement};
 use super::interrupts::interrupts;
 use super::ranges::whole;
 use super::{Failure, csv, destinations, print, print_json};
@@ -74,7 +76,7 @@ struct Rank {
 #[derive(clap::Args)]
 struct Record {
     #[command(flatten)]
-    streets: Streets,
+    mobility: Mobility,
     /// Numbers of people on foot, a file for each.
     #[arg(
         long,
@@ -104,7 +106,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// What a matrix says.
 #[derive(Serialize)]
 struct SimulateReport<'a, C> {
-    preset: &'a str,
+    preset: Option<&'a str>,
     /// Whether nothing was set otherwise than the evaluation page documents it.
     documented: bool,
     parameters: &'a Parameters,
@@ -119,20 +121,29 @@ fn obs(arguments: &Obs) -> Result<(), Failure> {
     let matrix = &arguments.matrix;
     arguments.output.check()?;
     let interrupted = interrupts();
-    let traces = matrix.traces(arguments.output.json)?;
+    let axes = matrix.axes()?;
+    let traces = matrix.traces(&axes, arguments.output.json)?;
     let go_on = || !interrupted.load(Ordering::Relaxed);
-    let cells = matrix::obs(&traces, &matrix.axes(), go_on);
-    let parameters = matrix.parameters(&traces, None);
+    let cells = matrix::obs(&traces, &axes, go_on);
+    let parameters = matrix.parameters(&axes, &traces, None);
     let was_stopped = interrupted.load(Ordering::Relaxed);
     // Where files cannot be written, the figures are printed all the same.
     let written = csv::write(arguments.output.csv.as_deref(), &cells);
-    let axes = matrix.axes();
     let statements = if was_stopped {
         Vec::new()
     } else {
         statements::of_coverage(parameters.setting(&axes), &cells)
     };
-    finish(&arguments.output, matrix, &parameters, &cells, &statements)?;
+    let documented = matrix.is_documented(&axes, &parameters);
+    let report = SimulateReport {
+        preset: matrix.preset_of(&traces),
+        documented,
+        parameters: &parameters,
+        cells: &cells,
+        paper: &PAPER,
+        statements: &statements,
+    };
+    finish(&arguments.output, &report)?;
     written?;
     whole_matrix(was_stopped)
 }
@@ -143,7 +154,8 @@ fn cbr(arguments: &Cbr) -> Result<(), Failure> {
     destinations::files([&arguments.air.silences])?;
     let behaviour = arguments.air.behaviour().map_err(Failure::Input)?;
     let interrupted = interrupts();
-    let traces = matrix.traces(arguments.output.json)?;
+    let axes = matrix.axes()?;
+    let traces = matrix.traces(&axes, arguments.output.json)?;
     let sizes = Sizes::measure(behaviour.cam_path_points).map_err(Failure::input)?;
     let bar = output::progress(arguments.output.json, "runs");
     let done = |finished: usize, of: usize| {
@@ -151,23 +163,31 @@ fn cbr(arguments: &Cbr) -> Result<(), Failure> {
         bar.set_position(finished as u64);
         !interrupted.load(Ordering::Relaxed)
     };
-    let cells = matrix::cbr(&traces, &matrix.axes(), &behaviour, &sizes, done);
+    let cells = matrix::cbr(&traces, &axes, &behaviour, &sizes, done);
     bar.finish_and_clear();
     let results = cells.map_err(Failure::input)?;
     let cells = results.cells;
-    let parameters = matrix.parameters(&traces, Some(behaviour));
+    let parameters = matrix.parameters(&axes, &traces, Some(behaviour));
     let was_stopped = interrupted.load(Ordering::Relaxed);
     // Where files cannot be written, the figures are printed all the same.
     let written = csv::write(arguments.output.csv.as_deref(), &cells);
     let silences = arguments.air.silences.as_deref();
     let written = written.and(csv::write(silences, &results.silences));
-    let axes = matrix.axes();
     let statements = if was_stopped {
         Vec::new()
     } else {
         statements::of_load(parameters.setting(&axes), &cells)
     };
-    finish(&arguments.output, matrix, &parameters, &cells, &statements)?;
+    let documented = matrix.is_documented(&axes, &parameters);
+    let report = SimulateReport {
+        preset: matrix.preset_of(&traces),
+        documented,
+        parameters: &parameters,
+        cells: &cells,
+        paper: &PAPER,
+        statements: &statements,
+    };
+    finish(&arguments.output, &report)?;
     written?;
     whole_matrix(was_stopped)
 }
@@ -188,25 +208,14 @@ fn whole_matrix(was_stopped: bool) -> Result<(), Failure> {
 /// Prints the cells and what the paper states, as JSON or as tables under the parameters.
 fn finish<C: Serialize + output::Row>(
     output: &Output,
-    matrix: &Matrix,
-    parameters: &Parameters,
-    cells: &[C],
-    statements: &[Comparison],
+    report: &SimulateReport<'_, C>,
 ) -> Result<(), Failure> {
-    let documented = matrix.is_documented(parameters);
     if output.json {
-        return print_json(&SimulateReport {
-            preset: matrix.preset.name(),
-            documented,
-            parameters,
-            cells,
-            paper: &PAPER,
-            statements,
-        });
+        return print_json(report);
     }
-    output::print_parameters(parameters)?;
-    print(output::table(cells))?;
-    output::print_statements(documented, statements)
+    output::print_parameters(report.parameters)?;
+    print(output::table(report.cells))?;
+    output::print_statements(report.documented, report.statements)
 }
 
 #[derive(Serialize)]
@@ -222,13 +231,13 @@ fn place(arguments: &Rank) -> Result<(), Failure> {
     let Placement::Greedy = arguments.place;
     let matrix = &arguments.matrix;
     let mut rankings = Vec::new();
-    for traces in matrix.traces(arguments.json)? {
+    let axes = matrix.axes()?;
+    for traces in matrix.traces(&axes, arguments.json)? {
+        let nodes = traces.streets.nodes();
+        let stationing = Stationing::at(axes.stationing.robot_site);
+        let robots = stationing.robots(&traces.streets, nodes.len(), 0, traces.sample_ms);
+        let places: Vec<_> = robots.iter().map(|it| it.place_at(0)).collect();
         for &radius_m in &matrix.radius {
-            let (nodes, site) = (traces.grid.nodes(), matrix.site());
-            let places: Vec<_> = nodes
-                .iter()
-                .map(|node| traces.grid.robot_at(*node, site))
-                .collect();
             let runs: Vec<Run> = traces.runs.iter().take(matrix.seeds).cloned().collect();
             let mut before = 0.0;
             let order = greedy(&runs, &places, radius_m).into_iter().enumerate();
@@ -279,7 +288,7 @@ fn print_ranking(ranking: &Intersections) -> Result<(), Failure> {
 }
 
 fn record(arguments: &Record) -> Result<(), Failure> {
-    let Some(folder) = &arguments.streets.sumo else {
+    let Some(folder) = &arguments.mobility.sumo else {
         return Err(Failure::Input(
             "--sumo FOLDER is needed: where SUMO's programs are (python3 -m venv v && v/bin/pip \
              install eclipse-sumo, then v/bin)"
@@ -290,15 +299,15 @@ fn record(arguments: &Record) -> Result<(), Failure> {
     let interrupted = interrupts();
     std::fs::create_dir_all(&arguments.output).map_err(Failure::input)?;
     let sumo = Sumo::in_folder(folder);
-    let streets = &arguments.streets;
+    let mobility = &arguments.mobility;
     let seeds: Vec<u64> = (1..).take(arguments.seeds).collect();
     for &pedestrians in &arguments.pedestrians {
         if interrupted.load(Ordering::Relaxed) {
             return Err(Failure::Incomplete);
         }
-        let plan = streets.plan(pedestrians);
-        let traces = streets.record(&sumo, &plan, &seeds, false)?;
-        let name = format!("{}-{pedestrians}.json.gz", streets.preset_name());
+        let plan = mobility.plan(pedestrians);
+        let traces = mobility.record(&sumo, &plan, &seeds, false)?;
+        let name = format!("{}-{pedestrians}.json.gz", mobility.preset_name());
         let path = arguments.output.join(name);
         let file = std::fs::File::create(&path).and_then(|file| traces.write(file));
         file.map_err(Failure::at(&path))?;
@@ -312,7 +321,7 @@ fn record(arguments: &Record) -> Result<(), Failure> {
     Ok(())
 }
 
-impl Streets {
+impl Mobility {
     /// Records runs on a grid of this shape.
     fn record(
         &self,
@@ -333,7 +342,8 @@ impl Streets {
         }
         bar.finish_and_clear();
         Ok(Traces {
-            grid,
+            streets: Streets::Grid(grid),
+            is_proven: true,
             sample_ms: plan.sample_ms,
             runs,
         })

@@ -108,6 +108,52 @@ fn the_strict_rule_leaves_fewer_people_without_an_announcement() {
     assert!(strict < 0.02 && loose > 2.0 * strict, "{strict} {loose}");
 }
 
+/// A net and what moved on it, as SUMO writes them; where somebody is and when is said on standard error, and no statement
+/// about the paper's grid is judged.
+#[test]
+fn a_place_of_ones_own_is_measured_and_not_taken_for_the_papers() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.display().to_string()
+    };
+    let net = file(
+        "net.xml",
+        r#"<net><location convBoundary="0,0,90,0"/><junction id="a" type="priority" x="0" y="0"/></net>"#,
+    );
+    // Somebody walks 1 m a second for a minute, from the intersection on.
+    let steps = (0..=60)
+        .map(|s| format!(r#"<timestep time="{s}"><person id="p" x="{s}" y="0"/></timestep>"#));
+    let steps = steps.collect::<String>();
+    let fcd = file("fcd.xml", &format!("<fcd-export>{steps}</fcd-export>"));
+    let words = format!("obs --net {net} --fcd {fcd} --radius 15");
+    let output = simulate(&format!("{words} --robots 1 --json"));
+    assert_code(&output, 0);
+    stderr(&output).must_have(&[
+        "fcd.xml: 60s in steps of 1s, 1 people on foot (1 at once at most), 0 vehicles",
+    ]);
+    let percent = |report: &Value| report["cells"][0]["obs_percent"]["mean"].as_f64().unwrap();
+    let report = command::json(&output);
+    assert!((percent(&report) - 1_600.0 / 61.0).abs() < 1e-9, "{report}");
+    assert_eq!(report["statements"], serde_json::json!([]));
+    assert_eq!(report["parameters"]["net"]["intersections"], 1);
+    // One that walks along sees all of it.
+    let places = file("places.csv", "robot,time_s,x_m,y_m\nr,0,0,0\nr,60,60,0\n");
+    let report = json(&format!("{words} --robots 1 --json --robots-at {places}"));
+    assert!((percent(&report) - 100.0).abs() < 1e-9, "{report}");
+    let far = file(
+        "far.xml",
+        &format!(
+            "<fcd-export>{}</fcd-export>",
+            steps.replace("x=\"60\"", "x=\"160\"")
+        ),
+    );
+    let output = simulate(&format!("obs --net {net} --fcd {far}"));
+    assert_code(&output, 2);
+    stderr(&output).must_have(&["1 of 1 people and vehicles are outside of the net"]);
+}
+
 fn outcome(report: &Value, statement: &str) -> String {
     let lines = report["statements"].as_array().unwrap().iter();
     let line = lines.clone().find(|it| it["statement"] == statement);

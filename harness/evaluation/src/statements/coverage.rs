@@ -1,6 +1,6 @@
 //! What the paper states of coverage, beside what was measured.
 
-use super::super::grid::INTERSECTION_M;
+use super::super::grid::{Grid, INTERSECTION_M};
 use super::super::matrix::ObsCell;
 use super::super::paper::PAPER;
 use super::super::statistics::Estimate;
@@ -11,12 +11,15 @@ use super::{Comparison, Setting, Statement, all_of, is_of, over_densities, same}
 /// By how much the ratio of the coverages at two radii may differ from that of the radii, as a share of it.
 const PROPORTION_TOLERANCE: f64 = 0.2;
 
-/// What the paper states of coverage, beside what was measured.
+/// What the paper states of coverage, beside what was measured; nothing where the streets are no grid.
 #[must_use]
 pub fn of_coverage(setting: Setting<'_>, cells: &[ObsCell]) -> Vec<Comparison> {
+    let Some(grid) = setting.streets.grid() else {
+        return Vec::new();
+    };
     let people = cells.iter().map(|cell| cell.pedestrians);
     let mut lines = setup(setting, people);
-    lines.extend([crossings(setting, cells), same_routes(cells)]);
+    lines.extend([crossings(grid, cells), same_routes(cells)]);
     let at = |robots, people, radius_m| {
         let is = |cell: &&ObsCell| {
             (cell.robots, cell.pedestrians) == (robots, people) && same(cell.radius_m, radius_m)
@@ -80,11 +83,11 @@ pub fn of_coverage(setting: Setting<'_>, cells: &[ObsCell]) -> Vec<Comparison> {
 }
 
 /// Where people cross, by where they were.
-fn crossings(setting: Setting<'_>, cells: &[ObsCell]) -> Comparison {
+fn crossings(grid: &Grid, cells: &[ObsCell]) -> Comparison {
     let shares = cells.iter().map(|it| it.on_road_between_percent.mean);
     let most = (!cells.is_empty()).then_some(shares.fold(0.0, f64::max));
     Statement::Crossings.judge(&"on both sides of the roads", most, |most| {
-        let wide_m = setting.grid.sidewalk_m;
+        let wide_m = grid.sidewalk_m;
         let text = format!("{wide_m} m wide, {most:.2} % of the time on a road elsewhere");
         (text, wide_m > 0.0 && most.abs() < 1e-9)
     })

@@ -13,9 +13,12 @@ const WRONG_MAX_PERCENT: f64 = 5.0;
 /// The cells of the paper with robots, at both radii: first the smaller, then the larger one.
 type Pairs<'a> = Vec<[&'a CbrCell; 2]>;
 
-/// What the paper states of channel load, beside what was measured.
+/// What the paper states of channel load, beside what was measured; nothing where the streets are no grid.
 #[must_use]
 pub fn of_load(setting: Setting<'_>, cells: &[CbrCell]) -> Vec<Comparison> {
+    if setting.streets.grid().is_none() {
+        return Vec::new();
+    }
     let people = cells.iter().map(|cell| cell.pedestrians);
     let mut lines = setup(setting, people);
     lines.extend(setting.behaviour.into_iter().flat_map(on_the_air));

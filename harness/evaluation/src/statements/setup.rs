@@ -3,6 +3,7 @@
 use super::super::behaviour::Behaviour;
 use super::super::messages::{DATA_RATE_MBPS, SYMBOL_US};
 use super::super::paper::PAPER;
+use super::super::schedule::Schedule;
 use super::super::vru::Understands;
 use super::text::numbers;
 use super::{Comparison, Outcome, Setting, Statement, same};
@@ -13,11 +14,15 @@ const SAMPLES_PER_SYMBOL: u64 = 80;
 /// What the paper states of the streets and who is on them.
 pub(super) fn setup(setting: Setting<'_>, people: impl Iterator<Item = usize>) -> Vec<Comparison> {
     let Setting {
-        grid,
+        streets,
+        is_proven,
         vehicles,
         axes,
         ..
     } = setting;
+    let Some(grid) = streets.grid() else {
+        return Vec::new();
+    };
     let side = grid.nodes_per_side;
     let mut people: Vec<usize> = people.collect();
     people.sort_unstable();
@@ -32,16 +37,27 @@ pub(super) fn setup(setting: Setting<'_>, people: impl Iterator<Item = usize>) -
     distinct.dedup();
     let place = |[column, row]: [usize; 2]| format!("({column}, {row})");
     let central = place(PAPER.central_intersection);
-    let patrol_mps = axes.stationing.patrol_mps;
-    let robots = patrol_mps.map_or("stand".to_owned(), |speed| format!("walk at {speed} m/s"));
+    let stationing = &axes.stationing;
+    let by_file = stationing.robots_at.iter().flatten();
+    let robots = match stationing.patrol_mps {
+        Some(speed) => format!("walk at {speed} m/s"),
+        None if by_file.clone().any(Schedule::moves) => "move by a file".to_owned(),
+        None => "stand".to_owned(),
+    };
     vec![
         Statement::Grid.compare(
             &format_args!("{0} x {0}, {1} m", PAPER.nodes_per_side, PAPER.segment_m),
             &format_args!("{side} x {side}, {} m", grid.segment_m),
             side == PAPER.nodes_per_side && same(grid.segment_m, PAPER.segment_m),
         ),
-        Statement::Mobility.compare(&"SUMO", &grid.mobility, grid.mobility.contains("SUMO")),
-        Statement::Vehicles.compare(&PAPER.vehicles, &vehicles, vehicles == PAPER.vehicles),
+        Statement::Mobility.judge(&"SUMO", is_proven.then_some(()), |()| {
+            (grid.mobility.clone(), true)
+        }),
+        Statement::Vehicles.compare(
+            &PAPER.vehicles,
+            &numbers(vehicles),
+            vehicles == [PAPER.vehicles],
+        ),
         Statement::Pedestrians.compare(
             &numbers(&PAPER.pedestrians),
             &numbers(&people),
@@ -62,18 +78,21 @@ pub(super) fn setup(setting: Setting<'_>, people: impl Iterator<Item = usize>) -
             (has(9) && !nine.is_empty()).then_some(distinct.len()),
             |distinct| (format!("{distinct} different ones"), distinct == 9),
         ),
-        Statement::StaticRobots.compare(&"stand", &robots, patrol_mps.is_none()),
+        Statement::StaticRobots.compare(&"stand", &robots, robots == "stand"),
     ]
 }
 
 /// Column and row, from 1, of the intersection that each of these robots is nearest to at the beginning; none if
 /// there is no room for as many.
 fn intersections(setting: Setting<'_>, robots: usize) -> Vec<[usize; 2]> {
-    let Setting { grid, axes, .. } = setting;
-    if axes.stationing.check(grid, robots).is_err() {
+    let Setting { streets, axes, .. } = setting;
+    let Some(grid) = streets.grid() else {
+        return Vec::new();
+    };
+    if axes.stationing.check(streets, robots).is_err() {
         return Vec::new();
     }
-    let robots = axes.stationing.robots(grid, robots, 0, 100);
+    let robots = axes.stationing.robots(streets, robots, 0, 100);
     let nearest = |metres: f64| {
         #[expect(
             clippy::cast_possible_truncation,

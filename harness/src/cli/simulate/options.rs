@@ -7,17 +7,20 @@ use std::path::PathBuf;
 
 use clap::builder::TypedValueParser;
 use crossguard_evaluation::behaviour::Behaviour;
+use crossguard_evaluation::fcd;
 use crossguard_evaluation::grid::{Grid, Preset, Site};
 use crossguard_evaluation::matrix::Axes;
+use crossguard_evaluation::net::{Net, Streets};
 use crossguard_evaluation::paper::PAPER;
+use crossguard_evaluation::schedule::Schedule;
 use crossguard_evaluation::shipped;
 use crossguard_evaluation::simulation::CHECK_MS;
 use crossguard_evaluation::statements::Setting;
 use crossguard_evaluation::stationing::Stationing;
 use crossguard_evaluation::sumo::{Plan, Sumo};
-use crossguard_evaluation::trace::Traces;
+use crossguard_evaluation::trace::{Run, Traces};
 use crossguard_evaluation::vru::{Suppression, Understands, VamRule};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::Failure;
 use crate::cli::choices::one_of;
@@ -26,7 +29,7 @@ use crate::cli::ranges::{any, number, threads, whole};
 
 /// The streets, and who moves on them.
 #[derive(clap::Args)]
-pub(super) struct Streets {
+pub(super) struct Mobility {
     /// Assumptions on the geometry, which the paper does not state.
     #[arg(long, value_parser = preset(), default_value = "kerb")]
     pub(super) preset: Preset,
@@ -51,7 +54,7 @@ impl Output {
     }
 }
 
-impl Streets {
+impl Mobility {
     pub(super) const fn preset_name(&self) -> &'static str {
         self.preset.name()
     }
@@ -78,19 +81,23 @@ impl Streets {
 #[derive(clap::Args)]
 pub(super) struct Matrix {
     #[command(flatten)]
-    streets: Streets,
+    mobility: Mobility,
     /// Use these trace files instead of the shipped ones.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["sumo", "pedestrians"], num_args = 1..)]
     traces: Vec<PathBuf>,
-    /// Numbers of robots: the first one at the middle intersection, the others around it.
-    #[arg(
-        long,
-        value_delimiter = ',',
-        default_value = "0,1,9",
-        value_name = "N,…",
-        value_parser = whole::<usize>(0..=10_000)
-    )]
-    robots: Vec<usize>,
+    /// Streets of your own: a net of SUMO (NET.xml, plain or .gz). Robots stand at its intersections.
+    #[arg(long, value_name = "NET", requires = "fcd", conflicts_with_all = ["preset", "sumo", "traces", "pedestrians", "site", "per_intersection", "patrol"])]
+    net: Option<PathBuf>,
+    /// What moves on them: floating car data of SUMO (--fcd-output, plain or .gz), a run for each file.
+    #[arg(long, value_name = "FCD", requires = "net", num_args = 1..)]
+    fcd: Vec<PathBuf>,
+    /// Where robots are and when, as lines of robot,time_s,x_m,y_m; one with several lines moves.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["site", "per_intersection", "patrol"])]
+    robots_at: Option<PathBuf>,
+    /// Numbers of robots: the first one at the middle intersection, the others around it. 0,1,9 by default, or
+    /// none and all of --robots-at.
+    #[arg(long, value_delimiter = ',', value_name = "N,…", value_parser = whole::<usize>(0..=10_000))]
+    robots: Option<Vec<usize>>,
     /// Numbers of people on foot.
     #[arg(
         long,
@@ -131,10 +138,10 @@ pub(super) struct Matrix {
 }
 
 impl std::ops::Deref for Matrix {
-    type Target = Streets;
+    type Target = Mobility;
 
-    fn deref(&self) -> &Streets {
-        &self.streets
+    fn deref(&self) -> &Mobility {
+        &self.mobility
     }
 }
 
@@ -143,32 +150,48 @@ impl Matrix {
         self.site.unwrap_or_else(|| self.preset.site())
     }
 
-    fn stationing(&self) -> Stationing {
-        Stationing {
-            robots_per_intersection: self.per_intersection,
-            patrol_mps: self.patrol,
-            ..Stationing::at(self.site())
-        }
+    /// The preset by which the streets are made, if they are.
+    pub(super) fn preset_of(&self, traces: &[Traces]) -> Option<&'static str> {
+        let is_grid = traces.iter().all(|it| it.streets.grid().is_some());
+        is_grid.then(|| self.preset_name())
     }
 
-    pub(super) fn axes(&self) -> Axes {
+    fn stationing(&self) -> Result<Stationing, Failure> {
+        let robots_at = self.robots_at.as_ref().map(|path| {
+            let robots = File::open(path).map_err(Failure::at(path))?;
+            Schedule::read(robots).map_err(Failure::at(path))
+        });
+        Ok(Stationing {
+            robots_per_intersection: self.per_intersection,
+            patrol_mps: self.patrol,
+            robots_at: robots_at.transpose()?,
+            ..Stationing::at(self.site())
+        })
+    }
+
+    pub(super) fn axes(&self) -> Result<Axes, Failure> {
         let processors = || std::thread::available_parallelism().ok();
-        Axes {
-            robots: self.robots.clone(),
+        let stationing = self.stationing()?;
+        let all = stationing.robots_at.as_ref().map(|it| vec![0, it.len()]);
+        let robots = self.robots.clone().or(all);
+        Ok(Axes {
+            robots: robots.unwrap_or_else(|| PAPER.robots.to_vec()),
             radii_m: self.radius.clone(),
-            stationing: self.stationing(),
+            stationing,
             seeds: self.seeds,
             threads: self
                 .threads
                 .or_else(processors)
                 .map_or(1, NonZeroUsize::get),
-        }
+        })
     }
 
     /// The traces: files, fresh ones, or the shipped ones.
-    pub(super) fn traces(&self, is_json: bool) -> Result<Vec<Traces>, Failure> {
+    pub(super) fn traces(&self, axes: &Axes, is_json: bool) -> Result<Vec<Traces>, Failure> {
         let people = self.pedestrians.iter();
-        let traces: Result<Vec<_>, Failure> = if !self.traces.is_empty() {
+        let traces: Result<Vec<_>, Failure> = if let Some(net) = &self.net {
+            Ok(vec![recorded(net, &self.fcd)?])
+        } else if !self.traces.is_empty() {
             self.traces.iter().map(read).collect()
         } else if let Some(folder) = &self.sumo {
             let sumo = Sumo::in_folder(folder);
@@ -186,23 +209,23 @@ impl Matrix {
             people.map(shipped).collect()
         };
         let traces = traces?;
-        let most = self.robots.iter().max().copied().unwrap_or(0);
+        let most = axes.robots.iter().max().copied().unwrap_or(0);
         for traces in &traces {
-            let stationing = self.stationing();
-            let checked = stationing.check(&traces.grid, most);
+            let checked = axes.stationing.check(&traces.streets, most);
             checked.map_err(Failure::input)?;
         }
         Ok(traces)
     }
 
     /// Whether a run with these parameters is the one that the evaluation page documents.
-    pub(super) fn is_documented(&self, parameters: &Parameters) -> bool {
+    pub(super) fn is_documented(&self, axes: &Axes, parameters: &Parameters) -> bool {
         let is_default = |behaviour: &Behaviour| *behaviour == Behaviour::default();
         self.traces.is_empty()
+            && self.net.is_none()
             && self.sumo.is_none()
             && self.preset == Preset::Kerb
-            && self.stationing() == Stationing::at(Preset::Kerb.site())
-            && self.robots == PAPER.robots
+            && axes.stationing == Stationing::at(Preset::Kerb.site())
+            && axes.robots == PAPER.robots
             && self.pedestrians == PAPER.pedestrians
             && self.radius == PAPER.radii_m
             && parameters.seeds == 10
@@ -210,27 +233,42 @@ impl Matrix {
     }
 
     /// What the results depend on.
-    pub(super) fn parameters(&self, traces: &[Traces], behaviour: Option<Behaviour>) -> Parameters {
+    pub(super) fn parameters(
+        &self,
+        axes: &Axes,
+        traces: &[Traces],
+        behaviour: Option<Behaviour>,
+    ) -> Parameters {
         let first = traces.first();
-        let grid = first.map_or_else(|| self.grid(), |traces| traces.grid.clone());
-        let corner_m = grid.corner_m();
+        let streets = first.map_or_else(
+            || Streets::Grid(self.grid()),
+            |traces| traces.streets.clone(),
+        );
+        let corner_m = streets.grid().map(Grid::corner_m);
+        let runs = || traces.iter().flat_map(|it| it.runs.iter().take(self.seeds));
+        let runs_of = |of: fn(&Run) -> usize| {
+            let mut numbers: Vec<usize> = runs().map(of).collect();
+            numbers.sort_unstable();
+            numbers.dedup();
+            numbers
+        };
         Parameters {
-            stationing: self.stationing(),
-            robot_offset_m: if self.site() == Site::Center {
-                0.0
-            } else {
-                corner_m
-            },
-            grid,
-            vehicles: first
-                .and_then(|it| Some(it.runs.first()?.vehicles.len()))
-                .unwrap_or(0),
+            stationing: axes.stationing.clone(),
+            robot_offset_m: corner_m
+                .filter(|_| axes.stationing.robots_at.is_none())
+                .map(|corner_m| match self.site() {
+                    Site::Center => 0.0,
+                    _ => corner_m,
+                }),
+            streets,
+            is_proven: traces.iter().all(|it| it.is_proven),
+            vehicles: runs_of(|it| it.vehicles.len()),
             seeds: traces
                 .iter()
                 .map(|it| it.runs.len().min(self.seeds))
                 .min()
                 .unwrap_or(0),
-            duration_s: first.map_or(0, |traces| traces.duration_ms() / 1_000),
+            duration_s: runs_of(|it| usize::try_from(it.duration_ms() / 1_000).unwrap_or(0)),
             sample_ms: first.map_or(0, |traces| traces.sample_ms),
             true_rates: behaviour.as_ref().map(Rates::of),
             behaviour,
@@ -244,16 +282,54 @@ fn read(path: &PathBuf) -> Result<Traces, Failure> {
     traces.map_err(Failure::at(path))
 }
 
+/// A net, and what moved on it: a run for each file. Says on standard error what is in them.
+fn recorded(net: &PathBuf, fcd: &[PathBuf]) -> Result<Traces, Failure> {
+    let open = |path: &PathBuf| File::open(path).map_err(Failure::at(path));
+    let streets = Net::read(open(net)?).map_err(Failure::at(net))?;
+    let (mut runs, mut sample_ms) = (Vec::new(), None);
+    for (seed, path) in (1..).zip(fcd) {
+        let recording = fcd::read(open(path)?, seed).map_err(Failure::at(path))?;
+        streets.check(&recording.run).map_err(Failure::at(path))?;
+        let first_ms = *sample_ms.get_or_insert(recording.sample_ms);
+        if recording.sample_ms != first_ms {
+            let step_ms = recording.sample_ms;
+            let why = format!(
+                "has steps of {step_ms} ms, and the first file of {first_ms} ms: record both alike"
+            );
+            return Err(Failure::at(path)(why));
+        }
+        // Standard error may be gone; the parameters have most of it as well.
+        let _ = writeln!(
+            std::io::stderr(),
+            "crossguard: {}: {recording}, seed {seed}",
+            path.display()
+        );
+        runs.push(recording.run);
+    }
+    Ok(Traces {
+        streets: Streets::Net(streets),
+        is_proven: false,
+        sample_ms: sample_ms.unwrap_or(0),
+        runs,
+    })
+}
+
 /// What the results depend on besides robots, people and radius.
 #[derive(Serialize)]
 pub(super) struct Parameters {
-    grid: Grid,
+    #[serde(flatten)]
+    streets: Streets,
+    #[serde(skip)]
+    is_proven: bool,
     #[serde(flatten)]
     stationing: Stationing,
-    robot_offset_m: f64,
-    vehicles: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    robot_offset_m: Option<f64>,
+    #[serde(serialize_with = "one_or_all")]
+    vehicles: Vec<usize>,
     seeds: usize,
-    duration_s: u64,
+    #[serde(serialize_with = "one_or_all")]
+    duration_s: Vec<usize>,
     sample_ms: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
     true_rates: Option<Rates>,
@@ -286,12 +362,21 @@ impl Rates {
     }
 }
 
+/// One number where it is the same in all runs, else all that there are.
+fn one_or_all<S: Serializer>(numbers: &[usize], to: S) -> Result<S::Ok, S::Error> {
+    match numbers {
+        [one] => one.serialize(to),
+        all => all.serialize(to),
+    }
+}
+
 impl Parameters {
     /// What statements of the paper are compared with.
-    pub(super) const fn setting<'a>(&'a self, axes: &'a Axes) -> Setting<'a> {
+    pub(super) fn setting<'a>(&'a self, axes: &'a Axes) -> Setting<'a> {
         Setting {
-            grid: &self.grid,
-            vehicles: self.vehicles,
+            streets: &self.streets,
+            is_proven: self.is_proven,
+            vehicles: &self.vehicles,
             axes,
             behaviour: self.behaviour.as_ref(),
         }

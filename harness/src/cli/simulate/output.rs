@@ -82,6 +82,9 @@ pub(super) fn print_statements(
     is_documented: bool,
     statements: &[Comparison],
 ) -> Result<(), Failure> {
+    if statements.is_empty() {
+        return Ok(());
+    }
     let setting = if is_documented {
         "at the documented setting"
     } else {

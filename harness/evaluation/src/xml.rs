@@ -1,0 +1,131 @@
+//! SUMO's files: XML, plain or packed by gzip, element by element.
+
+use std::borrow::Cow;
+use std::io::{BufRead, BufReader, Read};
+
+use flate2::bufread::MultiGzDecoder;
+use quick_xml::XmlVersion;
+use quick_xml::events::{BytesStart, Event};
+use quick_xml::reader::Reader;
+
+/// Why a file of SUMO cannot be used. Each says what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum SumoFileError {
+    /// It cannot be read or unpacked.
+    #[error("cannot be read: {0}; SUMO's XML is wanted, plain or packed by gzip")]
+    Unreadable(#[from] std::io::Error),
+    /// It is not XML.
+    #[error("is not XML at octet {at}: {cause}; SUMO's XML is wanted, plain or packed by gzip")]
+    NotXml {
+        /// Where, in octets from the beginning.
+        at: u64,
+        /// Why.
+        cause: quick_xml::Error,
+    },
+    /// Its root is another element, or its end is missing.
+    #[error("{0}")]
+    Root(String),
+    /// An attribute is missing or is no number.
+    #[error("<{element}> at octet {at} has no usable {attribute}: {wanted} is wanted")]
+    Attribute {
+        /// The element's name.
+        element: String,
+        /// Where its end is, in octets from the beginning.
+        at: u64,
+        /// Which attribute.
+        attribute: &'static str,
+        /// What is wanted.
+        wanted: &'static str,
+    },
+    /// Its numbers do not fit.
+    #[error("{0}")]
+    Misfit(String),
+}
+
+/// An element with its attributes.
+pub(super) struct Element<'a> {
+    start: &'a BytesStart<'a>,
+    at: u64,
+}
+
+impl Element<'_> {
+    pub(super) fn is(&self, name: &str) -> bool {
+        self.start.name().as_ref() == name.as_bytes()
+    }
+
+    /// The text of an attribute; empty without it.
+    pub(super) fn text(&self, attribute: &'static str) -> String {
+        let found = self.start.try_get_attribute(attribute).ok().flatten();
+        let text = found.and_then(|it| {
+            let value = it.normalized_value(XmlVersion::Implicit1_0);
+            value.map(Cow::into_owned).ok()
+        });
+        text.unwrap_or_default()
+    }
+
+    /// What an attribute stands for, by `of`.
+    pub(super) fn value<T>(
+        &self,
+        attribute: &'static str,
+        wanted: &'static str,
+        of: impl Fn(&str) -> Option<T>,
+    ) -> Result<T, SumoFileError> {
+        of(&self.text(attribute)).ok_or_else(|| SumoFileError::Attribute {
+            element: String::from_utf8_lossy(self.start.name().as_ref()).into_owned(),
+            at: self.at,
+            attribute,
+            wanted,
+        })
+    }
+
+    pub(super) fn number(&self, attribute: &'static str) -> Result<f64, SumoFileError> {
+        let finite = |text: &str| text.parse().ok().filter(|it: &f64| it.is_finite());
+        self.value(attribute, "a number", finite)
+    }
+}
+
+/// Calls `each` for every element below the root, which has this name.
+pub(super) fn elements(
+    from: impl Read,
+    root: &str,
+    mut each: impl FnMut(&Element<'_>) -> Result<(), SumoFileError>,
+) -> Result<(), SumoFileError> {
+    let mut from = BufReader::new(from);
+    let is_packed = from.fill_buf()?.starts_with(&[0x1f, 0x8b]);
+    let from: Box<dyn BufRead> = if is_packed {
+        Box::new(BufReader::new(MultiGzDecoder::new(from)))
+    } else {
+        Box::new(from)
+    };
+    let mut reader = Reader::from_reader(from);
+    let (mut buffer, mut depth, mut is_whole) = (Vec::new(), 0_u32, false);
+    loop {
+        buffer.clear();
+        let event = reader.read_event_into(&mut buffer);
+        let at = reader.buffer_position();
+        let event = event.map_err(|cause| SumoFileError::NotXml { at, cause })?;
+        if let Event::Start(start) | Event::Empty(start) = &event {
+            let element = Element { start, at };
+            if depth > 0 {
+                each(&element)?;
+            } else if !element.is(root) {
+                let name = String::from_utf8_lossy(start.name().as_ref()).into_owned();
+                let why = format!("is a <{name}> of SUMO, and a <{root}> is wanted");
+                return Err(SumoFileError::Root(why));
+            }
+        }
+        match event {
+            Event::Start(_) => depth += 1,
+            Event::End(_) => {
+                depth = depth.saturating_sub(1);
+                is_whole = depth == 0;
+            }
+            Event::Eof if is_whole => return Ok(()),
+            Event::Eof => {
+                let why = format!("ends after {at} octets without </{root}>: write it anew");
+                return Err(SumoFileError::Root(why));
+            }
+            _ => {}
+        }
+    }
+}
