@@ -48,24 +48,32 @@ pub const fn frame_octets(message: usize, signed: Signed) -> usize {
     MAC + LLC + NETWORK + message + security
 }
 
-/// Data rate of the 10 MHz channel, in Mbit/s: the default of ITS-G5. The paper does not state it.
-pub const DATA_RATE_MBPS: u64 = 6;
+/// Data rates of the 10 MHz channel, in Mbit/s (IEEE 802.11, clause 17).
+pub const DATA_RATES_MBPS: [f64; 8] = [3.0, 4.5, 6.0, 9.0, 12.0, 18.0, 24.0, 27.0];
+/// The default of ITS-G5, in Mbit/s. The paper does not state it.
+pub const DATA_RATE_MBPS: f64 = 6.0;
 /// How long a symbol takes, in microseconds.
 pub const SYMBOL_US: u64 = 8;
 
-/// How long a frame of these octets is in the air, in microseconds: IEEE 802.11 with 10 MHz at 6 Mbit/s.
-/// 40 us of preamble and signal, then symbols of 8 us with 48 bits each, among them 16 of service and 6
-/// of tail.
+/// How long a frame of these octets is in the air at one of [`DATA_RATES_MBPS`], in microseconds: IEEE 802.11 with
+/// 10 MHz. 40 us of preamble and signal, then symbols of 8 us, of 48 bits each at 6 Mbit/s, among them 16 of service
+/// and 6 of tail.
 #[must_use]
-pub const fn air_time_us(octets: usize) -> u64 {
-    let symbols = (16 + 6 + 8 * octets as u64).div_ceil(DATA_RATE_MBPS * SYMBOL_US);
-    40 + symbols * SYMBOL_US
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "24 to 216 bits"
+)]
+pub const fn air_time_us(octets: usize, data_rate_mbps: f64) -> u64 {
+    let bits = (data_rate_mbps * SYMBOL_US as f64) as u64;
+    40 + (16 + 6 + 8 * octets as u64).div_ceil(bits) * SYMBOL_US
 }
 
 /// How long a `GeoNetworking` packet of these octets is in the air, in microseconds.
 #[must_use]
 pub const fn packet_air_time_us(octets: usize) -> u64 {
-    air_time_us(MAC + LLC + octets)
+    air_time_us(MAC + LLC + octets, DATA_RATE_MBPS)
 }
 
 /// Octets of the messages whose size follows from their containers.
@@ -164,8 +172,10 @@ mod tests {
     #[test]
     fn the_air_time_is_that_of_the_standard() {
         for (octets, us) in [(141, 232), (234, 360), (390, 568), (400, 584)] {
-            assert_eq!(air_time_us(octets), us, "{octets} octets");
+            assert_eq!(air_time_us(octets, DATA_RATE_MBPS), us, "{octets} octets");
         }
+        // 1150 bits: 48 symbols of 24 bits, 6 of 216.
+        assert_eq!((air_time_us(141, 3.0), air_time_us(141, 27.0)), (424, 88));
         assert_eq!(frame_octets(59, Signed::No), 141);
         assert_eq!(frame_octets(59, Signed::ByDigest), 234);
         assert_eq!(frame_octets(59, Signed::WithCertificate), 390);

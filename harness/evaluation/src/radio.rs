@@ -9,6 +9,8 @@ use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
+use super::messages::DATA_RATE_MBPS;
+
 /// One slot, in microseconds.
 const SLOT_US: u64 = 13;
 /// SIFS, in microseconds.
@@ -22,6 +24,8 @@ pub const WINDOW_US: u64 = 100_000;
 pub struct Radio {
     /// Transmission power with antenna gains, in dBm.
     pub power_dbm: f64,
+    /// Data rate, in Mbit/s; one of [`DATA_RATES_MBPS`](super::messages::DATA_RATES_MBPS).
+    pub data_rate_mbps: f64,
     /// Path loss at 1 m, in dB: free space at 5.9 GHz.
     pub loss_at_1_m_db: f64,
     /// Path loss exponent.
@@ -44,6 +48,7 @@ impl Default for Radio {
     fn default() -> Self {
         Self {
             power_dbm: 23.0,
+            data_rate_mbps: DATA_RATE_MBPS,
             loss_at_1_m_db: 47.86,
             exponent: 2.2,
             sense_dbm: -85.0,

@@ -474,7 +474,7 @@ impl<'a> Simulation<'a> {
         let Some(frame) = station.waiting.pop_front() else {
             return;
         };
-        let duration_us = air_time_us(frame.octets);
+        let duration_us = air_time_us(frame.octets, self.behaviour.radio.data_rate_mbps);
         if now_us > SETTLING_US {
             let kind = match frame.payload {
                 Payload::Cam => 0,

@@ -2,6 +2,7 @@
 
 mod options;
 mod output;
+mod parameters;
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -10,17 +11,14 @@ use std::sync::atomic::Ordering;
 use crossguard_evaluation::coverage::greedy;
 use crossguard_evaluation::matrix;
 use crossguard_evaluation::messages::Sizes;
-use crossguard_evaluation::net::Streets;
 use crossguard_evaluation::paper::{PAPER, PaperSimulation};
 use crossguard_evaluation::statements::{self, Comparison};
 use crossguard_evaluation::stationing::Stationing;
-use crossguard_evaluation::sumo::{Plan, Sumo};
-use crossguard_evaluation::trace::{Run, Traces};
+use crossguard_evaluation::trace::Run;
 use serde::Serialize;
 
-use self::options::{Air, Matrix, Mobility, Output, Parameters, Placement};
+use self::options::{Air, Assumptions, Matrix, Mobility, Output, Placement};
 use super::interrupts::interrupts;
-use super::ranges::whole;
 use super::{Failure, csv, destinations, print, print_json};
 
 #[derive(clap::Args)]
@@ -77,18 +75,6 @@ struct Rank {
 struct Record {
     #[command(flatten)]
     mobility: Mobility,
-    /// Numbers of people on foot, a file for each.
-    #[arg(
-        long,
-        value_delimiter = ',',
-        default_value = "20,50,100",
-        value_name = "N,…",
-        value_parser = whole::<usize>(1..=100_000)
-    )]
-    pedestrians: Vec<usize>,
-    /// How many runs a file has; their seeds are 1, 2, 3 and so on.
-    #[arg(long, default_value_t = 10, value_name = "N", value_parser = whole::<usize>(1..=100_000))]
-    seeds: usize,
     /// The folder that the files are written to.
     #[arg(long, default_value = ".", value_name = "FOLDER")]
     output: PathBuf,
@@ -109,7 +95,7 @@ struct SimulateReport<'a, C> {
     preset: Option<&'a str>,
     /// Whether nothing was set otherwise than the evaluation page documents it.
     documented: bool,
-    parameters: &'a Parameters,
+    parameters: &'a Assumptions,
     cells: &'a [C],
     /// What the paper states of its simulation.
     paper: &'a PaperSimulation,
@@ -118,14 +104,14 @@ struct SimulateReport<'a, C> {
 }
 
 fn obs(arguments: &Obs) -> Result<(), Failure> {
-    let matrix = &arguments.matrix;
     arguments.output.check()?;
     let interrupted = interrupts();
-    let axes = matrix.axes()?;
-    let traces = matrix.traces(&axes, arguments.output.json)?;
+    let chosen = arguments.matrix.parameters(None)?;
+    let axes = chosen.axes()?;
+    let traces = chosen.traces(&axes, arguments.output.json)?;
     let go_on = || !interrupted.load(Ordering::Relaxed);
     let cells = matrix::obs(&traces, &axes, go_on);
-    let parameters = matrix.parameters(&axes, &traces, None);
+    let parameters = Assumptions::of(&axes, &traces, None);
     let was_stopped = interrupted.load(Ordering::Relaxed);
     // Where files cannot be written, the figures are printed all the same.
     let written = csv::write(arguments.output.csv.as_deref(), &cells);
@@ -134,9 +120,9 @@ fn obs(arguments: &Obs) -> Result<(), Failure> {
     } else {
         statements::of_coverage(parameters.setting(&axes), &cells)
     };
-    let documented = matrix.is_documented(&axes, &parameters);
+    let documented = chosen.is_documented(&axes, parameters.seeds());
     let report = SimulateReport {
-        preset: matrix.preset_of(&traces),
+        preset: chosen.preset_of(&traces),
         documented,
         parameters: &parameters,
         cells: &cells,
@@ -149,13 +135,13 @@ fn obs(arguments: &Obs) -> Result<(), Failure> {
 }
 
 fn cbr(arguments: &Cbr) -> Result<(), Failure> {
-    let matrix = &arguments.matrix;
     arguments.output.check()?;
     destinations::files([&arguments.air.silences])?;
-    let behaviour = arguments.air.behaviour().map_err(Failure::Input)?;
+    let chosen = arguments.matrix.parameters(Some(&arguments.air))?;
     let interrupted = interrupts();
-    let axes = matrix.axes()?;
-    let traces = matrix.traces(&axes, arguments.output.json)?;
+    let axes = chosen.axes()?;
+    let traces = chosen.traces(&axes, arguments.output.json)?;
+    let behaviour = chosen.behaviour.clone();
     let sizes = Sizes::measure(behaviour.cam_path_points).map_err(Failure::input)?;
     let bar = output::progress(arguments.output.json, "runs");
     let done = |finished: usize, of: usize| {
@@ -167,7 +153,7 @@ fn cbr(arguments: &Cbr) -> Result<(), Failure> {
     bar.finish_and_clear();
     let results = cells.map_err(Failure::input)?;
     let cells = results.cells;
-    let parameters = matrix.parameters(&axes, &traces, Some(behaviour));
+    let parameters = Assumptions::of(&axes, &traces, Some(behaviour));
     let was_stopped = interrupted.load(Ordering::Relaxed);
     // Where files cannot be written, the figures are printed all the same.
     let written = csv::write(arguments.output.csv.as_deref(), &cells);
@@ -178,9 +164,9 @@ fn cbr(arguments: &Cbr) -> Result<(), Failure> {
     } else {
         statements::of_load(parameters.setting(&axes), &cells)
     };
-    let documented = matrix.is_documented(&axes, &parameters);
+    let documented = chosen.is_documented(&axes, parameters.seeds());
     let report = SimulateReport {
-        preset: matrix.preset_of(&traces),
+        preset: chosen.preset_of(&traces),
         documented,
         parameters: &parameters,
         cells: &cells,
@@ -229,16 +215,16 @@ struct Ranked {
 
 fn place(arguments: &Rank) -> Result<(), Failure> {
     let Placement::Greedy = arguments.place;
-    let matrix = &arguments.matrix;
+    let chosen = arguments.matrix.parameters(None)?;
     let mut rankings = Vec::new();
-    let axes = matrix.axes()?;
-    for traces in matrix.traces(&axes, arguments.json)? {
+    let axes = chosen.axes()?;
+    for traces in chosen.traces(&axes, arguments.json)? {
         let nodes = traces.streets.nodes();
         let stationing = Stationing::at(axes.stationing.robot_site);
         let robots = stationing.robots(&traces.streets, nodes.len(), 0, traces.sample_ms);
         let places: Vec<_> = robots.iter().map(|it| it.place_at(0)).collect();
-        for &radius_m in &matrix.radius {
-            let runs: Vec<Run> = traces.runs.iter().take(matrix.seeds).cloned().collect();
+        for &radius_m in &axes.radii_m {
+            let runs: Vec<Run> = traces.runs.iter().take(axes.seeds).cloned().collect();
             let mut before = 0.0;
             let order = greedy(&runs, &places, radius_m).into_iter().enumerate();
             let ranked = order.map(|(rank, (index, covered))| {
@@ -288,64 +274,28 @@ fn print_ranking(ranking: &Intersections) -> Result<(), Failure> {
 }
 
 fn record(arguments: &Record) -> Result<(), Failure> {
-    let Some(folder) = &arguments.mobility.sumo else {
-        return Err(Failure::Input(
-            "--sumo FOLDER is needed: where SUMO's programs are (python3 -m venv v && v/bin/pip \
-             install eclipse-sumo, then v/bin)"
-                .to_owned(),
-        ));
-    };
+    let chosen = arguments.mobility.parameters()?;
+    let sumo = chosen.sumo()?;
     destinations::folder(&arguments.output)?;
     let interrupted = interrupts();
     std::fs::create_dir_all(&arguments.output).map_err(Failure::input)?;
-    let sumo = Sumo::in_folder(folder);
-    let mobility = &arguments.mobility;
-    let seeds: Vec<u64> = (1..).take(arguments.seeds).collect();
-    for &pedestrians in &arguments.pedestrians {
+    let seeds: Vec<u64> = (1..).take(chosen.fresh()).collect();
+    for &pedestrians in chosen.pedestrians() {
         if interrupted.load(Ordering::Relaxed) {
             return Err(Failure::Incomplete);
         }
-        let plan = mobility.plan(pedestrians);
-        let traces = mobility.record(&sumo, &plan, &seeds, false)?;
-        let name = format!("{}-{pedestrians}.json.gz", mobility.preset_name());
+        let plan = chosen.plan(pedestrians);
+        let traces = chosen.record(&sumo, &plan, &seeds, false)?;
+        let name = format!("{}-{pedestrians}.json.gz", chosen.preset_name());
         let path = arguments.output.join(name);
         let file = std::fs::File::create(&path).and_then(|file| traces.write(file));
         file.map_err(Failure::at(&path))?;
         print(format_args!(
             "{}: {} runs of {} s",
             path.display(),
-            arguments.seeds,
+            seeds.len(),
             plan.duration_s
         ))?;
     }
     Ok(())
-}
-
-impl Mobility {
-    /// Records runs on a grid of this shape.
-    fn record(
-        &self,
-        sumo: &Sumo,
-        plan: &Plan,
-        seeds: &[u64],
-        is_json: bool,
-    ) -> Result<Traces, Failure> {
-        let mut grid = self.grid();
-        grid.check().map_err(Failure::input)?;
-        grid.mobility = sumo.version().map_err(Failure::input)?;
-        let bar = output::progress(is_json, "SUMO");
-        bar.set_length(seeds.len() as u64);
-        let mut runs = Vec::new();
-        for &seed in seeds {
-            runs.push(sumo.run(&grid, plan, seed).map_err(Failure::input)?);
-            bar.inc(1);
-        }
-        bar.finish_and_clear();
-        Ok(Traces {
-            streets: Streets::Grid(grid),
-            is_proven: true,
-            sample_ms: plan.sample_ms,
-            runs,
-        })
-    }
 }

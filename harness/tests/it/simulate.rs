@@ -74,7 +74,7 @@ fn silence_is_what_python_computes_from_the_same_traces() {
     for others in [
         "--suppression strict",
         "--suppression loose",
-        "--unseen 0.3",
+        "--set behaviour.unseen_share=0.3",
     ] {
         let output = simulate(&format!(
             "cbr --json --silences {silences} {cells} {others}"
@@ -229,6 +229,73 @@ fn the_rate_that_is_printed_is_the_one_that_is_sent() {
     stdout(&simulate(&format!("cbr --vam 7 {cells}"))).must_have(&["vam hz: 5.0"]);
 }
 
+/// A file has every parameter, a line of it goes before, and flags go before both.
+#[test]
+fn parameters_of_a_file_are_taken_and_flags_win() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("p.toml");
+    let file = "seeds = 1\nrobots = [0]\nradii_m = [15]\npedestrians = [20]\n[behaviour]\nram_interval_ms = 200\n\
+                [behaviour.radio]\ndata_rate_mbps = 12\npower_dbm = 20\n";
+    std::fs::write(&path, file).unwrap();
+    let of = |words: &str| {
+        json(&format!(
+            "cbr --json --parameters {} {words}",
+            path.display()
+        ))
+    };
+    let slow = json("cbr --json --seeds 1 --robots 0 --radius 15 --pedestrians 20");
+    let load = |report: &Value| report["cells"][0]["mcbr"]["mean"].as_f64().unwrap();
+    let fast = of("");
+    assert!(
+        load(&fast) < 0.65 * load(&slow),
+        "{} {}",
+        load(&fast),
+        load(&slow)
+    );
+    let behaviour = &fast["parameters"]["behaviour"];
+    assert_eq!(behaviour["radio"]["power_dbm"], 20.0);
+    assert_eq!(behaviour["ram_interval_ms"], 200);
+    let changed =
+        of("--set behaviour.radio.data_rate_mbps=6 --set preset=kerb --ram rules --radius 10");
+    assert_eq!(changed["cells"][0]["radius_m"], 10.0);
+    assert_eq!(
+        changed["parameters"]["behaviour"]["ram_interval_ms"],
+        Value::Null
+    );
+    assert_eq!(
+        changed["parameters"]["behaviour"]["radio"]["power_dbm"],
+        20.0
+    );
+    assert_eq!(
+        changed["parameters"]["behaviour"]["radio"]["data_rate_mbps"],
+        6.0
+    );
+    std::fs::write(&path, format!("{file}powr_dbm = 3\n")).unwrap();
+    let output = simulate(&format!("obs --parameters {}", path.display()));
+    assert_code(&output, 2);
+    stderr(&output)
+        .must_have(&["p.toml: line 10: unknown field `powr_dbm`, expected one of `power_dbm`"]);
+}
+
+/// The page's file has every parameter at its default.
+#[test]
+fn the_file_of_the_page_is_the_documented_setting() {
+    let page = include_str!("../../doc/evaluation.md");
+    let file = page.split("```toml\n").nth(1).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("page.toml");
+    std::fs::write(&path, file.split("```").next().unwrap()).unwrap();
+    let report = json(&format!("obs --json --parameters {}", path.display()));
+    assert_eq!(report["documented"], true);
+}
+
+/// Rare options come from a file, so that the others are seen at a glance.
+#[test]
+fn the_options_of_a_simulation_fit_on_a_screen() {
+    let lines = stdout(&simulate("cbr -h")).lines().count();
+    assert!(lines <= 50, "{lines}");
+}
+
 #[test]
 fn coverage_has_the_shape_that_scripts_read() {
     let report = json("obs --json --preset plain --seeds 2");
@@ -292,18 +359,18 @@ fn several_robots_at_an_intersection_and_robots_on_patrol_are_measured() {
         )
     };
     let (_, alone) = percent("--robots 9");
-    let (parameters, two) = percent("--robots 18 --per-intersection 2");
+    let (parameters, two) = percent("--robots 18 --set robots_per_intersection=2");
     assert_eq!(parameters["robots_per_intersection"], 2);
     assert!(two > 1.5 * alone && two < 3.0 * alone, "{alone} {two}");
-    let (_, four) = percent("--robots 36 --per-intersection 4");
+    let (_, four) = percent("--robots 36 --set robots_per_intersection=4");
     // Four zones overlap, so four robots see less than twice as many as two.
     assert!(four > two && four < 1.7 * two, "{two} {four}");
-    let (parameters, walking) = percent("--robots 9 --patrol 1");
+    let (parameters, walking) = percent("--robots 9 --set patrol_mps=1");
     assert_eq!(parameters["patrol_mps"], 1.0);
     assert!(walking > alone && walking < four, "{alone} {walking}");
 
     let arguments = "cbr --json --pedestrians 20 --radius 15 --seeds 1";
-    let more = "--robots 0,18 --per-intersection 2 --patrol 1";
+    let more = "--robots 0,18 --set robots_per_intersection=2 --set patrol_mps=1";
     let report = json(&format!("{arguments} {more}"));
     let cell = &report["cells"][1];
     assert!(
@@ -358,7 +425,7 @@ fn sumo_makes_fresh_mobility_on_a_larger_grid() {
     let Some(sumo) = sumo() else {
         return;
     };
-    let size = "--grid-size 4 --pedestrians 30 --vehicles 10 --duration 20";
+    let size = "--set grid.nodes_per_side=4 --pedestrians 30 --set vehicles=10 --set duration_s=20";
     let others = "--robots 0,16 --radius 15 --seeds 2";
     let report = json(&format!("cbr --json --sumo {sumo} {size} {others}"));
     assert_eq!(report["parameters"]["grid"]["nodes_per_side"], 4);

@@ -1,7 +1,7 @@
 //! What the paper states of the set-up: streets, people, robots and the channel.
 
 use super::super::behaviour::Behaviour;
-use super::super::messages::{DATA_RATE_MBPS, SYMBOL_US};
+use super::super::messages::SYMBOL_US;
 use super::super::paper::PAPER;
 use super::super::schedule::Schedule;
 use super::super::vru::Understands;
@@ -152,7 +152,7 @@ pub(super) fn on_the_air(behaviour: &Behaviour) -> [Comparison; 8] {
         Statement::Access.compare(&"IEEE 802.11p, EDCA", &contention, !radio.ideal),
         Statement::DataRate.with(
             &"not stated",
-            &format_args!("{DATA_RATE_MBPS} Mbit/s"),
+            &format_args!("{} Mbit/s", radio.data_rate_mbps),
             Outcome::Assumed,
         ),
         Statement::UnchangedDevices.compare(&"no change is required", &understood, is_unchanged),

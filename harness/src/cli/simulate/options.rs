@@ -1,50 +1,107 @@
-//! What `crossguard simulate` can be told.
+//! What `crossguard simulate` can be told on the command line, and what its results depend on.
 
-use std::fs::File;
 use std::io::Write;
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::builder::TypedValueParser;
 use crossguard_evaluation::behaviour::Behaviour;
-use crossguard_evaluation::fcd;
 use crossguard_evaluation::grid::{Grid, Preset, Site};
 use crossguard_evaluation::matrix::Axes;
-use crossguard_evaluation::net::{Net, Streets};
-use crossguard_evaluation::paper::PAPER;
-use crossguard_evaluation::schedule::Schedule;
-use crossguard_evaluation::shipped;
+use crossguard_evaluation::net::Streets;
 use crossguard_evaluation::simulation::CHECK_MS;
 use crossguard_evaluation::statements::Setting;
 use crossguard_evaluation::stationing::Stationing;
-use crossguard_evaluation::sumo::{Plan, Sumo};
 use crossguard_evaluation::trace::{Run, Traces};
 use crossguard_evaluation::vru::{Suppression, Understands, VamRule};
 use serde::{Serialize, Serializer};
+use toml::{Table, Value};
 
 use super::Failure;
+use super::parameters::Parameters;
 use crate::cli::choices::one_of;
 use crate::cli::destinations;
-use crate::cli::ranges::{any, number, threads, whole};
 
-/// The streets, and who moves on them.
-#[derive(clap::Args)]
+/// How people move, and the parameters that have no flag of their own.
+#[derive(clap::Args, Serialize)]
 pub(super) struct Mobility {
-    /// Assumptions on the geometry, which the paper does not state.
-    #[arg(long, value_parser = preset(), default_value = "kerb")]
-    pub(super) preset: Preset,
-    /// Make fresh mobility with SUMO, whose programs are in this folder.
+    /// Assumptions on the geometry, which the paper does not state [default: kerb]
+    #[arg(long, value_parser = preset())]
+    preset: Option<Preset>,
+    /// Make fresh mobility with SUMO, whose programs are in this folder
     #[arg(long, value_name = "FOLDER")]
-    pub(super) sumo: Option<PathBuf>,
-    /// Intersections along a side of the grid, for --sumo.
-    #[arg(long, value_name = "N", requires = "sumo", value_parser = whole::<u32>(2..=26))]
-    grid_size: Option<u32>,
-    /// Vehicles, for --sumo.
-    #[arg(long, value_name = "N", default_value_t = 20, requires = "sumo", value_parser = whole::<usize>(0..=10_000))]
-    vehicles: usize,
-    /// Length of a run in seconds, for --sumo.
-    #[arg(long, value_name = "SECONDS", default_value_t = 200, requires = "sumo", value_parser = whole::<u32>(10..=3_600))]
-    duration: u32,
+    sumo: Option<PathBuf>,
+    /// Numbers of people on foot [default: 20,50,100]
+    #[arg(long, value_delimiter = ',', value_name = "N,…")]
+    pedestrians: Option<Vec<usize>>,
+    /// Seeds to take the mean over, at most [default: all; fresh runs: 10]
+    #[arg(long, value_name = "N")]
+    seeds: Option<usize>,
+    /// Take parameters from this TOML file; --set and flags win
+    #[arg(long, value_name = "FILE")]
+    #[serde(skip)]
+    parameters: Option<PathBuf>,
+    /// One parameter as in a file, like preset=plain; may be repeated
+    #[arg(long, value_name = "KEY=VALUE")]
+    #[serde(skip)]
+    set: Vec<String>,
+}
+
+impl Mobility {
+    pub(super) fn parameters(&self) -> Result<Parameters, Failure> {
+        self.with(table(self)?)
+    }
+
+    fn with(&self, flags: Table) -> Result<Parameters, Failure> {
+        Parameters::of(self.parameters.as_deref(), &self.set, flags)
+    }
+}
+
+/// The flags that are given.
+fn table(flags: &impl Serialize) -> Result<Table, Failure> {
+    Table::try_from(flags).map_err(Failure::input)
+}
+
+/// The cells of the evaluation.
+#[derive(clap::Args, Serialize)]
+pub(super) struct Matrix {
+    #[command(flatten)]
+    #[serde(flatten)]
+    mobility: Mobility,
+    /// Use these trace files instead of the shipped ones
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    traces: Option<Vec<PathBuf>>,
+    /// Streets of your own, a net of SUMO (plain or .gz)
+    #[arg(long, value_name = "NET")]
+    net: Option<PathBuf>,
+    /// What moves on them, SUMO's --fcd-output (plain or .gz), a run for each file
+    #[arg(long, value_name = "FCD", num_args = 1..)]
+    fcd: Option<Vec<PathBuf>>,
+    /// Where robots are and when, a table with a line for each place
+    #[arg(long, value_name = "FILE")]
+    robots_at: Option<PathBuf>,
+    /// Numbers of robots, from the middle outwards [default: 0,1,9, or 0 and all of --robots-at]
+    #[arg(long, value_delimiter = ',', value_name = "N,…")]
+    robots: Option<Vec<usize>>,
+    /// Perception radii of robots in metres [default: 10,15]
+    #[arg(long, value_delimiter = ',', value_name = "M,…")]
+    #[serde(rename = "radii_m")]
+    radius: Option<Vec<f64>>,
+    /// Where at an intersection robots stand [default: by the preset]
+    #[arg(long, value_parser = site())]
+    #[serde(rename = "robot_site")]
+    site: Option<Site>,
+}
+
+impl Matrix {
+    /// The parameters, with those of the air where there are any.
+    pub(super) fn parameters(&self, air: Option<&Air>) -> Result<Parameters, Failure> {
+        let mut flags = table(self)?;
+        if let Some(air) = air {
+            let behaviour = air.behaviour().map_err(Failure::Input)?;
+            flags.insert("behaviour".to_owned(), Value::Table(behaviour));
+        }
+        self.mobility.with(flags)
+    }
 }
 
 impl Output {
@@ -54,269 +111,9 @@ impl Output {
     }
 }
 
-impl Mobility {
-    pub(super) const fn preset_name(&self) -> &'static str {
-        self.preset.name()
-    }
-
-    pub(super) fn grid(&self) -> Grid {
-        let grid = self.preset.grid();
-        Grid {
-            nodes_per_side: self.grid_size.unwrap_or(grid.nodes_per_side),
-            ..grid
-        }
-    }
-
-    pub(super) fn plan(&self, pedestrians: usize) -> Plan {
-        Plan {
-            vehicles: self.vehicles,
-            pedestrians,
-            duration_s: self.duration,
-            ..Plan::default()
-        }
-    }
-}
-
-/// The cells of the evaluation.
-#[derive(clap::Args)]
-pub(super) struct Matrix {
-    #[command(flatten)]
-    mobility: Mobility,
-    /// Use these trace files instead of the shipped ones.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["sumo", "pedestrians"], num_args = 1..)]
-    traces: Vec<PathBuf>,
-    /// Streets of your own: a net of SUMO (NET.xml, plain or .gz). Robots stand at its intersections.
-    #[arg(long, value_name = "NET", requires = "fcd", conflicts_with_all = ["preset", "sumo", "traces", "pedestrians", "site", "per_intersection", "patrol"])]
-    net: Option<PathBuf>,
-    /// What moves on them: floating car data of SUMO (--fcd-output, plain or .gz), a run for each file.
-    #[arg(long, value_name = "FCD", requires = "net", num_args = 1..)]
-    fcd: Vec<PathBuf>,
-    /// Where robots are and when, as lines of robot,time_s,x_m,y_m; one with several lines moves.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["site", "per_intersection", "patrol"])]
-    robots_at: Option<PathBuf>,
-    /// Numbers of robots: the first one at the middle intersection, the others around it. 0,1,9 by default, or
-    /// none and all of --robots-at.
-    #[arg(long, value_delimiter = ',', value_name = "N,…", value_parser = whole::<usize>(0..=10_000))]
-    robots: Option<Vec<usize>>,
-    /// Numbers of people on foot.
-    #[arg(
-        long,
-        value_delimiter = ',',
-        default_value = "20,50,100",
-        value_name = "N,…",
-        value_parser = whole::<usize>(1..=100_000)
-    )]
-    pedestrians: Vec<usize>,
-    /// Perception radii of robots, in metres.
-    #[arg(
-        long,
-        value_delimiter = ',',
-        default_value = "10,15",
-        value_name = "M,…",
-        value_parser = number(0.0..=100.0)
-    )]
-    pub(super) radius: Vec<f64>,
-    /// Where at an intersection robots stand; the preset says it otherwise.
-    #[arg(long, value_parser = site())]
-    site: Option<Site>,
-    /// Robots at an intersection before the next one gets any, each at another corner; their zones may
-    /// overlap.
-    #[arg(long, default_value_t = 1, value_name = "1..4", value_parser = whole::<usize>(1..=4))]
-    per_intersection: usize,
-    /// Robots walk around their intersection, over its corners, so fast; they stand by default.
-    #[arg(long, value_name = "M/S", value_parser = number(0.1..=5.0))]
-    patrol: Option<f64>,
-    /// Seeds to take the mean over, at most; with --sumo, this many fresh runs.
-    #[arg(long, default_value_t = 10, value_name = "N", value_parser = whole::<usize>(1..=100_000))]
-    pub(super) seeds: usize,
-    /// The first seed of fresh runs, for --sumo.
-    #[arg(long, default_value_t = 1_001, value_name = "SEED", requires = "sumo", value_parser = any)]
-    first_seed: u64,
-    /// Threads; as many as there are processors by default.
-    #[arg(long, value_name = "N", value_parser = threads)]
-    threads: Option<NonZeroUsize>,
-}
-
-impl std::ops::Deref for Matrix {
-    type Target = Mobility;
-
-    fn deref(&self) -> &Mobility {
-        &self.mobility
-    }
-}
-
-impl Matrix {
-    pub(super) fn site(&self) -> Site {
-        self.site.unwrap_or_else(|| self.preset.site())
-    }
-
-    /// The preset by which the streets are made, if they are.
-    pub(super) fn preset_of(&self, traces: &[Traces]) -> Option<&'static str> {
-        let is_grid = traces.iter().all(|it| it.streets.grid().is_some());
-        is_grid.then(|| self.preset_name())
-    }
-
-    fn stationing(&self) -> Result<Stationing, Failure> {
-        let robots_at = self.robots_at.as_ref().map(|path| {
-            let robots = File::open(path).map_err(Failure::at(path))?;
-            Schedule::read(robots).map_err(Failure::at(path))
-        });
-        Ok(Stationing {
-            robots_per_intersection: self.per_intersection,
-            patrol_mps: self.patrol,
-            robots_at: robots_at.transpose()?,
-            ..Stationing::at(self.site())
-        })
-    }
-
-    pub(super) fn axes(&self) -> Result<Axes, Failure> {
-        let processors = || std::thread::available_parallelism().ok();
-        let stationing = self.stationing()?;
-        let all = stationing.robots_at.as_ref().map(|it| vec![0, it.len()]);
-        let robots = self.robots.clone().or(all);
-        Ok(Axes {
-            robots: robots.unwrap_or_else(|| PAPER.robots.to_vec()),
-            radii_m: self.radius.clone(),
-            stationing,
-            seeds: self.seeds,
-            threads: self
-                .threads
-                .or_else(processors)
-                .map_or(1, NonZeroUsize::get),
-        })
-    }
-
-    /// The traces: files, fresh ones, or the shipped ones.
-    pub(super) fn traces(&self, axes: &Axes, is_json: bool) -> Result<Vec<Traces>, Failure> {
-        let people = self.pedestrians.iter();
-        let traces: Result<Vec<_>, Failure> = if let Some(net) = &self.net {
-            Ok(vec![recorded(net, &self.fcd)?])
-        } else if !self.traces.is_empty() {
-            self.traces.iter().map(read).collect()
-        } else if let Some(folder) = &self.sumo {
-            let sumo = Sumo::in_folder(folder);
-            let seeds: Vec<u64> = (self.first_seed..).take(self.seeds).collect();
-            let fresh = |&it| self.record(&sumo, &self.plan(it), &seeds, is_json);
-            people.map(fresh).collect()
-        } else {
-            let shipped = |&pedestrians: &usize| match shipped::traces(self.preset, pedestrians) {
-                Some(traces) => traces.map_err(Failure::input),
-                None => Err(Failure::Input(format!(
-                    "traces come along for {:?} pedestrians, not for {pedestrians}: make some with --sumo",
-                    shipped::PEDESTRIANS
-                ))),
-            };
-            people.map(shipped).collect()
-        };
-        let traces = traces?;
-        let most = axes.robots.iter().max().copied().unwrap_or(0);
-        for traces in &traces {
-            let checked = axes.stationing.check(&traces.streets, most);
-            checked.map_err(Failure::input)?;
-        }
-        Ok(traces)
-    }
-
-    /// Whether a run with these parameters is the one that the evaluation page documents.
-    pub(super) fn is_documented(&self, axes: &Axes, parameters: &Parameters) -> bool {
-        let is_default = |behaviour: &Behaviour| *behaviour == Behaviour::default();
-        self.traces.is_empty()
-            && self.net.is_none()
-            && self.sumo.is_none()
-            && self.preset == Preset::Kerb
-            && axes.stationing == Stationing::at(Preset::Kerb.site())
-            && axes.robots == PAPER.robots
-            && self.pedestrians == PAPER.pedestrians
-            && self.radius == PAPER.radii_m
-            && parameters.seeds == 10
-            && parameters.behaviour.as_ref().is_none_or(is_default)
-    }
-
-    /// What the results depend on.
-    pub(super) fn parameters(
-        &self,
-        axes: &Axes,
-        traces: &[Traces],
-        behaviour: Option<Behaviour>,
-    ) -> Parameters {
-        let first = traces.first();
-        let streets = first.map_or_else(
-            || Streets::Grid(self.grid()),
-            |traces| traces.streets.clone(),
-        );
-        let corner_m = streets.grid().map(Grid::corner_m);
-        let runs = || traces.iter().flat_map(|it| it.runs.iter().take(self.seeds));
-        let runs_of = |of: fn(&Run) -> usize| {
-            let mut numbers: Vec<usize> = runs().map(of).collect();
-            numbers.sort_unstable();
-            numbers.dedup();
-            numbers
-        };
-        Parameters {
-            stationing: axes.stationing.clone(),
-            robot_offset_m: corner_m
-                .filter(|_| axes.stationing.robots_at.is_none())
-                .map(|corner_m| match self.site() {
-                    Site::Center => 0.0,
-                    _ => corner_m,
-                }),
-            streets,
-            is_proven: traces.iter().all(|it| it.is_proven),
-            vehicles: runs_of(|it| it.vehicles.len()),
-            seeds: traces
-                .iter()
-                .map(|it| it.runs.len().min(self.seeds))
-                .min()
-                .unwrap_or(0),
-            duration_s: runs_of(|it| usize::try_from(it.duration_ms() / 1_000).unwrap_or(0)),
-            sample_ms: first.map_or(0, |traces| traces.sample_ms),
-            true_rates: behaviour.as_ref().map(Rates::of),
-            behaviour,
-        }
-    }
-}
-
-fn read(path: &PathBuf) -> Result<Traces, Failure> {
-    let file = File::open(path).map_err(crossguard_evaluation::trace::TraceError::from);
-    let traces = file.and_then(Traces::read);
-    traces.map_err(Failure::at(path))
-}
-
-/// A net, and what moved on it: a run for each file. Says on standard error what is in them.
-fn recorded(net: &PathBuf, fcd: &[PathBuf]) -> Result<Traces, Failure> {
-    let open = |path: &PathBuf| File::open(path).map_err(Failure::at(path));
-    let streets = Net::read(open(net)?).map_err(Failure::at(net))?;
-    let (mut runs, mut sample_ms) = (Vec::new(), None);
-    for (seed, path) in (1..).zip(fcd) {
-        let recording = fcd::read(open(path)?, seed).map_err(Failure::at(path))?;
-        streets.check(&recording.run).map_err(Failure::at(path))?;
-        let first_ms = *sample_ms.get_or_insert(recording.sample_ms);
-        if recording.sample_ms != first_ms {
-            let step_ms = recording.sample_ms;
-            let why = format!(
-                "has steps of {step_ms} ms, and the first file of {first_ms} ms: record both alike"
-            );
-            return Err(Failure::at(path)(why));
-        }
-        // Standard error may be gone; the parameters have most of it as well.
-        let _ = writeln!(
-            std::io::stderr(),
-            "crossguard: {}: {recording}, seed {seed}",
-            path.display()
-        );
-        runs.push(recording.run);
-    }
-    Ok(Traces {
-        streets: Streets::Net(streets),
-        is_proven: false,
-        sample_ms: sample_ms.unwrap_or(0),
-        runs,
-    })
-}
-
 /// What the results depend on besides robots, people and radius.
 #[derive(Serialize)]
-pub(super) struct Parameters {
+pub(super) struct Assumptions {
     #[serde(flatten)]
     streets: Streets,
     #[serde(skip)]
@@ -370,7 +167,50 @@ fn one_or_all<S: Serializer>(numbers: &[usize], to: S) -> Result<S::Ok, S::Error
     }
 }
 
-impl Parameters {
+impl Assumptions {
+    /// What the results on these traces depend on.
+    pub(super) fn of(axes: &Axes, traces: &[Traces], behaviour: Option<Behaviour>) -> Self {
+        let first = traces.first();
+        let streets = first.map_or_else(
+            || Streets::Grid(Preset::Kerb.grid()),
+            |traces| traces.streets.clone(),
+        );
+        let corner_m = streets.grid().map(Grid::corner_m);
+        let runs = || traces.iter().flat_map(|it| it.runs.iter().take(axes.seeds));
+        let runs_of = |of: fn(&Run) -> usize| {
+            let mut numbers: Vec<usize> = runs().map(of).collect();
+            numbers.sort_unstable();
+            numbers.dedup();
+            numbers
+        };
+        let stationing = axes.stationing.clone();
+        let by_grid = corner_m.filter(|_| stationing.robots_at.is_none());
+        Self {
+            robot_offset_m: by_grid.map(|corner_m| match stationing.robot_site {
+                Site::Center => 0.0,
+                _ => corner_m,
+            }),
+            stationing,
+            streets,
+            is_proven: traces.iter().all(|it| it.is_proven),
+            vehicles: runs_of(|it| it.vehicles.len()),
+            seeds: traces
+                .iter()
+                .map(|it| it.runs.len().min(axes.seeds))
+                .min()
+                .unwrap_or(0),
+            duration_s: runs_of(|it| usize::try_from(it.duration_ms() / 1_000).unwrap_or(0)),
+            sample_ms: first.map_or(0, |traces| traces.sample_ms),
+            true_rates: behaviour.as_ref().map(Rates::of),
+            behaviour,
+        }
+    }
+
+    /// How many runs each cell is of.
+    pub(super) const fn seeds(&self) -> usize {
+        self.seeds
+    }
+
     /// What statements of the paper are compared with.
     pub(super) fn setting<'a>(&'a self, axes: &'a Axes) -> Setting<'a> {
         Setting {
@@ -392,6 +232,7 @@ pub(super) enum Placement {
 
 /// Where results go.
 #[derive(clap::Args)]
+#[command(next_help_heading = "Results")]
 pub(super) struct Output {
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
@@ -401,122 +242,86 @@ pub(super) struct Output {
     pub(super) csv: Option<PathBuf>,
 }
 
-/// Which announcements of a robot people's devices understand.
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum Devices {
-    /// RAM; they fall silent when one covers them.
-    Ram,
-    /// Cluster VAM, as every ETSI device; robots send them besides RAM.
-    ClusterVam,
-}
-
-/// When a device that understands RAM falls silent.
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum SilenceRule {
-    /// Only if it was perceived itself: it is where a cluster is, and moves as that does.
-    Strict,
-    /// Wherever the bounding shape of a cluster covers it, perceived or not.
-    Loose,
-}
-
 /// What goes over the air.
 #[derive(clap::Args)]
+#[command(next_help_heading = "Air")]
 pub(super) struct Air {
-    /// When devices send VAM: 'etsi', or a number per second (0.2 to 10). Stations check every 100 ms, so
-    /// the true rate is 10 by a whole number; it is printed.
-    #[arg(
-        long,
-        default_value = "10",
-        value_name = "etsi|HZ",
-        help_heading = "Air"
-    )]
-    vam: String,
-    /// When robots send RAM: 'rules', which is once a second for a robot that stands, or a number per
-    /// second (1 to 10).
-    #[arg(
-        long,
-        default_value = "rules",
-        value_name = "rules|HZ",
-        help_heading = "Air"
-    )]
-    ram: String,
-    /// When vehicles send CAM: 'rules', or a number per second (1 to 10).
-    #[arg(
-        long,
-        default_value = "rules",
-        value_name = "rules|HZ",
-        help_heading = "Air"
-    )]
-    cam: String,
-    /// Points in the path history of CAM, which goes along every half second.
-    #[arg(long, default_value_t = 5, value_name = "0..40", help_heading = "Air", value_parser = whole::<usize>(0..=40))]
-    cam_path_points: usize,
-    /// Which announcements devices understand.
-    #[arg(long, value_enum, default_value = "ram", help_heading = "Air")]
-    devices: Devices,
-    /// When devices fall silent.
-    #[arg(long, value_enum, default_value = "strict", help_heading = "Air")]
-    suppression: SilenceRule,
-    /// Share of people that no robot perceives, as if they were hidden all the time.
-    #[arg(long, default_value_t = 0.0, value_name = "0..1", help_heading = "Air", value_parser = number(0.0..=1.0))]
-    unseen: f64,
-    /// Write to this file when each device was silent, as comma-separated values.
-    #[arg(long, value_name = "FILE", help_heading = "Air")]
-    pub(super) silences: Option<PathBuf>,
-    /// Share of people with a device.
-    #[arg(long, default_value_t = 1.0, value_name = "0..1", help_heading = "Air", value_parser = number(0.0..=1.0))]
-    v2x_share: f64,
-    /// Vehicles are gone after this many seconds, as when trips end; they stay by default.
-    #[arg(long, value_name = "SECONDS", help_heading = "Air", value_parser = number(0.0..=1e6))]
-    vehicles_leave: Option<f64>,
-    /// No contention and no collisions.
-    #[arg(long, help_heading = "Air")]
-    ideal: bool,
-    /// Path loss exponent.
-    #[arg(long, default_value_t = 2.2, value_name = "N", help_heading = "Air", value_parser = number(1.0..=6.0))]
-    path_loss_exponent: f64,
-    /// Packets are signed.
-    #[arg(long, help_heading = "Air")]
+    /// When devices send VAM: 'etsi', or 0.2 to 10 a second [default: 10]
+    #[arg(long, value_name = "etsi|HZ")]
+    vam: Option<String>,
+    /// When robots send RAM: 'rules', or 1 to 10 a second [default: rules]
+    #[arg(long, value_name = "rules|HZ")]
+    ram: Option<String>,
+    /// Which announcements devices understand [default: ram]
+    #[arg(long, value_parser = devices())]
+    devices: Option<Understands>,
+    /// When devices fall silent [default: strict]
+    #[arg(long, value_parser = suppression())]
+    suppression: Option<Suppression>,
+    /// Packets are signed
+    #[arg(long)]
     signed: bool,
-    /// Reactive congestion control (TS 102 687) holds stations back.
-    #[arg(long, help_heading = "Air")]
+    /// Reactive congestion control (TS 102 687) holds stations back
+    #[arg(long)]
     dcc: bool,
+    /// Write to this file when each device was silent (CSV)
+    #[arg(long, value_name = "FILE")]
+    pub(super) silences: Option<PathBuf>,
 }
 
 impl Air {
-    /// The behaviour of all stations.
-    pub(super) fn behaviour(&self) -> Result<Behaviour, String> {
-        let mut behaviour = Behaviour {
-            vam: match interval_ms("--vam", &self.vam, "etsi", 0.2)? {
-                None => VamRule::Etsi,
-                Some(interval_ms) => VamRule::Periodic(interval_ms),
-            },
-            understands: match self.devices {
-                Devices::Ram => Understands::Ram,
-                Devices::ClusterVam => Understands::ClusterVam,
-            },
-            v2x_share: self.v2x_share,
-            unseen_share: self.unseen,
-            ram_interval_ms: interval_ms("--ram", &self.ram, "rules", 1.0)?,
-            cam_interval_ms: interval_ms("--cam", &self.cam, "rules", 1.0)?,
-            cam_path_points: self.cam_path_points,
-            vehicles_leave_s: self.vehicles_leave,
-            signed: self.signed,
-            dcc: self.dcc,
-            ..Behaviour::default()
+    /// What these flags say of the behaviour of all stations.
+    fn behaviour(&self) -> Result<Table, String> {
+        let mut behaviour = Table::new();
+        let mut put = |name: &str, value: Option<Value>| {
+            behaviour.extend(value.map(|value| (name.to_owned(), value)));
         };
-        behaviour.radio.exponent = self.path_loss_exponent;
-        behaviour.radio.ideal = self.ideal;
-        Ok(behaviour.with_suppression(match self.suppression {
-            SilenceRule::Strict => Suppression::Strict,
-            SilenceRule::Loose => Suppression::Loose,
-        }))
+        let words = |value: &str| Value::String(value.to_owned());
+        let rule = |text| interval_ms("--vam", text, "etsi", 0.2);
+        let vam = self.vam.as_deref().map(rule).transpose()?;
+        put(
+            "vam",
+            vam.map(|it| match it {
+                None => words("etsi"),
+                Some(interval_ms) => Value::Table(Table::from_iter([(
+                    "periodic".to_owned(),
+                    interval_ms.into(),
+                )])),
+            }),
+        );
+        let rule = |text| interval_ms("--ram", text, "rules", 1.0);
+        let ram = self.ram.as_deref().map(rule).transpose()?;
+        put(
+            "ram_interval_ms",
+            ram.map(|it| Value::Integer(it.unwrap_or(0))),
+        );
+        put(
+            "understands",
+            self.devices.map(|it| {
+                words(match it {
+                    Understands::Ram => "ram",
+                    Understands::ClusterVam => "clusterVam",
+                })
+            }),
+        );
+        put(
+            "suppression",
+            self.suppression.map(|it| {
+                words(match it {
+                    Suppression::Strict => "strict",
+                    Suppression::Loose => "loose",
+                })
+            }),
+        );
+        put("signed", self.signed.then_some(Value::Boolean(true)));
+        put("dcc", self.dcc.then_some(Value::Boolean(true)));
+        Ok(behaviour)
     }
 }
 
 /// The true interval of a rate; `None` when it is by rules. Stations check every 100 ms whether they send, so it
 /// is a multiple of that.
-fn interval_ms(option: &str, text: &str, rules: &str, min_hz: f64) -> Result<Option<u64>, String> {
+fn interval_ms(option: &str, text: &str, rules: &str, min_hz: f64) -> Result<Option<i64>, String> {
     if text == rules {
         return Ok(None);
     }
@@ -538,7 +343,7 @@ fn interval_ms(option: &str, text: &str, rules: &str, min_hz: f64) -> Result<Opt
                     per_second(interval_ms)
                 );
             }
-            Ok(Some(interval_ms))
+            Ok(i64::try_from(interval_ms).ok())
         }
         _ => Err(format!(
             "{option} is '{rules}' or {min_hz} to 10 per second, not {text:?}"
@@ -567,6 +372,38 @@ fn preset() -> impl TypedValueParser<Value = Preset> {
             "plain",
             Preset::Plain,
             "One lane per direction, sidewalks of 2 m, robots in the middle of the intersection",
+        ),
+    ])
+}
+
+/// Which announcements of a robot people's devices understand.
+fn devices() -> impl TypedValueParser<Value = Understands> {
+    one_of(&[
+        (
+            "ram",
+            Understands::Ram,
+            "RAM; they fall silent when one covers them",
+        ),
+        (
+            "cluster-vam",
+            Understands::ClusterVam,
+            "Cluster VAM, as every ETSI device; robots send them besides RAM",
+        ),
+    ])
+}
+
+/// When a device that understands RAM falls silent.
+fn suppression() -> impl TypedValueParser<Value = Suppression> {
+    one_of(&[
+        (
+            "strict",
+            Suppression::Strict,
+            "Only if it was perceived itself: it is where a cluster is, and moves as that does",
+        ),
+        (
+            "loose",
+            Suppression::Loose,
+            "Wherever the bounding shape of a cluster covers it, perceived or not",
         ),
     ])
 }

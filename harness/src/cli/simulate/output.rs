@@ -7,7 +7,7 @@ use crossguard_evaluation::statements::Comparison;
 use crossguard_evaluation::statistics::Estimate;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::options::Parameters;
+use super::options::Assumptions;
 use super::{Failure, print};
 use crate::cli::shows_progress;
 
@@ -102,7 +102,7 @@ pub(super) fn print_statements(
 }
 
 /// What the results depend on, one line each.
-pub(super) fn print_parameters(parameters: &Parameters) -> Result<(), Failure> {
+pub(super) fn print_parameters(parameters: &Assumptions) -> Result<(), Failure> {
     let value = serde_json::to_value(parameters).map_err(Failure::input)?;
     print("Assumptions, most of which the paper does not state:")?;
     print_value(2, &value)?;

@@ -1,0 +1,457 @@
+//! The parameters of a simulation: what a file says, then `--set`, then the flags.
+
+use std::fmt::Display;
+use std::fs::File;
+use std::io::Write;
+use std::num::NonZeroUsize;
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+
+use crossguard_evaluation::behaviour::Behaviour;
+use crossguard_evaluation::fcd;
+use crossguard_evaluation::grid::{Grid, Preset, Site};
+use crossguard_evaluation::matrix::Axes;
+use crossguard_evaluation::messages::DATA_RATES_MBPS;
+use crossguard_evaluation::net::{Net, Streets};
+use crossguard_evaluation::paper::PAPER;
+use crossguard_evaluation::schedule::Schedule;
+use crossguard_evaluation::shipped;
+use crossguard_evaluation::simulation::CHECK_MS;
+use crossguard_evaluation::stationing::Stationing;
+use crossguard_evaluation::sumo::{Plan, Sumo};
+use crossguard_evaluation::trace::{TraceError, Traces};
+use crossguard_evaluation::vru::VamRule;
+use crossguard_robot::files;
+use serde::Deserialize;
+use toml::Table;
+
+use super::{Failure, output};
+
+/// Every parameter, by its name in a file.
+#[derive(Clone, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Parameters {
+    preset: Option<Preset>,
+    sumo: Option<PathBuf>,
+    traces: Vec<PathBuf>,
+    net: Option<PathBuf>,
+    fcd: Vec<PathBuf>,
+    robots_at: Option<PathBuf>,
+    robots: Option<Vec<usize>>,
+    pedestrians: Option<Vec<usize>>,
+    radii_m: Option<Vec<f64>>,
+    seeds: Option<usize>,
+    first_seed: Option<u64>,
+    threads: Option<NonZeroUsize>,
+    robot_site: Option<Site>,
+    robots_per_intersection: Option<usize>,
+    patrol_mps: Option<f64>,
+    vehicles: Option<usize>,
+    duration_s: Option<u32>,
+    grid: GridTable,
+    pub(super) behaviour: Behaviour,
+}
+
+#[derive(Clone, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct GridTable {
+    nodes_per_side: Option<u32>,
+    segment_m: Option<f64>,
+    lanes: Option<u32>,
+    sidewalk_m: Option<f64>,
+}
+
+/// Names of which the first wants the second.
+const NEEDS: [(&str, &str); 6] = [
+    ("net", "fcd"),
+    ("fcd", "net"),
+    ("vehicles", "sumo"),
+    ("duration_s", "sumo"),
+    ("first_seed", "sumo"),
+    ("grid", "sumo"),
+];
+
+/// Names of which the first has none of the others beside it.
+const ALONE: [(&str, &[&str]); 3] = [
+    (
+        "net",
+        &[
+            "preset",
+            "sumo",
+            "traces",
+            "pedestrians",
+            "robot_site",
+            "robots_per_intersection",
+            "patrol_mps",
+        ],
+    ),
+    ("traces", &["sumo", "pedestrians"]),
+    (
+        "robots_at",
+        &["robot_site", "robots_per_intersection", "patrol_mps"],
+    ),
+];
+
+impl Parameters {
+    /// What is in a file, then in these lines, then in the flags: a later one wins.
+    pub(super) fn of(file: Option<&Path>, lines: &[String], flags: Table) -> Result<Self, Failure> {
+        let mut all = Table::new();
+        if let Some(path) = file {
+            let text = files::text(path, files::TEXT_MAX).map_err(Failure::at(path))?;
+            merge(&mut all, parse(&text).map_err(Failure::at(path))?);
+        }
+        for line in lines {
+            // A name needs no quotes.
+            let quoted = line
+                .split_once('=')
+                .map(|(key, value)| format!("{key}={value:?}"));
+            let table =
+                parse(line).or_else(|cause| quoted.and_then(|it| parse(&it).ok()).ok_or(cause));
+            let wrong = |cause| Failure::Input(format!("--set {line}: {cause}"));
+            merge(&mut all, table.map_err(wrong)?);
+        }
+        merge(&mut all, flags);
+        for (name, other) in NEEDS {
+            if all.contains_key(name) && !all.contains_key(other) {
+                return Err(Failure::Input(format!("{name} needs {other} as well")));
+            }
+        }
+        for (name, others) in ALONE {
+            let other = others.iter().find(|it| all.contains_key(**it));
+            if let Some(other) = other.filter(|_| all.contains_key(name)) {
+                let why = format!("{name} and {other} exclude each other: leave one out");
+                return Err(Failure::Input(why));
+            }
+        }
+        let mut parameters: Self = all.try_into().map_err(Failure::input)?;
+        let behaviour = &mut parameters.behaviour;
+        // 0 is by the rules.
+        for interval_ms in [
+            &mut behaviour.ram_interval_ms,
+            &mut behaviour.cam_interval_ms,
+        ] {
+            *interval_ms = interval_ms.filter(|it| *it > 0);
+        }
+        let suppression = behaviour.suppression;
+        *behaviour = behaviour.clone().with_suppression(suppression);
+        parameters.check()?;
+        Ok(parameters)
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        let (behaviour, radio) = (&self.behaviour, &self.behaviour.radio);
+        within("robots", self.robots.iter().flatten(), 0..=10_000)?;
+        within(
+            "pedestrians",
+            self.pedestrians.iter().flatten(),
+            1..=100_000,
+        )?;
+        within("radii_m", self.radii_m.iter().flatten(), 0.0..=100.0)?;
+        within("seeds", &self.seeds, 1..=100_000)?;
+        within("vehicles", &self.vehicles, 0..=10_000)?;
+        within("duration_s", &self.duration_s, 10..=3_600)?;
+        for (name, share) in [
+            ("behaviour.v2x_share", behaviour.v2x_share),
+            ("behaviour.unseen_share", behaviour.unseen_share),
+        ] {
+            within(name, &[share], 0.0..=1.0)?;
+        }
+        let vam_ms = match behaviour.vam {
+            VamRule::Etsi => None,
+            VamRule::Periodic(interval_ms) => Some(interval_ms),
+        };
+        for (name, interval_ms, most_ms) in [
+            ("behaviour.vam.periodic", vam_ms, 5_000),
+            (
+                "behaviour.ram_interval_ms",
+                behaviour.ram_interval_ms,
+                1_000,
+            ),
+            (
+                "behaviour.cam_interval_ms",
+                behaviour.cam_interval_ms,
+                1_000,
+            ),
+            (
+                "behaviour.cluster_vam_interval_ms",
+                Some(behaviour.cluster_vam_interval_ms),
+                10_000,
+            ),
+        ] {
+            within(name, &interval_ms, 100..=most_ms)?;
+            if let Some(odd) = interval_ms.filter(|it| it % CHECK_MS != 0) {
+                let why = format!(
+                    "{name} is {odd}: stations check every {CHECK_MS} ms, a multiple is wanted"
+                );
+                return Err(Failure::Input(why));
+            }
+        }
+        within(
+            "behaviour.cam_path_points",
+            &[behaviour.cam_path_points],
+            0..=40,
+        )?;
+        within(
+            "behaviour.vehicles_leave_s",
+            &behaviour.vehicles_leave_s,
+            0.0..=1e6,
+        )?;
+        for (name, value, range) in [
+            ("power_dbm", radio.power_dbm, -30.0..=50.0),
+            ("loss_at_1_m_db", radio.loss_at_1_m_db, 0.0..=120.0),
+            ("exponent", radio.exponent, 1.0..=6.0),
+            ("sense_dbm", radio.sense_dbm, -110.0..=-40.0),
+            ("noise_dbm", radio.noise_dbm, -120.0..=-40.0),
+            ("sinr_min_db", radio.sinr_min_db, -10.0..=40.0),
+        ] {
+            within(&format!("behaviour.radio.{name}"), &[value], range)?;
+        }
+        within("behaviour.radio.aifsn", &[radio.aifsn], 2..=15)?;
+        within(
+            "behaviour.radio.contention_window",
+            &[radio.contention_window],
+            1..=1_023,
+        )?;
+        if !DATA_RATES_MBPS.contains(&radio.data_rate_mbps) {
+            return Err(Failure::Input(format!(
+                "behaviour.radio.data_rate_mbps is {}: one of {DATA_RATES_MBPS:?} is wanted",
+                radio.data_rate_mbps
+            )));
+        }
+        let clustering = behaviour.clustering.check();
+        clustering.map_err(|why| Failure::Input(format!("behaviour.clustering: {why}")))
+    }
+
+    fn preset(&self) -> Preset {
+        self.preset.unwrap_or(Preset::Kerb)
+    }
+
+    pub(super) fn preset_name(&self) -> &'static str {
+        self.preset().name()
+    }
+
+    /// The preset by which the streets are made, if they are.
+    pub(super) fn preset_of(&self, traces: &[Traces]) -> Option<&'static str> {
+        let is_grid = traces.iter().all(|it| it.streets.grid().is_some());
+        is_grid.then(|| self.preset_name())
+    }
+
+    fn site(&self) -> Site {
+        self.robot_site.unwrap_or_else(|| self.preset().site())
+    }
+
+    pub(super) fn pedestrians(&self) -> &[usize] {
+        self.pedestrians.as_deref().unwrap_or(&PAPER.pedestrians)
+    }
+
+    pub(super) fn grid(&self) -> Grid {
+        let (grid, own) = (self.preset().grid(), &self.grid);
+        Grid {
+            nodes_per_side: own.nodes_per_side.unwrap_or(grid.nodes_per_side),
+            segment_m: own.segment_m.unwrap_or(grid.segment_m),
+            lanes: own.lanes.unwrap_or(grid.lanes),
+            sidewalk_m: own.sidewalk_m.unwrap_or(grid.sidewalk_m),
+            ..grid
+        }
+    }
+
+    pub(super) fn plan(&self, pedestrians: usize) -> Plan {
+        let plan = Plan::default();
+        Plan {
+            vehicles: self.vehicles.unwrap_or(plan.vehicles),
+            pedestrians,
+            duration_s: self.duration_s.unwrap_or(plan.duration_s),
+            ..plan
+        }
+    }
+
+    /// How many fresh runs are made.
+    pub(super) fn fresh(&self) -> usize {
+        self.seeds.unwrap_or(10)
+    }
+
+    pub(super) fn sumo(&self) -> Result<Sumo, Failure> {
+        self.sumo.as_deref().map(Sumo::in_folder).ok_or_else(|| {
+            Failure::Input(
+                "--sumo FOLDER is needed: where SUMO's programs are (python3 -m venv v && v/bin/pip \
+                 install eclipse-sumo, then v/bin)"
+                    .to_owned(),
+            )
+        })
+    }
+
+    pub(super) fn axes(&self) -> Result<Axes, Failure> {
+        let robots_at = self.robots_at.as_ref().map(|path| {
+            let robots = File::open(path).map_err(Failure::at(path))?;
+            Schedule::read(robots).map_err(Failure::at(path))
+        });
+        let stationing = Stationing {
+            robots_per_intersection: self.robots_per_intersection.unwrap_or(1),
+            patrol_mps: self.patrol_mps,
+            robots_at: robots_at.transpose()?,
+            ..Stationing::at(self.site())
+        };
+        let all = stationing.robots_at.as_ref().map(|it| vec![0, it.len()]);
+        let robots = self.robots.clone().or(all);
+        let processors = || std::thread::available_parallelism().ok();
+        Ok(Axes {
+            robots: robots.unwrap_or_else(|| PAPER.robots.to_vec()),
+            radii_m: self
+                .radii_m
+                .clone()
+                .unwrap_or_else(|| PAPER.radii_m.to_vec()),
+            stationing,
+            seeds: self.seeds.unwrap_or(usize::MAX),
+            threads: self
+                .threads
+                .or_else(processors)
+                .map_or(1, NonZeroUsize::get),
+        })
+    }
+
+    /// The traces: files, fresh ones, or the shipped ones.
+    pub(super) fn traces(&self, axes: &Axes, is_json: bool) -> Result<Vec<Traces>, Failure> {
+        let people = self.pedestrians().iter();
+        let traces: Result<Vec<_>, Failure> = if let Some(net) = &self.net {
+            Ok(vec![recorded(net, &self.fcd)?])
+        } else if !self.traces.is_empty() {
+            self.traces.iter().map(read).collect()
+        } else if self.sumo.is_some() {
+            let sumo = self.sumo()?;
+            let first = self.first_seed.unwrap_or(1_001);
+            let seeds: Vec<u64> = (first..).take(self.fresh()).collect();
+            let fresh = |&it| self.record(&sumo, &self.plan(it), &seeds, is_json);
+            people.map(fresh).collect()
+        } else {
+            let shipped = |&pedestrians: &usize| match shipped::traces(self.preset(), pedestrians) {
+                Some(traces) => traces.map_err(Failure::input),
+                None => Err(Failure::Input(format!(
+                    "traces come along for {:?} pedestrians, not for {pedestrians}: make some with --sumo",
+                    shipped::PEDESTRIANS
+                ))),
+            };
+            people.map(shipped).collect()
+        };
+        let traces = traces?;
+        let most = axes.robots.iter().max().copied().unwrap_or(0);
+        for traces in &traces {
+            let checked = axes.stationing.check(&traces.streets, most);
+            checked.map_err(Failure::input)?;
+        }
+        Ok(traces)
+    }
+
+    /// Records runs on a grid of this shape.
+    pub(super) fn record(
+        &self,
+        sumo: &Sumo,
+        plan: &Plan,
+        seeds: &[u64],
+        is_json: bool,
+    ) -> Result<Traces, Failure> {
+        let mut grid = self.grid();
+        grid.check().map_err(Failure::input)?;
+        grid.mobility = sumo.version().map_err(Failure::input)?;
+        let bar = output::progress(is_json, "SUMO");
+        bar.set_length(seeds.len() as u64);
+        let mut runs = Vec::new();
+        for &seed in seeds {
+            runs.push(sumo.run(&grid, plan, seed).map_err(Failure::input)?);
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        Ok(Traces {
+            streets: Streets::Grid(grid),
+            is_proven: true,
+            sample_ms: plan.sample_ms,
+            runs,
+        })
+    }
+
+    /// Whether a run with these parameters over so many seeds is the one that the evaluation page documents.
+    pub(super) fn is_documented(&self, axes: &Axes, seeds: usize) -> bool {
+        self.traces.is_empty()
+            && self.net.is_none()
+            && self.sumo.is_none()
+            && self.preset() == Preset::Kerb
+            && axes.stationing == Stationing::at(Preset::Kerb.site())
+            && axes.robots == PAPER.robots
+            && self.pedestrians() == PAPER.pedestrians
+            && axes.radii_m == PAPER.radii_m
+            && seeds == 10
+            && self.behaviour == Behaviour::default()
+    }
+}
+
+/// A text of parameters, each of which is known.
+fn parse(text: &str) -> Result<Table, String> {
+    let line = |cause: toml::de::Error| {
+        let at = cause.span().map_or(0, |span| span.start);
+        let line = text.get(..at).unwrap_or_default().matches('\n').count() + 1;
+        format!("line {line}: {}", cause.message())
+    };
+    toml::from_str::<Parameters>(text).map_err(line)?;
+    text.parse().map_err(line)
+}
+
+fn merge(all: &mut Table, more: Table) {
+    for (name, value) in more {
+        match (all.get_mut(&name), value) {
+            (Some(toml::Value::Table(all)), toml::Value::Table(more)) => merge(all, more),
+            (_, value) => drop(all.insert(name, value)),
+        }
+    }
+}
+
+fn within<'a, T: PartialOrd + Display + 'a>(
+    name: &str,
+    values: impl IntoIterator<Item = &'a T>,
+    range: RangeInclusive<T>,
+) -> Result<(), Failure> {
+    match values.into_iter().find(|it| !range.contains(it)) {
+        None => Ok(()),
+        Some(value) => {
+            let (least, most) = range.into_inner();
+            let why = format!("{name} is {value}: {least} to {most} is wanted");
+            Err(Failure::Input(why))
+        }
+    }
+}
+
+fn read(path: &PathBuf) -> Result<Traces, Failure> {
+    let file = File::open(path).map_err(TraceError::from);
+    let traces = file.and_then(Traces::read);
+    traces.map_err(Failure::at(path))
+}
+
+/// A net, and what moved on it: a run for each file. Says on standard error what is in them.
+fn recorded(net: &PathBuf, fcd: &[PathBuf]) -> Result<Traces, Failure> {
+    let open = |path: &PathBuf| File::open(path).map_err(Failure::at(path));
+    let streets = Net::read(open(net)?).map_err(Failure::at(net))?;
+    let (mut runs, mut sample_ms) = (Vec::new(), None);
+    for (seed, path) in (1..).zip(fcd) {
+        let recording = fcd::read(open(path)?, seed).map_err(Failure::at(path))?;
+        streets.check(&recording.run).map_err(Failure::at(path))?;
+        let first_ms = *sample_ms.get_or_insert(recording.sample_ms);
+        if recording.sample_ms != first_ms {
+            let step_ms = recording.sample_ms;
+            let why = format!(
+                "has steps of {step_ms} ms, and the first file of {first_ms} ms: record both alike"
+            );
+            return Err(Failure::at(path)(why));
+        }
+        // Standard error may be gone; the parameters have most of it as well.
+        let _ = writeln!(
+            std::io::stderr(),
+            "crossguard: {}: {recording}, seed {seed}",
+            path.display()
+        );
+        runs.push(recording.run);
+    }
+    Ok(Traces {
+        streets: Streets::Net(streets),
+        is_proven: false,
+        sample_ms: sample_ms.unwrap_or(0),
+        runs,
+    })
+}
