@@ -30,8 +30,10 @@ def bars(axes, cells, field, scale=1.0, stated=()):
     for at, (robots, radius) in enumerate(kinds):
         found = [(group, values[robots, radius, it]) for group, it in enumerate(people) if (robots, radius, it) in values]
         x = [group + (at - (len(kinds) - 1) / 2) * width for group, _ in found]
-        mean, sd = ([scale * value[name] for _, value in found] for name in ("mean", "sd"))
-        drawn = axes.bar(x, mean, 0.9 * width, yerr=sd, capsize=3, label=f"{robots} × robot, {radius:g} m" if robots else "no robot")
+        mean = [scale * value["mean"] for _, value in found]
+        # Of one run there is no interval.
+        half = [scale * ((value["ci95"][1] or value["mean"]) - value["mean"]) for _, value in found]
+        drawn = axes.bar(x, mean, 0.9 * width, yerr=half, capsize=3, label=f"{robots} × robot, {radius:g} m" if robots else "no robot")
         axes.bar_label(drawn, fmt="%.1f", fontsize=7, padding=2)
         for robots_of, radius_of, people_of, band, words in stated:
             if (robots_of, radius_of) != (robots, radius):
@@ -69,7 +71,8 @@ def evaluation(results):
         bars(reduction, cells, "reduction_percent", stated=[(9, far, 100, paper["reduction_most_percent"], words)])
         reduction.set(title="Reduction of the mean channel busy ratio", ylabel="reduction in %")
     seeds = results["parameters"]["seeds"]
-    figure.suptitle(f"preset {results['preset']}, {seeds} seeds; means and deviations", fontsize=9)
+    streets = f"preset {results['preset']}" if results["preset"] else "a net of SUMO"
+    figure.suptitle(f"{streets}, {seeds} seeds; means and 95 % intervals", fontsize=9)
     return figure
 
 

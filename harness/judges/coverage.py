@@ -1,18 +1,23 @@
-"""Coverage by a few lines of another language, from the trace files that come along.
+"""Coverage by a few lines of another language, from the trace files that come along or from SUMO's own files.
 
 Usage: python3 coverage.py TRACES... < results of `crossguard simulate obs --json`
+       python3 coverage.py NET.xml FCD.xml... < results of the same with --net and --fcd
 
 Every cell of the results has to agree within 0.1 percentage points with what is computed here from the
 trace file with the same number of people, the share of the covered time at intersections as well. Robots stand where the results' parameters say. The paper's
-robots, that is: one per intersection, which stand.
+robots, that is: one per intersection, which stand. On a net they stand at its intersections or are where --robots-at had
+them. Confidence intervals, and the verdicts on coverage, are computed anew as well.
 """
 
 import json
 import sys
 
-from traces import by_people, robots, ways
+from intervals import above, below, every, interval, less, within
+from traces import by_people, intersections, recorded, robots, scheduled, ways
 
 TOLERANCE = 0.1
+# Section III-B of the paper.
+PEOPLE, LARGE, SMALL = (20, 50, 100), 15, 10
 
 
 def coverage(run, grid, at, radius):
@@ -30,8 +35,61 @@ def coverage(run, grid, at, radius):
     return 100 * seen / samples, 100 * seen_there / max(seen, 1)
 
 
+def on_a_net(parameters, cell, net, people):
+    """Percent of the samples of a recording that are within the radius of a robot."""
+    nodes, by_file = intersections(net), parameters.get("robots_at")
+    step_s, seen = parameters["sample_ms"] / 1000, 0
+    for step, x, y in people:
+        if by_file:
+            at = [scheduled(it["at"], step * step_s) for it in by_file[: cell["robots"]]]
+        else:
+            at = nodes[: cell["robots"]]
+        seen += any((x - a) ** 2 + (y - b) ** 2 <= cell["radius_m"] ** 2 for a, b in at)
+    return 100 * seen / len(people)
+
+
+def verdicts(cells):
+    """What the coverage of these cells says of the paper's statements, where they have all that it is about."""
+    by = {(c["robots"], c["pedestrians"], c["radius_m"]): c["obs_percent"]["by_seed"] for c in cells}
+    if not all((r, n, m) in by for r in (0, 1, 9) for n in PEOPLE for m in (SMALL, LARGE)):
+        return {}
+    pairs = [(by[r, n, SMALL], by[r, n, LARGE]) for r in (1, 9) for n in PEOPLE]
+    more = [(by[1, n, m], by[9, n, m]) for n in PEOPLE for m in (SMALL, LARGE)]
+    return {
+        "coverageOfOne": every(within(by[1, n, LARGE], 4.5, 6.5) for n in PEOPLE),
+        "coverageOfNine": every(within(by[9, n, LARGE], 16.5, 18.5) for n in PEOPLE),
+        "severalAreBetter": every(above(less(nine, 1, one)) for one, nine in more),
+        "proportionalDecrease": every(
+            outcome
+            for small, large in pairs
+            for outcome in (above(less(small, 1.6 / 3, large)), below(less(small, 2.4 / 3, large)))
+        ),
+    }
+
+
 def main():
     results = json.load(sys.stdin)
+    for cell in results["cells"]:
+        found = [it for it in cell["obs_percent"]["ci95"] if it is not None]
+        expected = [it for it in interval(cell["obs_percent"]["by_seed"]) if abs(it) < 1e9]
+        if len(found) != len(expected) or any(abs(a - b) > 0.01 for a, b in zip(found, expected)):
+            sys.exit(f"{cell}: the interval is {expected} by coverage.py")
+    if "net" in results["parameters"]:
+        net, *recordings = sys.argv[1:]
+        people = [recorded(path) for path in recordings]
+        worst = 0
+        for cell in results["cells"]:
+            for it, found in zip(people, cell["obs_percent"]["by_seed"], strict=True):
+                expected = on_a_net(results["parameters"], cell, net, it)
+                worst = max(worst, abs(found - expected))
+                if not abs(found - expected) <= TOLERANCE:
+                    sys.exit(f"{cell}: {found:.3f} is {expected:.3f} by coverage.py")
+        print(f"{len(results['cells'])} cells agree, the worst within {worst:.6f} percentage points")
+        return
+    stated = {it["statement"]: it["outcome"] for it in results["statements"]}
+    for statement, outcome in verdicts(results["cells"]).items():
+        if stated[statement] != outcome:
+            sys.exit(f"{statement} is {stated[statement]}, but {outcome} by coverage.py")
     site, worst, compared = results["parameters"]["robot_site"], 0, 0
     files = by_people(sys.argv[1:])
     for cell in results["cells"]:

@@ -1,7 +1,9 @@
-"""Where people and robots are by the trace files that come along, for the judges of the evaluation."""
+"""Where people and robots are, by the trace files that come along and by SUMO's files, for the judges of the evaluation."""
 
 import gzip
 import json
+import math
+import xml.etree.ElementTree as xml
 
 
 def by_people(paths):
@@ -37,3 +39,42 @@ def robots(grid, site, count):
         key=lambda node: (node[0] - middle) ** 2 + (node[1] - middle) ** 2,
     )
     return [(x + east, y + north) for x, y in nodes[:count]]
+
+
+def elements(path):
+    """The elements of a file of SUMO, plain or packed."""
+    with (gzip.open if path.endswith(".gz") else open)(path, "rb") as file:
+        for _, element in xml.iterparse(file):
+            yield element
+
+
+def recorded(path):
+    """Where everybody on foot is at every step of floating car data, with the number of the step."""
+    places, steps = [], 0
+    for element in elements(path):
+        if element.tag == "timestep":
+            people = element.findall("person")
+            places += [(steps, float(it.get("x")), float(it.get("y"))) for it in people]
+            steps += 1
+            element.clear()
+    return places
+
+
+def intersections(path):
+    """The intersections of a net, the one nearest to the middle first."""
+    nodes, middle = [], None
+    for it in elements(path):
+        if it.tag == "location":
+            west, south, east, north = map(float, it.get("convBoundary").split(","))
+            middle = ((west + east) / 2, (south + north) / 2)
+        elif it.tag == "junction" and it.get("type") not in ("internal", "dead_end"):
+            nodes.append((float(it.get("x")), float(it.get("y"))))
+    return sorted(nodes, key=lambda node: math.dist(node, middle))
+
+
+def scheduled(at, time):
+    """Where a robot with these times and places is."""
+    before = max((it for it in at if it[0] <= time), key=lambda it: it[0], default=at[0])
+    after = min((it for it in at if it[0] > time), key=lambda it: it[0], default=before)
+    share = (time - before[0]) / (after[0] - before[0]) if after[0] > before[0] else 0
+    return [a + (b - a) * max(share, 0) for a, b in zip(before[1], after[1])]

@@ -30,7 +30,7 @@ pub struct Axes {
 }
 
 /// Coverage in a cell of the matrix.
-#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize)]
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
 pub struct ObsCell {
     /// Robots.
     pub robots: usize,
@@ -38,6 +38,8 @@ pub struct ObsCell {
     pub pedestrians: usize,
     /// Perception radius in metres.
     pub radius_m: f64,
+    /// The seeds of its runs.
+    pub seeds: Vec<u64>,
     /// Observation coverage ratio, in percent.
     pub obs_percent: Estimate,
     /// Share of the covered time in which people are at an intersection, in percent.
@@ -51,7 +53,7 @@ pub struct ObsCell {
 }
 
 /// Channel load in a cell of the matrix.
-#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize)]
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
 pub struct CbrCell {
     /// Robots.
     pub robots: usize,
@@ -59,6 +61,8 @@ pub struct CbrCell {
     pub pedestrians: usize,
     /// Perception radius in metres.
     pub radius_m: f64,
+    /// The seeds of its runs.
+    pub seeds: Vec<u64>,
     /// Mean channel busy ratio, 0..1.
     pub mcbr: Estimate,
     /// How much less it is than without robots, in percent of that.
@@ -103,6 +107,7 @@ pub fn obs(traces: &[Traces], axes: &Axes, goes_on: impl Fn() -> bool) -> Vec<Ob
                     robots,
                     pedestrians: traces.pedestrians(),
                     radius_m,
+                    seeds: seeds(traces, axes),
                     obs_percent: Estimate::of(percent),
                     covered_at_intersections_percent: share(|it| it.covered_at_intersections),
                     at_intersections_percent: share(|it| it.at_intersections),
@@ -113,6 +118,12 @@ pub fn obs(traces: &[Traces], axes: &Axes, goes_on: impl Fn() -> bool) -> Vec<Ob
         }
     }
     cells
+}
+
+/// The seeds that are taken of these traces.
+fn seeds(traces: &Traces, axes: &Axes) -> Vec<u64> {
+    let runs = traces.runs.iter().take(axes.seeds);
+    runs.map(|run| run.seed).collect()
 }
 
 /// One run of the matrix.
@@ -294,7 +305,13 @@ fn cells(traces: &[Traces], axes: &Axes, find: impl Fn(Job) -> Option<Done>) -> 
                 };
                 let after: Vec<Done> = (0..runs).filter_map(|run| find(job(run))).collect();
                 if before.len() == runs && after.len() == runs {
-                    cells.push(cell(robots, file.pedestrians(), radius_m, &before, &after));
+                    cells.push(CbrCell {
+                        robots,
+                        pedestrians: file.pedestrians(),
+                        radius_m,
+                        seeds: seeds(file, axes),
+                        ..cell(&before, &after)
+                    });
                 }
             }
         }
@@ -302,13 +319,7 @@ fn cells(traces: &[Traces], axes: &Axes, find: impl Fn(Job) -> Option<Done>) -> 
     cells
 }
 
-fn cell(
-    robots: usize,
-    pedestrians: usize,
-    radius_m: f64,
-    before: &[Done],
-    after: &[Done],
-) -> CbrCell {
+fn cell(before: &[Done], after: &[Done]) -> CbrCell {
     let percent = |of: fn(&Done) -> f64| Estimate::of(after.iter().map(|it| 100.0 * of(it)));
     let rate = |of: fn(&Measured) -> f64| Estimate::of(after.iter().map(|it| of(&it.measured)));
     let pairs = || before.iter().zip(after);
@@ -319,9 +330,6 @@ fn cell(
         100.0 * predicted_reduction(&before.measured, &after.measured, after.coverage)
     });
     CbrCell {
-        robots,
-        pedestrians,
-        radius_m,
         mcbr: Estimate::of(after.iter().map(|it| it.measured.mcbr)),
         reduction_percent: Estimate::of(reduction),
         predicted_percent: Estimate::of(predicted),
@@ -334,6 +342,7 @@ fn cell(
             rate(|it| it.ram_rate),
         ],
         overlapped_percent: percent(|it| it.measured.overlapped),
+        ..CbrCell::default()
     }
 }
 

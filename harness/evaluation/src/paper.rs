@@ -5,13 +5,15 @@
 
 use serde::Serialize;
 
-/// A range that the paper states.
+/// A range that the paper states, in percent.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub struct StatedRange {
     /// Its lower end.
     pub least: f64,
     /// Its upper end; the lower one for a single number.
     pub most: f64,
+    /// Half a unit of its last digit.
+    pub rounding: f64,
 }
 
 /// What the paper states of its simulation (section III-B).
@@ -61,13 +63,16 @@ pub const PAPER: PaperSimulation = PaperSimulation {
     coverage_of_one_percent: StatedRange {
         least: 5.0,
         most: 6.0,
+        rounding: 0.5,
     },
     coverage_of_nine_percent: StatedRange {
         least: 17.0,
         most: 18.0,
+        rounding: 0.5,
     },
     reduction_most_percent: StatedRange {
         least: 16.3,
         most: 16.3,
+        rounding: 0.05,
     },
 };

@@ -1,9 +1,11 @@
 //! Whether a run meets what the paper states: each statement with the measured value, the paper's value and a verdict.
 //!
-//! A verdict is computed from the run that it is about. The paper gives a figure without its deviation, so a figure is
-//! met where it is within two standard deviations of single runs around our mean, and at least within half a unit of
-//! its last whole digit; our mean stands beside it. Words without a figure have a rule of ours, which stands beside
-//! them as well.
+//! A verdict is computed from the run that it is about. A statement is a hypothesis on a mean over seeds, or on the mean
+//! of a difference that is taken seed by seed: it is met where the whole 95 % confidence interval of that mean is on the
+//! stated side, not met where none of it is, and undecided in between, which more seeds sharpen. A figure of the paper
+//! is a range, wider by half a unit of its last digit. Where a statement is about several cells, one that is not met
+//! decides, and then one that is undecided; the level is that of a single cell. Words without a figure have a rule of
+//! ours, which stands beside them.
 
 mod coverage;
 mod load;
@@ -28,10 +30,6 @@ use super::statistics::Estimate;
 /// Below this mean channel busy ratio it is low: no station is held back by the reactive congestion control of
 /// TS 102 687 v1.2.1 (table A.1, state "relaxed").
 pub const LOW_MCBR: f64 = 0.30;
-/// How far a figure may be from our mean, in standard deviations of single runs.
-const DEVIATIONS: f64 = 2.0;
-/// How far it may be at least, in percentage points.
-const ROUNDING_PERCENT: f64 = 0.5;
 
 /// A table of statements: what each is about, and by what rule what was measured is compared with the paper.
 macro_rules! statements {
@@ -56,7 +54,8 @@ macro_rules! statements {
 }
 
 const SAME: &str = "the same";
-const FIGURE_RULE: &str = "the range within two standard deviations of a run, at every density";
+const FIGURE_RULE: &str =
+    "the interval within the range and half of its last digit, at every density";
 
 statements! {
     Grid "grid of streets": SAME;
@@ -85,7 +84,7 @@ statements! {
     LowLoad "mean channel busy ratio, all cells": "below 30 %, where congestion control (TS 102 687) holds nobody back";
     ConsistentReduction "reduction by robots, all cells": "above 0 in every cell";
     GrowsWithDensity "reduction at 15 m with 20, 50, 100, by 1 and by 9 robots": "each above the one before";
-    LargestReduction "largest reduction: 9 robots, 100 pedestrians, 15 m": "the largest of all cells, and the figure within two standard deviations of a run";
+    LargestReduction "largest reduction: 9 robots, 100 pedestrians, 15 m": "above all other cells, and the interval within half of the last digit";
     SmallerRadius "reduction at 10 m and at 15 m, all cells": "at 10 m above 0 and below that at 15 m, in every cell";
     DiminishingGain "reduction of 9 robots by that of 1, 15 m": "more than once and less than nine times that of one robot";
     LargerRadiusStandsForMore "silent devices at 10 m and at 15 m, all cells": "more at 15 m, in every cell";
@@ -102,6 +101,8 @@ pub enum Outcome {
     Met,
     /// It does not.
     NotMet,
+    /// The confidence interval is on both sides: more seeds decide it.
+    Undecided,
     /// The run does not have what it is about.
     NotMeasured,
     /// The paper does not state it; it is assumed here.
@@ -109,12 +110,55 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    const fn of(is_met: bool) -> Self {
+        if is_met { Self::Met } else { Self::NotMet }
+    }
+
+    /// What comes of all of these: one that is not met decides, and then one that is undecided.
+    fn all(all: impl IntoIterator<Item = Self>) -> Self {
+        all.into_iter()
+            .fold(Self::Met, |one, other| match (one, other) {
+                (Self::NotMet, _) | (_, Self::NotMet) => Self::NotMet,
+                (Self::Undecided, _) | (_, Self::Undecided) => Self::Undecided,
+                _ => Self::Met,
+            })
+    }
+
+    /// Whether a mean is above this.
+    fn above(it: &Estimate, bound: f64) -> Self {
+        match it.ci95 {
+            [least, _] if least > bound => Self::Met,
+            [_, most] if most <= bound => Self::NotMet,
+            _ => Self::Undecided,
+        }
+    }
+
+    /// Whether a mean is below this.
+    fn below(it: &Estimate, bound: f64) -> Self {
+        match it.ci95 {
+            [_, most] if most < bound => Self::Met,
+            [least, _] if least >= bound => Self::NotMet,
+            _ => Self::Undecided,
+        }
+    }
+
+    /// Whether a mean is in a range.
+    fn within(it: &Estimate, range: StatedRange) -> Self {
+        let (least, most) = (range.least - range.rounding, range.most + range.rounding);
+        match it.ci95 {
+            [from, to] if least <= from && to <= most => Self::Met,
+            [from, to] if to < least || most < from => Self::NotMet,
+            _ => Self::Undecided,
+        }
+    }
+
     /// In words.
     #[must_use]
     pub const fn words(self) -> &'static str {
         match self {
             Self::Met => "met",
             Self::NotMet => "not met",
+            Self::Undecided => "undecided",
             Self::NotMeasured => "not measured",
             Self::Assumed => "assumed",
         }
@@ -154,12 +198,6 @@ pub struct Setting<'a> {
     pub behaviour: Option<&'a Behaviour>,
 }
 
-/// Whether our mean agrees with what the paper states.
-fn is_of(measured: Estimate, range: StatedRange) -> bool {
-    let tolerance = (DEVIATIONS * measured.sd).max(ROUNDING_PERCENT);
-    measured.mean + tolerance >= range.least && measured.mean - tolerance <= range.most
-}
-
 impl Statement {
     /// A comparison with this outcome.
     fn with(self, paper: &dyn Display, measured: &dyn Display, outcome: Outcome) -> Comparison {
@@ -175,12 +213,7 @@ impl Statement {
 
     /// A comparison that is met or not.
     fn compare(self, paper: &dyn Display, measured: &dyn Display, is_met: bool) -> Comparison {
-        let outcome = if is_met {
-            Outcome::Met
-        } else {
-            Outcome::NotMet
-        };
-        self.with(paper, measured, outcome)
+        self.with(paper, measured, Outcome::of(is_met))
     }
 
     /// A comparison by what was measured, if it was.
@@ -188,10 +221,10 @@ impl Statement {
         self,
         paper: &dyn Display,
         measured: Option<T>,
-        judge: impl Fn(T) -> (String, bool),
+        judge: impl Fn(T) -> (String, Outcome),
     ) -> Comparison {
         match measured.map(judge) {
-            Some((words, is_met)) => self.compare(paper, &words, is_met),
+            Some((words, outcome)) => self.with(paper, &words, outcome),
             None => self.with(paper, &"-", Outcome::NotMeasured),
         }
     }

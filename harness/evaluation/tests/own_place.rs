@@ -95,7 +95,10 @@ fn a_net_and_floating_car_data_give_the_figures_of_the_grid() {
     };
     let coverage = |traces: &Traces, axes: &Axes| {
         let cells = obs(std::slice::from_ref(traces), axes, || true);
-        cells.iter().map(|it| it.obs_percent).collect::<Vec<_>>()
+        cells
+            .into_iter()
+            .map(|it| it.obs_percent)
+            .collect::<Vec<_>>()
     };
     assert_eq!(coverage(&own, &by_file), coverage(&grid, &at_corners));
     let (behaviour, sizes) = (Behaviour::default(), Sizes::measure(5).unwrap());

@@ -394,7 +394,8 @@ Next: --report crossing.html makes a page of a run; --log crossing.jsonl keeps i
 const LEGEND: &str = "\
 T_neg: from the leader's first transmission of the command to its reception at the follower, one way; the paper's \
 went\nover IEEE 802.11p. Round trip: from that transmission to the acknowledgement at the leader. T_exec: the motion, \
-in the\nrobots' own time; of a block, how long it was held. T_TMCT = T_neg + T_exec. Mean ± standard deviation.";
+in the\nrobots' own time; of a block, how long it was held. It is an input here and no finding: the speed of simulated \
+bodies\nand the time to cross are set beforehand. T_TMCT = T_neg + T_exec. Mean ± standard deviation.";
 
 /// The times of maneuvers, each beside the paper's.
 fn times(summaries: &[Summary]) -> Table {

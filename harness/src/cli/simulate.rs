@@ -114,7 +114,7 @@ fn obs(arguments: &Obs) -> Result<(), Failure> {
     let parameters = Assumptions::of(&axes, &traces, None);
     let was_stopped = interrupted.load(Ordering::Relaxed);
     // Where files cannot be written, the figures are printed all the same.
-    let written = csv::write(arguments.output.csv.as_deref(), &cells);
+    let written = csv::write(arguments.output.csv.as_deref(), &output::by_seed(&cells)?);
     let statements = if was_stopped {
         Vec::new()
     } else {
@@ -156,7 +156,7 @@ fn cbr(arguments: &Cbr) -> Result<(), Failure> {
     let parameters = Assumptions::of(&axes, &traces, Some(behaviour));
     let was_stopped = interrupted.load(Ordering::Relaxed);
     // Where files cannot be written, the figures are printed all the same.
-    let written = csv::write(arguments.output.csv.as_deref(), &cells);
+    let written = csv::write(arguments.output.csv.as_deref(), &output::by_seed(&cells)?);
     let silences = arguments.air.silences.as_deref();
     let written = written.and(csv::write(silences, &results.silences));
     let statements = if was_stopped {

@@ -137,10 +137,17 @@ fn a_place_of_ones_own_is_measured_and_not_taken_for_the_papers() {
     let report = command::json(&output);
     assert!((percent(&report) - 1_600.0 / 61.0).abs() < 1e-9, "{report}");
     assert_eq!(report["statements"], serde_json::json!([]));
+    let agrees = |results: &[u8]| {
+        let judged = judge(&["judges/coverage.py", &net, &fcd], results);
+        judged.is_none_or(|(code, said)| code == Some(0) && said.starts_with("1 cells agree"))
+    };
+    assert!(agrees(&output.stdout));
     assert_eq!(report["parameters"]["net"]["intersections"], 1);
     // One that walks along sees all of it.
     let places = file("places.csv", "robot,time_s,x_m,y_m\nr,0,0,0\nr,60,60,0\n");
-    let report = json(&format!("{words} --robots 1 --json --robots-at {places}"));
+    let output = simulate(&format!("{words} --robots 1 --json --robots-at {places}"));
+    let report = command::json(&output);
+    assert!(agrees(&output.stdout));
     assert!((percent(&report) - 100.0).abs() < 1e-9, "{report}");
     let far = file(
         "far.xml",
@@ -168,7 +175,14 @@ fn every_statement_of_the_paper_on_coverage_has_a_verdict() {
     let statements = report["statements"].as_array().unwrap();
     assert_eq!(statements.len(), 16);
     for line in statements {
-        assert_eq!(line["outcome"], "met", "{line}");
+        // Ten seeds do not decide what the paper's figures are of.
+        let is_figure = ["coverageOfOne", "coverageOfNine"].map(Value::from);
+        let expected = if is_figure.contains(&line["statement"]) {
+            "undecided"
+        } else {
+            "met"
+        };
+        assert_eq!(line["outcome"], expected, "{line}");
     }
     let plain = json("obs --json --preset plain");
     assert_eq!(plain["documented"], false);
@@ -185,7 +199,7 @@ fn every_statement_of_the_paper_on_coverage_has_a_verdict() {
 
 #[test]
 fn verdicts_on_channel_load_follow_the_run() {
-    let of = |others: &str| json(&format!("cbr --json --seeds 2 {others}"));
+    let of = |others: &str| json(&format!("cbr --json --seeds 3 {others}"));
     let few = of("");
     assert_eq!(few["statements"].as_array().unwrap().len(), 25);
     // Ten seeds are documented.
@@ -194,11 +208,13 @@ fn verdicts_on_channel_load_follow_the_run() {
         "power",
         "lowLoad",
         "consistentReduction",
-        "growsWithDensity",
         "largerRadiusStandsForMore",
-        "conservativeSilence",
     ] {
         assert_eq!(outcome(&few, statement), "met", "{statement}");
+    }
+    // Three seeds leave these open.
+    for statement in ["growsWithDensity", "largestReduction"] {
+        assert_eq!(outcome(&few, statement), "undecided", "{statement}");
     }
     // Artery is not used, and devices that fall silent by RAM are no devices of today.
     for statement in ["networkStack", "unchangedDevices"] {
@@ -314,7 +330,7 @@ fn coverage_has_the_shape_that_scripts_read() {
 fn channel_load_has_the_shape_that_scripts_read() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| folder.path().join(name).display().to_string();
-    let arguments = "cbr --json --pedestrians 20 --radius 15 --seeds 1";
+    let arguments = "cbr --json --pedestrians 20 --radius 15 --seeds 2";
     let report = json(&format!("{arguments} --csv {}", file("cells.csv")));
     assert_eq!(report["preset"], "kerb");
     assert!(report["parameters"]["behaviour"]["radio"]["sense_dbm"].is_f64());
@@ -325,7 +341,22 @@ fn channel_load_has_the_shape_that_scripts_read() {
     assert!(number(&cells[2], "mcbr") < number(&cells[1], "mcbr"));
     assert!(number(&cells[1], "mcbr") < number(&cells[0], "mcbr"));
     let table = std::fs::read_to_string(file("cells.csv")).unwrap();
-    assert_eq!(table.lines().count(), 4);
+    // A row for each seed, with the values that the mean is of.
+    let mut rows = table.lines().map(|row| row.split(',').collect::<Vec<_>>());
+    let heads = rows.next().unwrap();
+    let column = |name| heads.iter().position(|head| *head == name).unwrap();
+    let (seed, load) = (column("seed"), column("mcbr"));
+    let rows: Vec<(&str, f64)> = rows
+        .map(|row| (row[seed], row[load].parse().unwrap()))
+        .collect();
+    assert_eq!(rows.len(), 6);
+    for (cell, rows) in cells.iter().zip(rows.chunks(2)) {
+        assert_eq!((rows[0].0, rows[1].0), ("1", "2"));
+        assert_eq!(
+            cell["mcbr"]["by_seed"],
+            serde_json::json!([rows[0].1, rows[1].1])
+        );
+    }
     assert_eq!(report["paper"]["reduction_most_percent"]["most"], 16.3);
     // The same seeds give the same figures.
     assert_eq!(json(arguments)["cells"], report["cells"]);

@@ -6,7 +6,7 @@ use super::super::paper::PAPER;
 use super::super::statistics::Estimate;
 use super::setup::setup;
 use super::text::{list, spread, words};
-use super::{Comparison, Setting, Statement, all_of, is_of, over_densities, same};
+use super::{Comparison, Outcome, Setting, Statement, all_of, over_densities, same};
 
 /// By how much the ratio of the coverages at two radii may differ from that of the radii, as a share of it.
 const PROPORTION_TOLERANCE: f64 = 0.2;
@@ -24,14 +24,17 @@ pub fn of_coverage(setting: Setting<'_>, cells: &[ObsCell]) -> Vec<Comparison> {
         let is = |cell: &&ObsCell| {
             (cell.robots, cell.pedestrians) == (robots, people) && same(cell.radius_m, radius_m)
         };
-        cells.iter().find(is).map(|cell| cell.obs_percent)
+        cells.iter().find(is).map(|cell| cell.obs_percent.clone())
     };
     let [small_m, large_m] = PAPER.radii_m;
     let [zero, one, nine] = PAPER.robots;
     let densities = |robots, radius_m| over_densities(|people| at(robots, people, radius_m));
     lines.push(
         Statement::CoverageOfNone.judge(&"0 %", densities(zero, large_m), |all| {
-            (list(&all), all.iter().all(|it| it.mean.abs() < 1e-9))
+            (
+                list(&all),
+                Outcome::of(all.iter().all(|it| it.mean.abs() < 1e-9)),
+            )
         }),
     );
     let (of_one, of_nine) = (
@@ -44,7 +47,10 @@ pub fn of_coverage(setting: Setting<'_>, cells: &[ObsCell]) -> Vec<Comparison> {
     ] {
         lines.push(
             statement.judge(&words(range), densities(robots, large_m), |all| {
-                (list(&all), all.iter().all(|it| is_of(*it, range)))
+                (
+                    list(&all),
+                    Outcome::all(all.iter().map(|it| Outcome::within(it, range))),
+                )
             }),
         );
     }
@@ -52,15 +58,22 @@ pub fn of_coverage(setting: Setting<'_>, cells: &[ObsCell]) -> Vec<Comparison> {
     let ratios = all_of(&PAPER.robots[1..], |robots| {
         let (small, large) = (densities(robots, small_m)?, densities(robots, large_m)?);
         let pairs = small.into_iter().zip(large);
-        Some(pairs.map(|(small, large)| small.mean / large.mean.max(f64::MIN_POSITIVE)))
+        Some(pairs)
     });
     let wanted = small_m / large_m;
     lines.push(Statement::ProportionalDecrease.judge(
         &"proportional decrease (10 / 15 = 0.67)",
         ratios,
-        |ratios| {
-            let fits = |ratio: &f64| (ratio / wanted - 1.0).abs() <= PROPORTION_TOLERANCE;
-            (spread(ratios.iter().copied(), ""), ratios.iter().all(fits))
+        |pairs| {
+            let ratios = pairs
+                .iter()
+                .map(|(small, large)| small.mean / large.mean.max(f64::MIN_POSITIVE));
+            let bounds = [1.0 - PROPORTION_TOLERANCE, 1.0 + PROPORTION_TOLERANCE];
+            let fit = pairs.iter().flat_map(|(small, large)| {
+                let [least, most] = bounds.map(|bound| small.less(bound * wanted, large));
+                [Outcome::above(&least, 0.0), Outcome::below(&most, 0.0)]
+            });
+            (spread(ratios, ""), Outcome::all(fit))
         },
     ));
     let pairs = all_of(&PAPER.radii_m, |radius_m| {
@@ -75,8 +88,9 @@ pub fn of_coverage(setting: Setting<'_>, cells: &[ObsCell]) -> Vec<Comparison> {
             let factors = pairs
                 .iter()
                 .map(|(one, nine)| nine.mean / one.mean.max(f64::MIN_POSITIVE));
-            let is_better = pairs.iter().all(|(one, nine)| nine.mean > one.mean);
-            (spread(factors, "times as much"), is_better)
+            let more = pairs.iter().map(|(one, nine)| nine.less(1.0, one));
+            let outcome = Outcome::all(more.map(|it| Outcome::above(&it, 0.0)));
+            (spread(factors, "times as much"), outcome)
         }),
     );
     lines
@@ -89,7 +103,7 @@ fn crossings(grid: &Grid, cells: &[ObsCell]) -> Comparison {
     Statement::Crossings.judge(&"on both sides of the roads", most, |most| {
         let wide_m = grid.sidewalk_m;
         let text = format!("{wide_m} m wide, {most:.2} % of the time on a road elsewhere");
-        (text, wide_m > 0.0 && most.abs() < 1e-9)
+        (text, Outcome::of(wide_m > 0.0 && most.abs() < 1e-9))
     })
 }
 
@@ -100,17 +114,16 @@ fn same_routes(cells: &[ObsCell]) -> Comparison {
     people.dedup();
     let travels = |people: usize| {
         let of = move |it: &&ObsCell| it.pedestrians == people;
-        cells.iter().filter(of).map(|it| it.travel_s)
+        cells.iter().filter(of).map(|it| it.travel_s.clone())
     };
     let first: Vec<Estimate> = people.iter().filter_map(|it| travels(*it).next()).collect();
     let paper = "the same routes for all numbers of robots";
     Statement::SameRoutes.judge(&paper, (!first.is_empty()).then_some(first), |first| {
         let words = first.iter().map(|it| format!("{:.1}", it.mean));
         let words = words.collect::<Vec<_>>().join(", ");
-        let is_same = |(people, one): (&usize, &Estimate)| {
-            travels(*people).all(|it| same(it.mean, one.mean) && same(it.sd, one.sd))
-        };
-        (format!("{words} s"), people.iter().zip(&first).all(is_same))
+        let is_same = |(people, one): (&usize, &Estimate)| travels(*people).all(|it| it == *one);
+        let all_same = people.iter().zip(&first).all(is_same);
+        (format!("{words} s"), Outcome::of(all_same))
     })
 }
 
@@ -122,12 +135,14 @@ fn at_intersections(cells: &[ObsCell]) -> Comparison {
     let paper = "predominantly at intersections";
     let judged = (!seen.is_empty()).then_some(seen);
     Statement::CoverageAtIntersections.judge(&paper, judged, |seen| {
-        let mut shares = seen
-            .iter()
-            .map(|it| it.covered_at_intersections_percent.mean);
+        let shares = seen.iter().map(|it| &it.covered_at_intersections_percent);
         let all = seen.iter().map(|it| it.at_intersections_percent.mean);
-        let (covered, all) = (spread(shares.clone(), "%"), spread(all, "%"));
+        let means = shares.clone().map(|it| it.mean);
+        let (covered, all) = (spread(means, "%"), spread(all, "%"));
         let text = format!("{covered} (of all time {all})");
-        (text, shares.all(|it| it > 50.0))
+        (
+            text,
+            Outcome::all(shares.map(|it| Outcome::above(it, 50.0))),
+        )
     })
 }

@@ -5,7 +5,7 @@ use super::super::paper::PAPER;
 use super::super::statistics::Estimate;
 use super::setup::{on_the_air, setup};
 use super::text::{list, spread, words};
-use super::{Comparison, LOW_MCBR, Setting, Statement, all_of, is_of, over_densities, same};
+use super::{Comparison, LOW_MCBR, Outcome, Setting, Statement, all_of, over_densities, same};
 
 /// How much of the silence may be of devices that no robot perceives, in percent.
 const WRONG_MAX_PERCENT: f64 = 5.0;
@@ -31,18 +31,18 @@ pub fn of_load(setting: Setting<'_>, cells: &[CbrCell]) -> Vec<Comparison> {
         cells.iter().find(is)
     };
     let reductions = |robots, radius_m| {
-        over_densities(|people| Some(find(robots, people, radius_m)?.reduction_percent))
+        over_densities(|people| Some(find(robots, people, radius_m)?.reduction_percent.clone()))
     };
     let loads = all_of(&PAPER.robots, |robots| {
         all_of(&PAPER.radii_m, |radius_m| {
-            over_densities(|people| Some(find(robots, people, radius_m)?.mcbr))
+            over_densities(|people| Some(find(robots, people, radius_m)?.mcbr.clone()))
         })
     });
     lines.push(
         Statement::LowLoad.judge(&"comparatively low", loads, |loads| {
             let percent = loads.iter().map(|it| 100.0 * it.mean);
-            let is_low = loads.iter().all(|it| it.mean < LOW_MCBR);
-            (spread(percent, "%"), is_low)
+            let low = loads.iter().map(|it| Outcome::below(it, LOW_MCBR));
+            (spread(percent, "%"), Outcome::all(low))
         }),
     );
     let everywhere = all_of(&[one, nine], |robots| {
@@ -51,16 +51,16 @@ pub fn of_load(setting: Setting<'_>, cells: &[CbrCell]) -> Vec<Comparison> {
     let paper = "consistent at all densities";
     lines.push(
         Statement::ConsistentReduction.judge(&paper, everywhere, |all| {
-            let is_there = all.iter().all(|it| it.mean > 0.0);
-            (spread(all.iter().map(|it| it.mean), "%"), is_there)
+            let there = all.iter().map(|it| Outcome::above(it, 0.0));
+            (
+                spread(all.iter().map(|it| it.mean), "%"),
+                Outcome::all(there),
+            )
         }),
     );
     let of_both = reductions(one, large_m).zip(reductions(nine, large_m));
     lines.push(by_density(of_both.clone()));
-    lines.push(largest(
-        cells,
-        find(nine, PAPER.pedestrians[2], large_m).map(|it| it.reduction_percent),
-    ));
+    lines.push(largest(cells, find(nine, PAPER.pedestrians[2], large_m)));
     let pairs = all_of(&[one, nine], |robots| {
         all_of(&PAPER.pedestrians, |people| {
             let small = find(robots, people, small_m)?;
@@ -77,53 +77,61 @@ pub fn of_load(setting: Setting<'_>, cells: &[CbrCell]) -> Vec<Comparison> {
 fn by_density(reductions: Option<(Vec<Estimate>, Vec<Estimate>)>) -> Comparison {
     let paper = "increasingly pronounced with density";
     Statement::GrowsWithDensity.judge(&paper, reductions, |(one, nine)| {
-        let grows = |all: &[Estimate]| all.is_sorted_by(|a, b| a.mean < b.mean);
-        let text = format!("{}; {}", list(&one), list(&nine));
-        (text, grows(&one) && grows(&nine))
+        let steps = one.windows(2).chain(nine.windows(2));
+        let grows = steps.map(|pair| Outcome::above(&pair[1].less(1.0, &pair[0]), 0.0));
+        let outcome = Outcome::all(grows);
+        (format!("{}; {}", list(&one), list(&nine)), outcome)
     })
 }
 
 /// Whether the reduction where the paper has its largest is the largest, and as large.
-fn largest(cells: &[CbrCell], there: Option<Estimate>) -> Comparison {
-    let means = cells.iter().map(|it| it.reduction_percent.mean);
-    let most = means.fold(f64::MIN, f64::max);
+fn largest(cells: &[CbrCell], there: Option<&CbrCell>) -> Comparison {
     let paper = format!("up to {}", words(PAPER.reduction_most_percent));
-    Statement::LargestReduction.judge(&paper, there, |it| {
-        let is_met = most <= it.mean && is_of(it, PAPER.reduction_most_percent);
-        (list(&[it]), is_met)
+    Statement::LargestReduction.judge(&paper, there, |there| {
+        let it = &there.reduction_percent;
+        let others = cells.iter().filter(|other| *other != there);
+        let more = others.map(|other| Outcome::above(&it.less(1.0, &other.reduction_percent), 0.0));
+        let figure = Outcome::within(it, PAPER.reduction_most_percent);
+        (
+            list(std::slice::from_ref(it)),
+            Outcome::all(more.chain([figure])),
+        )
     })
 }
 
 /// What the larger radius brings, and the smaller one saves.
 fn by_radius(pairs: Option<&Pairs<'_>>) -> [Comparison; 3] {
-    let judge = |statement: Statement, paper, value: fn(&CbrCell) -> f64, unit, least: f64| {
-        statement.judge(paper, pairs, |pairs| {
-            let of = |at: usize| spread(pairs.iter().map(|pair| value(pair[at])), unit);
-            let grows = |[small, large]: &[&CbrCell; 2]| {
-                value(small) > least && value(small) < value(large)
-            };
-            (format!("{}; {}", of(0), of(1)), pairs.iter().all(grows))
-        })
-    };
+    let judge =
+        |statement: Statement, paper, value: fn(&CbrCell) -> &Estimate, unit, least: f64| {
+            statement.judge(paper, pairs, |pairs| {
+                let of = |at: usize| spread(pairs.iter().map(|pair| value(pair[at]).mean), unit);
+                let grows = pairs.iter().flat_map(|[small, large]| {
+                    let (small, large) = (value(small), value(large));
+                    let more = large.less(1.0, small);
+                    [Outcome::above(small, least), Outcome::above(&more, 0.0)]
+                });
+                (format!("{}; {}", of(0), of(1)), Outcome::all(grows))
+            })
+        };
     [
         judge(
             Statement::SmallerRadius,
             &"less at 10 m, a clear benefit in all configurations",
-            |it| it.reduction_percent.mean,
+            |it| &it.reduction_percent,
             "%",
             0.0,
         ),
         judge(
             Statement::LargerRadiusStandsForMore,
             &"a larger share at the larger radius",
-            |it| it.passive_percent.mean,
+            |it| &it.passive_percent,
             "%",
             f64::NEG_INFINITY,
         ),
         judge(
             Statement::SmallerRadiusSendsLess,
             &"less overhead at the smaller radius",
-            |it| it.messages_per_s[2].mean,
+            |it| &it.messages_per_s[2],
             "",
             f64::NEG_INFINITY,
         ),
@@ -135,22 +143,30 @@ fn by_robots(reductions: Option<(Vec<Estimate>, Vec<Estimate>)>) -> Comparison {
     let paper = "diminishing gain of each further robot";
     Statement::DiminishingGain.judge(&paper, reductions, |(one, nine)| {
         let pairs = one.iter().zip(&nine);
-        let mut factors = pairs.map(|(one, nine)| nine.mean / one.mean);
-        let text = spread(factors.clone(), "times as much");
-        (text, factors.all(|factor| factor > 1.0 && factor < 9.0))
+        let factors = pairs.clone().map(|(one, nine)| nine.mean / one.mean);
+        let fit = pairs.flat_map(|(one, nine)| {
+            let [once, nine_times] = [1.0, 9.0].map(|factor| nine.less(factor, one));
+            [Outcome::above(&once, 0.0), Outcome::below(&nine_times, 0.0)]
+        });
+        (spread(factors, "times as much"), Outcome::all(fit))
     })
 }
 
 /// Whether the silence is of devices that a robot perceives (section II-D, clustering of people on foot).
 fn conservative(cells: &[CbrCell]) -> Comparison {
     let silent = cells.iter().filter(|it| it.passive_percent.mean > 0.0);
-    let shares: Vec<f64> = silent
-        .map(|it| 100.0 * it.wrongly_silent_percent.mean / it.passive_percent.mean)
-        .collect();
+    let silent: Vec<&CbrCell> = silent.collect();
     let paper = "suppression is conservative and local";
-    let judged = (!shares.is_empty()).then_some(shares);
-    Statement::ConservativeSilence.judge(&paper, judged, |shares| {
-        let is_little = shares.iter().all(|it| *it <= WRONG_MAX_PERCENT);
-        (spread(shares.into_iter(), "%"), is_little)
+    let judged = (!silent.is_empty()).then_some(silent);
+    Statement::ConservativeSilence.judge(&paper, judged, |silent| {
+        let pairs = silent
+            .iter()
+            .map(|it| (&it.wrongly_silent_percent, &it.passive_percent));
+        let shares = pairs
+            .clone()
+            .map(|(wrong, all)| 100.0 * wrong.mean / all.mean);
+        let little = pairs
+            .map(|(wrong, all)| Outcome::below(&wrong.less(WRONG_MAX_PERCENT / 100.0, all), 0.0));
+        (spread(shares, "%"), Outcome::all(little))
     })
 }

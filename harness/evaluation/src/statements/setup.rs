@@ -51,7 +51,7 @@ pub(super) fn setup(setting: Setting<'_>, people: impl Iterator<Item = usize>) -
             side == PAPER.nodes_per_side && same(grid.segment_m, PAPER.segment_m),
         ),
         Statement::Mobility.judge(&"SUMO", is_proven.then_some(()), |()| {
-            (grid.mobility.clone(), true)
+            (grid.mobility.clone(), Outcome::Met)
         }),
         Statement::Vehicles.compare(
             &PAPER.vehicles,
@@ -71,12 +71,17 @@ pub(super) fn setup(setting: Setting<'_>, people: impl Iterator<Item = usize>) -
         Statement::CentralIntersection.judge(
             &format_args!("{central}, central"),
             one.first().filter(|_| has(1)),
-            |at| (place(*at), *at == PAPER.central_intersection),
+            |at| (place(*at), Outcome::of(*at == PAPER.central_intersection)),
         ),
         Statement::EveryIntersection.judge(
             &"one at each of the 9",
             (has(9) && !nine.is_empty()).then_some(distinct.len()),
-            |distinct| (format!("{distinct} different ones"), distinct == 9),
+            |distinct| {
+                (
+                    format!("{distinct} different ones"),
+                    Outcome::of(distinct == 9),
+                )
+            },
         ),
         Statement::StaticRobots.compare(&"stand", &robots, robots == "stand"),
     ]

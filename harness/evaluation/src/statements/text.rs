@@ -13,9 +13,10 @@ pub(super) fn words(range: StatedRange) -> String {
 }
 
 pub(super) fn list(all: &[Estimate]) -> String {
-    let all = all
-        .iter()
-        .map(|it| format!("{:.1} ± {:.1}", it.mean, it.sd));
+    let all = all.iter().map(|it| {
+        let [least, most] = it.ci95;
+        format!("{:.1} ({least:.1} to {most:.1})", it.mean)
+    });
     format!("{} %", all.collect::<Vec<_>>().join(", "))
 }
 

@@ -183,7 +183,10 @@ impl Assumptions {
             numbers.dedup();
             numbers
         };
-        let stationing = axes.stationing.clone();
+        let mut stationing = axes.stationing.clone();
+        if streets.grid().is_none() {
+            stationing.robot_site = Site::Center;
+        }
         let by_grid = corner_m.filter(|_| stationing.robots_at.is_none());
         Self {
             robot_offset_m: by_grid.map(|corner_m| match stationing.robot_site {
@@ -237,7 +240,7 @@ pub(super) struct Output {
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     pub(super) json: bool,
-    /// Write the results to this file as comma-separated values.
+    /// Write the results of each seed to this file as comma-separated values.
     #[arg(long, value_name = "FILE")]
     pub(super) csv: Option<PathBuf>,
 }

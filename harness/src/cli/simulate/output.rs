@@ -7,6 +7,9 @@ use crossguard_evaluation::statements::Comparison;
 use crossguard_evaluation::statistics::Estimate;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use serde::Serialize;
+use serde_json::Value;
+
 use super::options::Assumptions;
 use super::{Failure, print};
 use crate::cli::shows_progress;
@@ -17,12 +20,12 @@ pub(super) trait Row {
     fn columns(&self) -> Vec<(&'static str, String)>;
 }
 
-fn percent(it: Estimate) -> String {
-    format!("{:.2} ± {:.2} %", it.mean, it.sd)
+fn percent(it: &Estimate, factor: f64) -> String {
+    format!("{:.2} ± {:.2} %", factor * it.mean, factor * it.sd)
 }
 
 /// Percent with two digits.
-fn mean(it: Estimate) -> String {
+fn mean(it: &Estimate) -> String {
     format!("{:.2} %", it.mean)
 }
 
@@ -33,7 +36,7 @@ impl Row for ObsCell {
             ("robots", self.robots.to_string()),
             ("pedestrians", self.pedestrians.to_string()),
             ("radius", format!("{} m", self.radius_m)),
-            ("coverage", percent(self.obs_percent)),
+            ("coverage", percent(&self.obs_percent, 1.0)),
             ("of it at intersections", format!("{at_intersections:.1} %")),
         ]
     }
@@ -41,26 +44,23 @@ impl Row for ObsCell {
 
 impl Row for CbrCell {
     fn columns(&self) -> Vec<(&'static str, String)> {
-        let scaled = Estimate {
-            mean: 100.0 * self.mcbr.mean,
-            sd: 100.0 * self.mcbr.sd,
-        };
-        let [vam, cam, ram] = self.messages_per_s.map(|it| format!("{:.1}", it.mean));
+        let rates = self.messages_per_s.each_ref();
+        let [vam, cam, ram] = rates.map(|it| format!("{:.1}", it.mean));
         let vam_share = self.vam_share_percent.mean;
         vec![
             ("robots", self.robots.to_string()),
             ("pedestrians", self.pedestrians.to_string()),
             ("radius", format!("{} m", self.radius_m)),
-            ("mCBR", percent(scaled)),
-            ("reduction", percent(self.reduction_percent)),
-            ("by the law", mean(self.predicted_percent)),
-            ("silent devices", mean(self.passive_percent)),
-            ("wrongly silent", mean(self.wrongly_silent_percent)),
+            ("mCBR", percent(&self.mcbr, 100.0)),
+            ("reduction", percent(&self.reduction_percent, 1.0)),
+            ("by the law", mean(&self.predicted_percent)),
+            ("silent devices", mean(&self.passive_percent)),
+            ("wrongly silent", mean(&self.wrongly_silent_percent)),
             ("VAM share", format!("{vam_share:.1} %")),
             ("VAM/s", vam),
             ("CAM/s", cam),
             ("RAM/s", ram),
-            ("overlapped", mean(self.overlapped_percent)),
+            ("overlapped", mean(&self.overlapped_percent)),
         ]
     }
 }
@@ -75,6 +75,32 @@ pub(super) fn table<C: Row>(cells: &[C]) -> Table {
         table.add_row(values);
     }
     table
+}
+
+/// A row for each seed of each cell, with the values of that seed alone.
+pub(super) fn by_seed<C: Serialize>(cells: &[C]) -> Result<Vec<Value>, Failure> {
+    let mut rows = Vec::new();
+    for cell in cells {
+        let cell = serde_json::to_value(cell).map_err(Failure::input)?;
+        let seeds = cell["seeds"].as_array().map_or(0, Vec::len);
+        rows.extend((0..seeds).map(|seed| at_seed(&cell, seed)));
+    }
+    Ok(rows)
+}
+
+fn at_seed(value: &Value, seed: usize) -> Value {
+    match value {
+        Value::Object(parts) if parts.contains_key("by_seed") => parts["by_seed"][seed].clone(),
+        Value::Object(parts) => {
+            let parts = parts.iter().map(|(name, part)| match &**name {
+                "seeds" => ("seed".to_owned(), part[seed].clone()),
+                _ => (name.clone(), at_seed(part, seed)),
+            });
+            parts.collect()
+        }
+        Value::Array(parts) => parts.iter().map(|part| at_seed(part, seed)).collect(),
+        other => other.clone(),
+    }
 }
 
 /// What the paper states beside what was measured, one line each.
@@ -109,7 +135,7 @@ pub(super) fn print_parameters(parameters: &Assumptions) -> Result<(), Failure> 
     print("")
 }
 
-fn print_value(indent: usize, value: &serde_json::Value) -> Result<(), Failure> {
+fn print_value(indent: usize, value: &Value) -> Result<(), Failure> {
     let Some(fields) = value.as_object() else {
         return Ok(());
     };
@@ -121,7 +147,7 @@ fn print_value(indent: usize, value: &serde_json::Value) -> Result<(), Failure> 
         } else {
             let is_rate = name.ends_with(" hz");
             let value = match value {
-                serde_json::Value::Null if is_rate => "by rules".to_owned(),
+                Value::Null if is_rate => "by rules".to_owned(),
                 value => value.to_string().replace('"', ""),
             };
             print(format_args!("{:indent$}{name}: {value}", ""))?;
