@@ -4,6 +4,7 @@ use crossguard_endpoint::ras::clustering;
 use crossguard_endpoint::ras::surroundings::CLUSTER_INTERVAL_MS;
 use serde::{Deserialize, Serialize};
 
+use super::crew::Sessions;
 use super::radio::Radio;
 use super::vru::{Suppression, Understands, VamRule};
 
@@ -36,6 +37,9 @@ pub struct Behaviour {
     pub signed: bool,
     /// Whether the reactive congestion control of TS 102 687 holds stations back.
     pub dcc: bool,
+    /// How robots hold sessions, whose messages are on the channel as well; `None` is not at all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sessions: Option<Sessions>,
     /// How people around a robot are clustered; its radius is that of the cell.
     pub clustering: clustering::Settings,
     /// The radio channel.
@@ -57,6 +61,7 @@ impl Default for Behaviour {
             vehicles_leave_s: None,
             signed: false,
             dcc: false,
+            sessions: None,
             clustering: clustering::Settings::default(),
             radio: Radio::default(),
         }

@@ -21,6 +21,7 @@
 pub mod behaviour;
 mod cam;
 pub mod coverage;
+mod crew;
 mod device;
 pub mod fcd;
 pub mod grid;
@@ -42,5 +43,6 @@ pub mod vru;
 mod xml;
 
 pub use cam::CamError;
+pub use crew::Sessions;
 pub use robot::RobotError;
 pub use xml::SumoFileError;

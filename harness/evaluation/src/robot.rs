@@ -4,8 +4,9 @@
 
 use crossguard_codec::core::ram::RAM;
 use crossguard_codec::{
-    Capabilities, Identifiers, JobRole, RobotCategory, RobotState, SlowState, TaskProgression,
-    decode, encode, ram_from,
+    Capabilities, ExecutionStatus, Identifiers, JobRole, RobotCategory, RobotState, SlowState,
+    TaskParameters, TaskProgression, decode, encode, ram_from, rmcm_from_answer,
+    rmcm_from_commands,
 };
 use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::{Cluster, PerceivedVru, VruClass};
@@ -15,9 +16,10 @@ use crossguard_endpoint::ras::generation::{Generation, Limits, Status, Trigger};
 use crossguard_endpoint::ras::motion::{Plane, Point, distance_m};
 use crossguard_endpoint::ras::surroundings::{Awareness, Surroundings, Told, Unplaced};
 use crossguard_endpoint::ras::vam::vam_of;
-use crossguard_protocol::{Availability, Coordination, Ram, StationId, TaskSet, TaskType};
+use crossguard_protocol::{Availability, Coordination, Ram, Rmcm, StationId, TaskSet, TaskType};
 
 use super::behaviour::Behaviour;
+use super::crew::{Crew, Said};
 use super::trace::{Run, Track};
 use super::vru::{Announcement, Understands};
 
@@ -29,10 +31,15 @@ const FIRST_STATION: u32 = 1_000_000;
 const SENSED_BEYOND_M: f64 = 5.0;
 
 /// A message of a robot.
+#[derive(Clone, Debug)]
 pub(super) struct Message {
     pub(super) octets: usize,
-    /// What it announces, as it is received.
-    pub(super) announced: Announcement,
+    /// What it announces to devices, as it is received.
+    pub(super) announced: Option<Announcement>,
+    /// What it says to robots that coordinate.
+    said: Option<Said>,
+    /// Where it was sent from.
+    from: Point,
 }
 
 /// Why a robot's message cannot be sent.
@@ -67,6 +74,8 @@ pub(super) struct Robot<'a> {
     last_ram_ms: Option<u64>,
     /// People that it does not perceive, by number.
     unseen: Vec<bool>,
+    /// Its part in sessions, if robots hold some.
+    crew: Option<Crew>,
     perceived: Vec<PerceivedVru>,
 }
 
@@ -92,6 +101,9 @@ impl<'a> Robot<'a> {
                 .take(run.pedestrians.len())
                 .map(|person| behaviour.is_unseen(person))
                 .collect(),
+            crew: behaviour
+                .sessions
+                .map(|sessions| Crew::new(station, number, sessions)),
             perceived: Vec::new(),
         }
     }
@@ -114,6 +126,16 @@ impl<'a> Robot<'a> {
         self.state.heading = Some(motion.heading_deg.into());
         self.perceive(now_us, motion.position_m, run)?;
         let mut messages = Vec::new();
+        for said in self
+            .crew
+            .as_mut()
+            .map_or_else(Vec::new, |it| it.pass(now_ms))
+        {
+            messages.push(match said {
+                Said::Ram(_) => self.ram(now_ms, Trigger::Heartbeat)?,
+                Said::Rmcm(rmcm) => self.rmcm(now_ms, &rmcm)?,
+            });
+        }
         if let Some(trigger) = self.ram_trigger(now_ms, congestion_ms) {
             messages.push(self.ram(now_ms, trigger)?);
         }
@@ -158,8 +180,16 @@ impl<'a> Robot<'a> {
         self.surroundings.clustering().is_member(person)
     }
 
-    /// Another robot's RAM.
-    pub(super) fn hear(&mut self, now_ms: u64, heard: &Announcement) {
+    /// Another robot's message.
+    pub(super) fn hear(&mut self, now_us: u64, message: &Message) {
+        let now_ms = now_us / 1_000;
+        if let (Some(crew), Some(said)) = (&mut self.crew, &message.said) {
+            let away_m = distance_m(self.track.motion(now_us).position_m, message.from);
+            crew.hear(now_ms, said, away_m);
+        }
+        let Some(heard) = &message.announced else {
+            return;
+        };
         if heard.by == Understands::Ram {
             if let Some(id) = heard.ended {
                 self.surroundings.hear_ended(now_ms, heard.head, id);
@@ -186,19 +216,24 @@ impl<'a> Robot<'a> {
     }
 
     fn status(&self) -> Status {
+        let idle = Ram {
+            station: StationId(self.station),
+            coordination: Coordination::None,
+            farewell: None,
+            on_duty: false,
+        };
         Status {
-            view: Ram {
-                station: StationId(self.station),
-                coordination: Coordination::None,
-                farewell: None,
-                on_duty: false,
-            },
+            view: self.crew.as_ref().map_or(idle, Crew::ram),
             availability: Availability::Available,
             progression: TaskProgression::Idle,
         }
     }
 
     fn ram_trigger(&self, now_ms: u64, congestion_ms: u64) -> Option<Trigger> {
+        if self.crew.as_ref().is_some_and(Crew::is_busy) {
+            // The protocol has its own timer.
+            return None;
+        }
         if let Some(interval_ms) = self.ram_interval_ms {
             let interval_ms = interval_ms.max(congestion_ms);
             let is_due = |last: u64| now_ms - last >= interval_ms;
@@ -220,10 +255,9 @@ impl<'a> Robot<'a> {
         let told = self.surroundings.next_told();
         self.last_ram_ms = Some(now_ms);
         let low_frequency = self.generation.low_frequency_due(now_ms, &self.state);
-        let (status, time) = (
-            self.status(),
-            crossguard_codec::si::generation_delta_time(now_ms),
-        );
+        let (status, from) = (self.status(), self.place(1_000 * now_ms));
+        let said = self.crew.is_some().then_some(Said::Ram(status.view));
+        let (status, time) = (status, crossguard_codec::si::generation_delta_time(now_ms));
         let available = status.availability;
         let mut ram = ram_from(
             &ids,
@@ -256,8 +290,45 @@ impl<'a> Robot<'a> {
         };
         Ok(Message {
             octets: octets.len(),
-            announced,
+            announced: Some(announced),
+            said,
+            from,
         })
+    }
+
+    /// A command or an answer.
+    fn rmcm(&self, now_ms: u64, rmcm: &Rmcm) -> Result<Message, RobotError> {
+        let (ids, position) = (Identifiers::default(), &self.state.position);
+        let time = crossguard_codec::si::generation_delta_time(now_ms);
+        let message = match rmcm {
+            Rmcm::Command(command) => {
+                let commands = [(*command, TaskParameters::default())];
+                rmcm_from_commands(&ids, position, &commands, time)
+            }
+            Rmcm::Answer(answer) => {
+                let status = ExecutionStatus {
+                    progression: self.state.task_progression,
+                    time_to_completion: None,
+                };
+                rmcm_from_answer(&ids, position, answer, status, time)
+            }
+        };
+        Ok(Message {
+            octets: encode(&ids, &message?)?.len(),
+            announced: None,
+            said: Some(Said::Rmcm(*rmcm)),
+            from: self.place(1_000 * now_ms),
+        })
+    }
+
+    /// A cluster VAM, which says nothing to robots that coordinate.
+    fn by_vam(announced: Announcement, octets: usize) -> Message {
+        Message {
+            octets,
+            announced: Some(announced),
+            said: None,
+            from: [0.0, 0.0],
+        }
     }
 
     /// The same cluster for devices that do not understand RAM. Its area is the one that is on the wire.
@@ -278,7 +349,7 @@ impl<'a> Robot<'a> {
             velocity_mps: Some(cluster.velocity_mps),
             ended: None,
         };
-        Message { octets, announced }
+        Self::by_vam(announced, octets)
     }
 
     /// That one of these is over.
@@ -290,7 +361,7 @@ impl<'a> Robot<'a> {
             velocity_mps: None,
             ended: Some(id),
         };
-        Message { octets, announced }
+        Self::by_vam(announced, octets)
     }
 }
 

@@ -20,9 +20,9 @@ use serde::{Deserialize, Serialize};
 use super::behaviour::Behaviour;
 use super::messages::{CERTIFICATE_INTERVAL_MS, Signed, Sizes, air_time_us, frame_octets};
 use super::radio::{Channel, Transmission, WINDOW_US};
-use super::robot::{Robot, RobotError};
+use super::robot::{Message, Robot, RobotError};
 use super::trace::{Run, Track};
-use super::vru::{Announcement, VruStation};
+use super::vru::VruStation;
 
 /// How often a generation rule is checked, in ms (`T_CheckVamGen`): what is sent at an interval is sent at a
 /// multiple of it.
@@ -53,13 +53,13 @@ pub struct Measured {
     pub cam_load: f64,
     /// Air time of VAM by time, 0..1.
     pub vam_load: f64,
-    /// Air time of RAM and of robots' cluster VAM by time, 0..1.
+    /// Air time of RAM, RMCM and of robots' cluster VAM by time, 0..1.
     pub ram_load: f64,
     /// CAM per second.
     pub cam_rate: f64,
     /// VAM per second.
     pub vam_rate: f64,
-    /// RAM and robots' cluster VAM per second.
+    /// RAM, RMCM and robots' cluster VAM per second.
     pub ram_rate: f64,
     /// Share of frames that overlapped with another anywhere on the grid, also out of its range, 0..1.
     pub overlapped: f64,
@@ -76,8 +76,8 @@ pub struct Measured {
 pub(super) enum Payload {
     Cam,
     Vam,
-    /// RAM or a robot's cluster VAM.
-    Robot(Box<Announcement>),
+    /// RAM, RMCM, or a robot's cluster VAM.
+    Robot(Box<Message>),
 }
 
 /// A frame that waits to be sent.
@@ -408,8 +408,8 @@ impl<'a> Simulation<'a> {
             }
             Role::Robot(robot) => {
                 for message in robot.check(now_us, self.run, congestion_ms)? {
-                    let payload = Payload::Robot(Box::new(message.announced));
-                    self.build(now_us, number, message.octets, payload);
+                    let octets = message.octets;
+                    self.build(now_us, number, octets, Payload::Robot(Box::new(message)));
                 }
             }
         }
@@ -502,19 +502,19 @@ impl<'a> Simulation<'a> {
             self.sums.overlapped += u64::from(Channel::overlapped(&transmission));
         }
         if let Some(Frame {
-            payload: Payload::Robot(announced),
+            payload: Payload::Robot(message),
             ..
         }) = frame
         {
-            self.announce(now_us, &transmission, &announced);
+            self.announce(now_us, &transmission, &message);
         }
         if !self.stations[number].waiting.is_empty() {
             self.want(now_us, number);
         }
     }
 
-    /// Everybody in range hears what a robot announces. Only devices are counted.
-    fn announce(&mut self, now_us: u64, transmission: &Transmission, announced: &Announcement) {
+    /// Everybody in range hears what a robot says. Only what devices are to hear, and devices, are counted.
+    fn announce(&mut self, now_us: u64, transmission: &Transmission, message: &Message) {
         let now_ms = now_us / 1_000;
         for (number, station) in self.stations.iter_mut().enumerate() {
             if matches!(station.role, Role::Vehicle { .. })
@@ -527,6 +527,9 @@ impl<'a> Simulation<'a> {
             let is_received = self.channel.receives(number, transmission);
             match &mut station.role {
                 Role::Device { track, station, .. } => {
+                    let Some(announced) = &message.announced else {
+                        continue;
+                    };
                     self.sums.heard += 1;
                     self.sums.lost += u64::from(!is_received);
                     if is_received {
@@ -534,7 +537,7 @@ impl<'a> Simulation<'a> {
                         station.hear(now_ms, &motion, announced);
                     }
                 }
-                Role::Robot(robot) if is_received => robot.hear(now_ms, announced),
+                Role::Robot(robot) if is_received => robot.hear(now_us, message),
                 Role::Robot(_) | Role::Vehicle { .. } => {}
             }
         }

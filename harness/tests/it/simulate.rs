@@ -231,6 +231,27 @@ fn verdicts_on_channel_load_follow_the_run() {
     assert_eq!(outcome(&seldom, "largestReduction"), "notMet");
 }
 
+/// Robots that hold sessions say more, and save less.
+#[test]
+fn robots_that_coordinate_load_the_channel_that_is_measured() {
+    let of = |sessions: &str| {
+        let cells = "--pedestrians 20 --robots 0,9 --radius 15 --seeds 1";
+        let report = json(&format!("cbr --json {cells} {sessions}"));
+        let cell = &report["cells"][1];
+        let mean = |it: &Value| it["mean"].as_f64().unwrap();
+        (
+            mean(&cell["messages_per_s"][2]),
+            mean(&cell["reduction_percent"]),
+        )
+    };
+    let (few, saved) = of("");
+    let (many, rest) = of("--set behaviour.sessions.hold_s=30");
+    assert!(
+        many > 4.0 * few && rest < saved - 10.0,
+        "{few} {saved} {many} {rest}"
+    );
+}
+
 /// Stations check every 100 ms, so seven VAM a second are five.
 #[test]
 fn the_rate_that_is_printed_is_the_one_that_is_sent() {

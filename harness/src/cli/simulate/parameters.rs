@@ -212,6 +212,18 @@ impl Parameters {
             &[radio.contention_window],
             1..=1_023,
         )?;
+        for (name, seconds) in [
+            (
+                "behaviour.sessions.hold_s",
+                behaviour.sessions.map(|it| it.hold_s),
+            ),
+            (
+                "behaviour.sessions.pause_s",
+                behaviour.sessions.map(|it| it.pause_s),
+            ),
+        ] {
+            within(name, &seconds, 1.0..=250.0)?;
+        }
         if !DATA_RATES_MBPS.contains(&radio.data_rate_mbps) {
             return Err(Failure::Input(format!(
                 "behaviour.radio.data_rate_mbps is {}: one of {DATA_RATES_MBPS:?} is wanted",
