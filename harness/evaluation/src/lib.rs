@@ -7,8 +7,8 @@
 //!                                  radio: air time, carrier sense, EDCA
 //! ```
 //!
-//! - [`grid`] is the street grid, [`stationing`] where robots are on it, [`sumo`] makes mobility on it, [`trace`]
-//!   keeps it, [`shipped`] are the traces that come along.
+//! - [`grid`] is the street grid, [`net`] any other streets, [`stationing`] where robots are on them, [`schedule`] the same
+//!   by a file. [`sumo`] makes mobility, [`fcd`] reads it, [`trace`] keeps it, [`shipped`] are the traces that come along.
 //! - [`coverage`] is the observation coverage ratio, and the greedy placement of robots.
 //! - [`vru`] is the station of a road user: when it sends a VAM, when it leaves that to a robot, and when it takes it up
 //!   again.
