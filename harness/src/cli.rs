@@ -114,6 +114,15 @@ enum Command {
     Other(Vec<OsString>),
 }
 
+/// In which words people are told.
+#[derive(clap::Args)]
+struct Wording {
+    /// Name stations, sessions and commands as logs do: in 1#37.0/2, 2 is the command's requestID, 1 the station id of the
+    /// leader, and 37.0 its first session (0) since its 37th boot.
+    #[arg(short, long)]
+    verbose: bool,
+}
+
 /// How a subcommand ends, when not well.
 #[derive(Debug)]
 enum Failure {

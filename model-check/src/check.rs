@@ -4,7 +4,7 @@
 //! about all runs afterwards. As a second opinion stateright explores the same model before that, so that its
 //! memory is free again. A check with both is exhaustive only when both have visited everything and agree.
 
-use crossguard_protocol::Output;
+use crossguard_protocol::{Input, Output};
 use stateright::{Checker, Expectation, HasDiscoveries, Model as _, Property};
 
 use crate::exploration::by_stateright;
@@ -13,6 +13,7 @@ use crate::explore::{Graph, Keep, RunOf, explore};
 use crate::fair::{LeadsTo, leads_to};
 use crate::fairness::Classifier;
 use crate::model::{Action, Delivery, Model, ModelState};
+use crate::names::Names;
 use crate::network::Transmission;
 use crate::parallel::map_chunks;
 use crate::properties::{Claim, LivenessRule, PropertyId, Rule, View, for_each_property};
@@ -273,7 +274,12 @@ pub(crate) fn chart_step(
     action: Action,
 ) -> Option<(ModelState, ChartStep)> {
     let (next, step) = model.successor(state, action)?;
-    let outputs = step.map_or_else(Vec::new, |step| step.outputs().iter().map(worded).collect());
+    let outputs = step.map_or_else(Vec::new, |step| {
+        step.outputs()
+            .iter()
+            .map(|it| worded(model.names(), it))
+            .collect()
+    });
     let (place, action) = placed(model, action);
     let step = ChartStep {
         place,
@@ -284,11 +290,19 @@ pub(crate) fn chart_step(
 }
 
 /// An output in words. This model has no durations: go lasts until something ends it.
-fn worded(output: &Output) -> String {
+fn worded(names: &Names, output: &Output) -> String {
     match output {
         Output::CorridorOpened(_) => "corridor opened".to_owned(),
         Output::CorridorExtended(_) => "corridor extended".to_owned(),
-        output => output.to_string(),
+        output => names.tell(output),
+    }
+}
+
+/// A message in words, for where its sender is seen.
+pub(crate) fn said(names: &Names, message: &Input) -> String {
+    match message {
+        Input::Ram { ram, .. } => names.tell(ram),
+        other => names.tell(other),
     }
 }
 
@@ -303,7 +317,7 @@ pub(crate) fn placed(model: &Model, action: Action) -> (ChartPlace, String) {
             to: to.into(),
             fate,
         };
-        (place, model.message(message).input().to_string())
+        (place, said(model.names(), &model.message(message).input()))
     };
     let at = |robot: u8, what: String| (ChartPlace::At(robot.into()), what);
     match action {
@@ -318,8 +332,11 @@ pub(crate) fn placed(model: &Model, action: Action) -> (ChartPlace, String) {
         Action::Lie(transmission) => between(transmission, Fate::Arrives),
         Action::Lose(transmission) => between(transmission, Fate::Lost),
         Action::Delay(transmission) => between(transmission, Fate::Delayed),
-        Action::Expire(robot, timer) => at(robot, format!("timer {timer} expires")),
-        Action::Local(robot, event) => at(robot, event.to_string()),
+        Action::Expire(robot, timer) => at(
+            robot,
+            model.names().tell(format_args!("timer {timer} expires")),
+        ),
+        Action::Local(robot, event) => at(robot, model.names().tell(event)),
         Action::Crash(robot) => at(robot, "crashes".to_owned()),
         Action::Restart(robot) => at(robot, "boots again".to_owned()),
         Action::StepOnRoad(robot) => at(robot, "at its sign somebody steps on the road".to_owned()),

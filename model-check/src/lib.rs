@@ -61,6 +61,7 @@ mod memo;
 pub mod model;
 pub mod monitor;
 pub mod monotone;
+pub mod names;
 pub mod network;
 pub mod node;
 mod numbered;

@@ -8,8 +8,9 @@ mod by_itself;
 use crossguard_protocol::{Availability, Role, State, StationId};
 use serde::{Deserialize, Serialize};
 
-use crate::check::{chart, chart_step, names};
+use crate::check::{chart, chart_step, names, said};
 use crate::model::{Model, ModelState};
+use crate::names::Names;
 use crate::network::Transmission;
 use crate::node::Node;
 use crate::properties::PropertyId;
@@ -171,7 +172,7 @@ impl WalkFrame {
         let robots = model.nodes(state).enumerate();
         Self {
             robots: robots
-                .map(|(place, node)| RobotFrame::of(node, state.hangs(place)))
+                .map(|(place, node)| RobotFrame::of(model.names(), node, state.hangs(place)))
                 .collect(),
             on_air: OnItsWay::all(model, &on_air),
             delayed: OnItsWay::all(model, &delayed),
@@ -190,18 +191,18 @@ impl WalkFrame {
 }
 
 impl RobotFrame {
-    fn of(node: &Node, hangs: bool) -> Self {
+    fn of(names: &Names, node: &Node, hangs: bool) -> Self {
         let robot = node.robot.as_ref();
         let (state, role) = mode_parts(mode(node));
         let timers = robot.map(|robot| {
             let timers = robot.timers();
-            timers.iter().map(|(timer, _)| timer.to_string()).collect()
+            timers.iter().map(|(timer, _)| names.tell(timer)).collect()
         });
         Self {
             station: node.persisted.station,
             state,
             role,
-            words: node.to_string(),
+            words: names.tell(node),
             timers: timers.unwrap_or_default(),
             body: match node.actuation.body {
                 Body::Parked => BodyFrame::Parked,
@@ -210,7 +211,7 @@ impl RobotFrame {
                 Body::FallingBack(..) => BodyFrame::FallingBack,
                 Body::Ended(..) => BodyFrame::Ended,
             },
-            body_words: node.actuation.body.to_string(),
+            body_words: names.tell(&node.actuation.body),
             shows_go: node.actuation.corridor_open,
             is_down: robot.is_none(),
             hangs,
@@ -226,7 +227,7 @@ impl OnItsWay {
         let of = |it: &Transmission| Self {
             from: it.from,
             to: it.to,
-            text: model.message(it.message).input().to_string(),
+            text: said(model.names(), &model.message(it.message).input()),
         };
         transmissions.iter().map(of).collect()
     }

@@ -151,9 +151,9 @@ fn a_lease_that_is_longer_than_the_followers_safety_timer_allows_breaks_the_theo
         let mut outputs = chart.iter().filter(of_robot).flat_map(|step| &step.outputs);
         outputs.any(|output| output.contains(text))
     };
-    assert!(puts_out(0, "lease on 2 granted"), "{chart:#?}");
+    assert!(puts_out(0, "lease on robot 2 granted"), "{chart:#?}");
     assert!(puts_out(1, "contact lost"), "{chart:#?}");
-    assert!(!puts_out(0, "lease on 2 expired"), "{chart:#?}");
+    assert!(!puts_out(0, "lease on robot 2 expired"), "{chart:#?}");
 }
 
 #[test]

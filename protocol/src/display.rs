@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Display, Formatter, Write};
 
-use crate::id::UniqueNumber;
+use crate::id::{SessionId, UniqueNumber};
 use crate::input::{Decimetres, Input};
 use crate::message::{Answer, Command, Coordination, Farewell, Ram, Report, Rmcm, Verdict};
 use crate::output::Maneuver;
@@ -73,25 +73,30 @@ impl Display for HelpRequest {
 
 impl Display for Report {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "request {} {}", self.request, self.progress)
+        write!(f, "command {} {}", self.request, self.progress)
     }
 }
 
+/// With `{:#}` without what goes along with every RAM: heartbeat, echo, what is asked for and offered.
 impl Display for Ram {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self.coordination {
-            Coordination::None => f.write_str("RAM none")?,
+        let own = |number| SessionId::of(self.station, number);
+        let is_whole = !f.alternate();
+        let (session, beat) = match self.coordination {
+            Coordination::None => {
+                f.write_str("RAM none")?;
+                (None, None)
+            }
             Coordination::NeedHelp {
                 number,
                 heartbeat,
                 request,
             } => {
-                let number = number.0;
-                write!(
-                    f,
-                    "RAM needHelp {}#{number} ({request}), heartbeat {heartbeat}",
-                    self.station
-                )?;
+                f.write_str("RAM needHelp")?;
+                if is_whole {
+                    write!(f, " ({request})")?;
+                }
+                (Some(own(number)), Some(("heartbeat", heartbeat)))
             }
             Coordination::OfferHelp {
                 session,
@@ -99,7 +104,11 @@ impl Display for Ram {
                 echo,
                 ..
             } => {
-                write!(f, "RAM offerHelp {session} ({capabilities}), echo {echo}")?;
+                f.write_str("RAM offerHelp")?;
+                if is_whole {
+                    write!(f, " ({capabilities})")?;
+                }
+                (Some(session), Some(("echo", echo)))
             }
             Coordination::Leader {
                 number,
@@ -108,33 +117,44 @@ impl Display for Ram {
                 yields,
                 ..
             } => {
-                write!(f, "RAM leader {}#{} of", self.station, number.0)?;
-                for follower in followers.iter() {
-                    write!(f, " {}", follower.station)?;
+                f.write_str("RAM leader of")?;
+                for (i, follower) in followers.iter().enumerate() {
+                    let comma = if i > 0 { "," } else { "" };
+                    write!(f, "{comma} station {}", follower.station)?;
                 }
-                write!(f, ", heartbeat {heartbeat}")?;
                 if yields {
                     f.write_str(", yields the place")?;
                 }
+                (Some(own(number)), Some(("heartbeat", heartbeat)))
             }
             Coordination::Follower {
                 session,
                 echo,
                 last,
             } => {
-                write!(f, "RAM follower {session}, echo {echo}")?;
+                f.write_str("RAM follower")?;
                 if let Some(report) = last {
                     write!(f, ", {report}")?;
                 }
+                (Some(session), Some(("echo", echo)))
             }
+        };
+        if let Some(session) = session {
+            write!(f, ", {session}")?;
+        }
+        if let Some((name, beat)) = beat.filter(|_| is_whole) {
+            write!(f, ", {name} {beat}")?;
         }
         match self.farewell {
             None => {}
             Some(Farewell::Ended(number, ending)) => {
-                write!(f, ", ended {}#{}, {ending}", self.station, number.0)?;
+                write!(f, ", ended {}, {ending}", own(number))?;
             }
             Some(Farewell::Left(session, offer)) => {
-                write!(f, ", left {session} by offer {}", offer.0)?;
+                write!(f, ", left {session}")?;
+                if is_whole {
+                    write!(f, " by offer {}", offer.0)?;
+                }
             }
         }
         if self.on_duty {
@@ -144,6 +164,7 @@ impl Display for Ram {
     }
 }
 
+/// With `{:#}` without the receiver.
 impl Display for Rmcm {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
@@ -153,7 +174,11 @@ impl Display for Rmcm {
                 request,
                 task,
             }) => {
-                write!(f, "RMCM command {session}/{request} {task} to {to}")
+                write!(f, "RMCM command {request}: {task}")?;
+                if !f.alternate() {
+                    write!(f, " to station {to}")?;
+                }
+                write!(f, ", {session}")
             }
             Self::Answer(Answer {
                 session,
@@ -161,8 +186,10 @@ impl Display for Rmcm {
                 verdict,
                 ..
             }) => match verdict {
-                Verdict::Accepted => write!(f, "RMCM ack {session}/{request}"),
-                Verdict::Rejected(reason) => write!(f, "RMCM reject {session}/{request}: {reason}"),
+                Verdict::Accepted => write!(f, "RMCM ack {request}, {session}"),
+                Verdict::Rejected(reason) => {
+                    write!(f, "RMCM reject {request}, {session}: {reason}")
+                }
             },
         }
     }
@@ -180,10 +207,12 @@ impl Display for NumbersFrom {
     }
 }
 
+/// With `{:#}` as in a chart, where sender and receiver are seen.
 impl Display for Input {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Ram { ram, .. } => write!(f, "{ram} from {}", ram.station),
+            Self::Ram { ram, .. } if f.alternate() => ram.fmt(f),
+            Self::Ram { ram, .. } => write!(f, "{ram}, from station {}", ram.station),
             Self::Rmcm(rmcm) => rmcm.fmt(f),
             Self::Elapsed(elapsed) => write!(f, "{elapsed} elapsed"),
             Self::Expired(timer) => write!(f, "timer {timer} expired"),
@@ -194,7 +223,7 @@ impl Display for Input {
 
 impl Display for Maneuver {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", self.task, self.id)
+        write!(f, "{}, {}", self.task, self.id)
     }
 }
 

@@ -62,14 +62,14 @@ words! {
             follower: StationId,
             /// The maneuver.
             task: TaskType
-        } = 1, "command {follower} {task}";
+        } = 1, "command station {follower}: {task}";
         /// The body holds the place from which the maneuver that was started guards. To be told only when the body is
         /// there: the leader lets people on the road by it.
-        InPosition(id: ManeuverId) = 2, "maneuver {id} in position";
+        InPosition(id: ManeuverId) = 2, "in position for {id}";
         /// The maneuver that was started has been finished.
-        ManeuverCompleted(id: ManeuverId) = 3, "maneuver {id} completed";
+        ManeuverCompleted(id: ManeuverId) = 3, "completed {id}";
         /// The maneuver that was started cannot be finished.
-        ManeuverFailed(id: ManeuverId) = 4, "maneuver {id} failed";
+        ManeuverFailed(id: ManeuverId) = 4, "failed {id}";
         /// The pedestrian has crossed and nobody is on the road; the session may end. It takes the guards off the road.
         TaskCompleted = 5;
         /// The people that this robot guarded are off the road, and its body has finished its fallback. To be told only
@@ -90,12 +90,12 @@ words! {
         /// Where a number is given, those of its sessions and offers begin anew there, so that they do not tell that the
         /// two pseudonyms are one robot. Under this station id, no number from there on may have been given out before.
         IdentityChanged(station: StationId, next: Option<UniqueNumber>) = 12,
-            "identity changed to {station}{}", NumbersFrom(*next);
+            "identity changed to station {station}{}", NumbersFrom(*next);
         /// A larger boot counter has been persisted, as the output `RenewEpoch` asked.
         EpochRenewed(boot: u16) = 13, "boot counter renewed to {boot}";
         /// The body does not hold the place any more from which the maneuver guards. To be told as soon as it may be so:
         /// the leader lets nobody on the road any more.
-        OutOfPosition(id: ManeuverId) = 14, "maneuver {id} out of position";
+        OutOfPosition(id: ManeuverId) = 14, "out of position for {id}";
         /// Somebody is on the road, seen by this follower itself. Until it tells `RoadClear` it stays, however its leader
         /// ends the session.
         PersonOnRoad = 15;
@@ -110,17 +110,17 @@ words! {
         /// Follower: `T_leave`, since contact was lost.
         Leave = 1;
         /// Leader: the lease on this follower.
-        Lease(follower: StationId) = 2, "lease of {follower}";
+        Lease(follower: StationId) = 2, "lease of station {follower}";
         /// Leader: how long this follower is kept without a lease.
-        Lost(follower: StationId) = 3, "lost {follower}";
+        Lost(follower: StationId) = 3, "lost station {follower}";
         /// Leader: `T_exec` of this follower's command.
-        Execution(follower: StationId) = 4, "execution of {follower}";
+        Execution(follower: StationId) = 4, "execution of station {follower}";
         /// Leader: `T_ack` of this follower's outstanding command.
-        Acknowledgement(follower: StationId) = 5, "acknowledgement of {follower}";
+        Acknowledgement(follower: StationId) = 5, "acknowledgement of station {follower}";
         /// Requester: `T_help`.
         Help = 6;
         /// Requester: how long the offer of this helper stands without a newer echo.
-        Offer(helper: StationId) = 7, "offer of {helper}";
+        Offer(helper: StationId) = 7, "offer of station {helper}";
         /// Requester: the time to gather offers.
         Selection = 8;
         /// Helper: `T_offer`.

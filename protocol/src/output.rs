@@ -75,7 +75,7 @@ words! {
         /// The session ended.
         SessionEnded = 2;
         /// The place is yielded to this leader.
-        Yielded(station: StationId) = 19, "yielded to {station}";
+        Yielded(station: StationId) = 19, "yielded to station {station}";
         /// The application asked for it.
         Application = 20;
     }
@@ -109,31 +109,31 @@ words! {
         /// Leader: the followers are confirmed; the session has its roles.
         RolesEstablished(session: SessionId) = 1, "roles established in {session}";
         /// Leader: this follower has taken its role.
-        FollowerJoined(station: StationId) = 2, "{station} joined";
+        FollowerJoined(station: StationId) = 2, "station {station} joined";
         /// Leader: this follower has no part in the session any more.
-        FollowerGone(station: StationId, why: GoneReason) = 3, "{station} gone: {why}";
+        FollowerGone(station: StationId, why: GoneReason) = 3, "station {station} gone: {why}";
         /// Leader: this follower's lease stands.
-        LeaseGranted(station: StationId) = 4, "lease on {station} granted";
+        LeaseGranted(station: StationId) = 4, "lease on station {station} granted";
         /// Leader: this follower's lease has run out.
-        LeaseExpired(station: StationId) = 5, "lease on {station} expired";
+        LeaseExpired(station: StationId) = 5, "lease on station {station} expired";
         /// Leader: this follower acknowledged this command.
-        CommandAcknowledged(station: StationId, id: ManeuverId) = 6, "{station} acknowledged {id}";
+        CommandAcknowledged(station: StationId, id: ManeuverId) = 6, "station {station} acknowledged {id}";
         /// Leader: this follower rejected this command.
-        CommandRejected(station: StationId, id: ManeuverId, why: Rejection) = 7, "{station} rejected {id}: {why}";
+        CommandRejected(station: StationId, id: ManeuverId, why: Rejection) = 7, "station {station} rejected {id}: {why}";
         /// Leader: this follower reports that it executes this command.
-        ManeuverReported(station: StationId, id: ManeuverId) = 8, "{station} executes {id}";
+        ManeuverReported(station: StationId, id: ManeuverId) = 8, "station {station} executes {id}";
         /// Leader: this follower reports that it guards from its place.
-        ManeuverInPosition(station: StationId, id: ManeuverId) = 9, "{station} in position for {id}";
+        ManeuverInPosition(station: StationId, id: ManeuverId) = 9, "station {station} in position for {id}";
         /// Leader: this follower finished this command.
-        ManeuverCompleted(station: StationId, id: ManeuverId) = 10, "{station} completed {id}";
+        ManeuverCompleted(station: StationId, id: ManeuverId) = 10, "station {station} completed {id}";
         /// Leader: this command failed.
-        ManeuverFailed(station: StationId, id: ManeuverId, why: Failure) = 11, "{station} failed {id}: {why}";
+        ManeuverFailed(station: StationId, id: ManeuverId, why: Failure) = 11, "station {station} failed {id}: {why}";
         /// Leader: this follower fell back; it is idle in safety.
-        FollowerSafeIdle(station: StationId, id: ManeuverId) = 12, "{station} fell back from {id}";
+        FollowerSafeIdle(station: StationId, id: ManeuverId) = 12, "station {station} fell back from {id}";
         /// Requester: the offer of this helper has lapsed.
-        OfferLapsed(station: StationId) = 13, "the offer of {station} has lapsed";
+        OfferLapsed(station: StationId) = 13, "the offer of station {station} has lapsed";
         /// Leader: yields the place to this leader. The session ends once the road is clear.
-        Yielded(station: StationId) = 14, "place yielded to {station}";
+        Yielded(station: StationId) = 14, "place yielded to station {station}";
         /// Requester or leader: the session is over.
         SessionEnded(session: SessionId, why: EndReason) = 15, "{session} ended: {why}";
         /// Helper: offers to take part in this session.
@@ -157,7 +157,7 @@ words! {
         /// `T_help` ran out before enough helpers were found.
         NoHelp = 10;
         /// The request of this station at the same place goes before, or it leads there already.
-        Withdrawn(station: StationId) = 11, "withdrawn for {station}";
+        Withdrawn(station: StationId) = 11, "withdrawn for station {station}";
         /// No follower is left.
         NoFollowers = 12;
         /// The application asked to leave.

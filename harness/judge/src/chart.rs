@@ -15,6 +15,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use crossguard_codec::{Heard, Identifiers, Service};
 use crossguard_endpoint::cause::Layer;
+use crossguard_model_check::names::Names;
 use crossguard_protocol::{
     Coordination, Event, Heartbeat, Input, Output, Outputs, Ram, Rmcm, Robot, Role, State,
     StationId,
@@ -53,6 +54,8 @@ pub struct Chart {
     /// How long a line may be; 0 for any length.
     width: usize,
     lanes: Vec<Lane>,
+    /// What stations are called, those before a change of identity included.
+    names: Names,
     /// Whether robots get columns as they turn up in the records.
     grows: bool,
     /// The newest RAM that was drawn, without what changes with every RAM, by sender and receiver.
@@ -119,6 +122,7 @@ impl Chart {
                 SPACING
             },
             lanes: robots.iter().map(lane).collect(),
+            names: robots.iter().map(|(name, id)| (*id, *name)).collect(),
             ..Self::default()
         }
     }
@@ -141,6 +145,13 @@ impl Chart {
         self.spacing = self.spacing.min(room);
         self.width = width;
         (self.spacing >= SPACING_MIN).then_some(self)
+    }
+
+    /// The same chart with sessions, commands and stations as logs have them.
+    #[must_use]
+    pub fn with_short_ids(mut self) -> Self {
+        self.names = Names::short();
+        self
     }
 
     /// A line that is cut where it is too long.
@@ -185,7 +196,7 @@ impl Chart {
         if let Some(note) = note {
             self.gathering.add(at_us, note);
         }
-        let marks = self.gathering.due(at_us);
+        let marks = self.due(at_us);
         self.drawn(marks)
     }
 
@@ -194,8 +205,23 @@ impl Chart {
         let note = self.note_at(robot, text);
         self.on_go.extend(note.map(|note| (at_us, note)));
         self.go_on(at_us);
-        let marks = self.gathering.due(at_us);
+        let marks = self.due(at_us);
         self.drawn(marks)
+    }
+
+    /// What is complete at this time, with names.
+    fn due(&mut self, at_us: u64) -> Vec<(u64, Mark)> {
+        let due = self.gathering.due(at_us);
+        self.named(due)
+    }
+
+    fn named(&self, marks: Vec<(u64, Mark)>) -> Vec<(u64, Mark)> {
+        let named = |(at_us, mut mark): (u64, Mark)| {
+            let (Mark::Note { text, .. } | Mark::Arrow(Arrow { text, .. })) = &mut mark;
+            *text = self.names.tell(&*text);
+            (at_us, mark)
+        };
+        marks.into_iter().map(named).collect()
     }
 
     fn note_at(&self, robot: &str, text: &str) -> Option<Mark> {
@@ -252,7 +278,7 @@ impl Chart {
             self.lanes[lane].held = after.into_iter().map(|mark| (at_us, mark)).collect();
         }
         self.go_on(at_us);
-        self.gathering.due(at_us)
+        self.due(at_us)
     }
 
     /// What has not been complete so far.
@@ -261,16 +287,17 @@ impl Chart {
         for (at_us, mark) in held.chain(self.on_go.drain(..)) {
             self.gathering.add(at_us, mark);
         }
-        self.gathering.rest()
+        let rest = self.gathering.rest();
+        self.named(rest)
     }
 
     /// What a record adds, by itself.
     pub(crate) fn marks(&mut self, record: &Record) -> Vec<Mark> {
-        let mut marks = self.signs_that_ended(record);
+        let ended = self.signs_that_ended(record);
         let (now, after) = self.marks_of(record);
-        marks.extend(now);
-        marks.extend(after);
-        marks
+        let marks = ended.into_iter().chain(now).chain(after);
+        let marks = self.named(marks.map(|mark| (record.at_us, mark)).collect());
+        marks.into_iter().map(|(_, mark)| mark).collect()
     }
 
     /// A message on its way: it is drawn where it was sent if it is heard soon.
@@ -343,6 +370,7 @@ impl Chart {
                 state,
             } => {
                 if let Input::Local(Event::IdentityChanged(station, _)) = input {
+                    self.names.set(*station, &record.robot);
                     self.lanes[lane].station = *station;
                 }
                 self.keep_sign(lane, record.at_us, outputs);
@@ -404,6 +432,7 @@ impl Chart {
     /// one.
     fn seat(&mut self, robot: &str, station: StationId, identifiers: Identifiers) {
         let heard = |lane: &Lane| lane.is_stranger && lane.station == station;
+        self.names.set(station, robot);
         let seat = self.lane_named(robot);
         let seat = seat.or_else(|| self.lanes.iter().position(heard));
         let lane = Lane::new(robot.to_owned(), station, identifiers);

@@ -218,7 +218,7 @@ pub struct Observer {
 impl Default for Observer {
     fn default() -> Self {
         Self {
-            chart: Chart::growing(),
+            chart: Chart::growing().with_short_ids(),
             robots: Vec::new(),
             areas: Areas::default(),
         }

@@ -190,6 +190,8 @@ impl Reading {
         for (place, track) in (0..).zip(&run.robots) {
             robots.extend(track.stations.iter().map(|station| (*station, place)));
         }
+        let name = |(id, place): (&StationId, &u16)| (*id, &*run.robots[usize::from(*place)].name);
+        run.messages.names = robots.iter().map(name).collect();
         run.messages.finish(&robots, run.robots.len());
         run.site = match &street {
             Some(street) => street.site,

@@ -239,7 +239,7 @@ impl Tally {
         match state.phase() {
             Phase::Leading(leading) => {
                 for member in leading.members.iter() {
-                    let _ = write!(line, ", {}", member.station);
+                    let _ = write!(line, ", station {}", member.station);
                     let order = member.order.map(|order| (order.task, order.progress));
                     match order {
                         Some((task, Some(progress))) => {

@@ -74,6 +74,9 @@ pub(super) struct Arguments {
     /// Follow the run in this file, a counterexample of before, and say whether it still exists.
     #[arg(long, value_name = "FILE", conflicts_with = "charts")]
     replay: Option<PathBuf>,
+    /// Say what each verdict rests on: what is assumed of the robots, of the channel, and of each message's sender.
+    #[arg(short, long)]
+    verbose: bool,
     #[command(flatten)]
     workers: WorkersArguments,
     /// Print the results as JSON, and nothing else.
@@ -155,7 +158,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             written = written.and(write_charts(&checked, folder));
         }
         if !arguments.json {
-            print_report(&checked)?;
+            print_report(&checked, arguments.verbose)?;
         }
         report.scenarios.push(checked);
     }
@@ -308,7 +311,7 @@ fn show(bar: &ProgressBar, progress: CheckProgress) {
     ));
 }
 
-fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
+fn print_report(report: &ScenarioReport, verbose: bool) -> Result<(), Failure> {
     print(format_args!("{}: {}", report.name, report.summary))?;
     print(format_args!(
         "  {} states, {} transitions, depth {}, {:.1} s, {}",
@@ -348,11 +351,17 @@ fn print_report(report: &ScenarioReport) -> Result<(), Failure> {
     for line in table.lines() {
         print(format_args!("  {}", line.trim_end()))?;
     }
-    print_authentication(report)?;
     print_figures(&report.figures)?;
     for property in &report.properties {
         print_counterexample(report, property)?;
     }
+    if !verbose {
+        let count = report.assumptions.len();
+        return print(format_args!(
+            "  under {count} assumptions, which -v lists\n"
+        ));
+    }
+    print_authentication(report)?;
     print("  assuming:")?;
     for assumption in &report.assumptions {
         print(format_args!("  - {assumption}"))?;

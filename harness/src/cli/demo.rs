@@ -78,6 +78,8 @@ pub(super) struct Arguments {
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    wording: super::Wording,
     /// Leave the chart out.
     #[arg(long, conflicts_with = "json")]
     quiet: bool,
@@ -203,7 +205,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .iter()
         .map(|one| (&*one.name, one.station))
         .collect();
-    let chart = Chart::new(&columns, Identifiers::default()).within(self::columns());
+    let mut chart = Chart::new(&columns, Identifiers::default());
+    if arguments.wording.verbose {
+        chart = chart.with_short_ids();
+    }
+    let chart = chart.within(self::columns());
     let shows_chart = is_told && names.len() <= CHARTED && chart.is_some();
     let mut chart = chart.unwrap_or_default();
     let links = Links::open(&options, names.len()).map_err(Failure::input)?;

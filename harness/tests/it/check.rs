@@ -40,7 +40,7 @@ fn a_timed_check_reports_the_longest_times_beside_their_bounds() {
         assert!(ms.is_some() && ms <= bound_ms, "{figure}");
     }
     // What was found before the limit, and by which timers it is bounded.
-    let output = run_line("check timed-hang --max-states 1000");
+    let output = run_line("check timed-hang -v --max-states 1000");
     assert_code(&output, 3);
     let text = stdout(&output);
     text.must_have(&[
@@ -104,13 +104,13 @@ fn a_run_in_a_file_is_followed_as_far_as_it_exists() {
         std::fs::write(file, text).unwrap();
         run(&["check", scenario, "--replay", file])
     };
-    let lost = "RAM needHelp 1#1.0 (1 x move, medium urgency), heartbeat 0 from 1";
+    let lost = "RAM needHelp (1 x move, medium urgency), robot 1's crossing 1, heartbeat 0";
     let both = "\"send RAM\", \"lock identity\"";
     let otherwise = "the robot now puts out: send RAM, lock identity";
     let cases = [
         (both, lost, "exists, and does not break it any more"),
         ("\"send RAM\"", lost, otherwise),
-        (both, "RAM none from 1", "this cannot happen now"),
+        (both, "RAM none", "this cannot happen now"),
     ];
     for (outputs, last, expected) in cases {
         let output = follow(outputs, last);

@@ -138,9 +138,9 @@ fn a_sniffer_sees_both_robots(of: &Run, seen: &[Value]) {
     }
     let lines = stdout(&run(&["sniff", &of.path("pcap")]));
     lines.must_have(&[
-        "needHelp 1#",
+        "needHelp, 1#",
         "offerHelp",
-        "leader 1#",
+        "leader of station 2, 1#",
         "around: robot station 2",
     ]);
     assert_eq!(of.sniffed("--count 3").len(), 3);

@@ -110,7 +110,7 @@ fn cross(options: &str, typed: &str, links: Option<[&str; 2]>) -> Option<[String
     let logs = ["ARI.jsonl", "Go2.jsonl"].map(|log| street.path(log));
     assert_valid(logs.iter().map(Into::into));
     let seen = stdout(&run(&["sniff", &street.path("ari.pcap")]));
-    seen.must_have(&["needHelp 1#", "offerHelp 1#"]);
+    seen.must_have(&["needHelp, 1#", "offerHelp, 1#"]);
     let logs = logs.map(|log| fs::read_to_string(log).unwrap());
     assert!(logs[ARI].contains("\"taskCompleted\"") && logs[GO2].contains("\"taskCompleted\""));
     Some(logs)

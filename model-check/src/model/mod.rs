@@ -28,6 +28,7 @@ use crate::history::History;
 use crate::intern::Interner;
 use crate::memo::Memo;
 use crate::monotone::Sets;
+use crate::names::Names;
 use crate::network::{Message, Network, PackedNetwork, Transmission};
 use crate::node::{Node, Protocol, Rules};
 use crate::properties::{PropertyId, StateRule, View};
@@ -129,6 +130,7 @@ pub enum Delivery {
 pub struct Model(Arc<Shared>, Stop);
 
 struct Shared {
+    names: Names,
     scenario: Scenario,
     symmetry: Symmetry,
     steps: Steps,
@@ -183,6 +185,7 @@ impl Model {
         let renamings = Arc::new(Renamings::new(Ranks::rank));
         let shared = Shared {
             symmetry: Symmetry::of(&scenario),
+            names: Names::of(&scenario),
             scenario,
             steps: Steps::new(Box::new(rules), &renamings),
             histories: Interner::new(&renamings),
@@ -192,6 +195,11 @@ impl Model {
             premises_met: AtomicU32::new(0),
         };
         Self(Arc::new(shared), Stop::default())
+    }
+
+    /// The names of its robots.
+    pub(crate) fn names(&self) -> &Names {
+        &self.0.names
     }
 
     /// The same model, in which nothing happens any more once `stop` is requested.

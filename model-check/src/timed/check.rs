@@ -6,7 +6,7 @@ use super::model::TimedModel;
 use super::section::{Looks, Rates};
 use super::state::{TimedAction, TimedState};
 use super::system::where_time_stands_still;
-use crate::check::KIT;
+use crate::check::{KIT, said};
 use crate::exploration::{CheckProgress, Options};
 use crate::explore::{Keep, RunOf, explore};
 use crate::network::Transmission;
@@ -102,18 +102,18 @@ fn steps_of(
         _ => None,
     };
     let step = |(robot, cause, outputs): (u8, TimedCause, Outputs)| {
-        let lines: Vec<_> = outputs.iter().map(ToString::to_string).collect();
+        let lines: Vec<_> = outputs.iter().map(|it| model.names.tell(it)).collect();
         match (cause, action) {
             (TimedCause::Elapsed(elapsed), _) => at(
                 robot,
                 format!("its clock shows {} ms more", elapsed.0),
                 &lines,
             ),
-            (TimedCause::Event(event), _) => at(robot, event.to_string(), &lines),
+            (TimedCause::Event(event), _) => at(robot, model.names.tell(event), &lines),
             (TimedCause::Message(number), TimedAction::Deliver(flight)) => {
                 let Transmission { from, to, .. } = flight.transmission;
                 let delay = model.timed.clock.millis(flight.ticks).0;
-                let input = model.message(number).input();
+                let input = said(&model.names, &model.message(number).input());
                 let fate = if delay == 0 {
                     Fate::Arrives
                 } else {
@@ -129,9 +129,11 @@ fn steps_of(
                     outputs: lines,
                 }
             }
-            (TimedCause::Message(number), _) => {
-                at(robot, model.message(number).input().to_string(), &lines)
-            }
+            (TimedCause::Message(number), _) => at(
+                robot,
+                said(&model.names, &model.message(number).input()),
+                &lines,
+            ),
         }
     };
     let steps = model.outputs(state, action).into_iter().map(step);

@@ -31,6 +31,7 @@ use super::watch::StopWatch;
 use crate::canonical::{Ranks, Renamable, Renamings};
 use crate::held::Held;
 use crate::memo::Memo;
+use crate::names::Names;
 use crate::network::Message;
 use crate::node::{Node, Protocol, Rules};
 use crate::properties::PropertyId;
@@ -56,6 +57,7 @@ pub(super) struct TimedRobotStep {
 /// The timed model of one scenario.
 pub struct TimedModel {
     pub(super) scenario: Scenario,
+    pub(super) names: Names,
     pub(super) timed: Timed,
     pub(super) limits: Limits,
     pub(super) robots: Robots,
@@ -78,6 +80,7 @@ impl TimedModel {
         Some(Self {
             limits: Limits::new(&scenario.config, timed.delay),
             timed,
+            names: Names::of(&scenario),
             scenario,
             robots: Robots::new(Box::new(rules), &renamings),
             steps: Memo::default(),

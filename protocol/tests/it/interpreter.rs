@@ -31,7 +31,7 @@ ROBOT EVENT                detects N, orders ROBOT TASK, in position, out of pos
                            road clear, task completed, leaves, unavailable WHY, available, all answered, sees a person,
                            identity N, epoch N
 ROBOT elapses MS           time that this robot alone is told
-ROBOT expires TIMER        one timer, whatever time it has left; `lease of 2` is the one on GO2
+ROBOT expires TIMER        one timer, whatever time it has left; `lease of station 2` is the one on GO2
 ROBOT hears NAME           a message that was kept, or `RAM ...` or `RMCM ...` (see `made_ram`, `made_rmcm`)
 keep NAME ROBOT RAM|RMCM   what the robot says now, or the RMCM that it sent last
 pass MS                    time passes for all

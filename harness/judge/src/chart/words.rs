@@ -1,7 +1,7 @@
 //! What happens, in a few words.
 
 use crossguard_codec::{Heard, Kind, SignalsShown};
-use crossguard_protocol::{Coordination, Event, Farewell, Input, Notice, Output, Ram};
+use crossguard_protocol::{Event, Input, Notice, Output};
 use crossguard_robot::around::{Around, OfKind};
 use crossguard_robot::sight::Sight;
 use crossguard_robot::zone::Conduct;
@@ -17,7 +17,7 @@ pub fn text_of(heard: &Heard) -> String {
 
 /// The same, without what its sender shows to people.
 pub(super) fn said_in(heard: &Heard) -> String {
-    let inputs: Vec<_> = heard.inputs.iter().map(text_of_input).collect();
+    let inputs: Vec<_> = heard.inputs.iter().map(|it| format!("{it:#}")).collect();
     let place = heard.map_place.map(|place| format!(" at {place}"));
     inputs.join("; ") + &place.unwrap_or_default()
 }
@@ -37,57 +37,6 @@ pub(super) fn shown_in(heard: &Heard) -> Option<String> {
     } else {
         SHOWS_NOTHING.to_owned()
     })
-}
-
-fn text_of_input(input: &Input) -> String {
-    match input {
-        Input::Ram { ram, .. } => ram_text(ram),
-        other => other.to_string(),
-    }
-}
-
-fn ram_text(ram: &Ram) -> String {
-    let station = ram.station;
-    let part = match ram.coordination {
-        Coordination::None => "none".to_owned(),
-        Coordination::NeedHelp { number, .. } => format!("needHelp {station}#{}", number.0),
-        Coordination::OfferHelp { session, .. } => format!("offerHelp {session}"),
-        Coordination::Leader {
-            number,
-            followers,
-            yields,
-            ..
-        } => {
-            let followers: Vec<_> = followers.iter().map(|f| f.station.to_string()).collect();
-            let yields = if yields { ", yields" } else { "" };
-            format!(
-                "leader {station}#{} of {}{yields}",
-                number.0,
-                followers.join(", ")
-            )
-        }
-        Coordination::Follower {
-            session,
-            last: None,
-            ..
-        } => format!("follower {session}"),
-        Coordination::Follower {
-            session,
-            last: Some(last),
-            ..
-        } => {
-            format!("follower {session}: {} {}", last.request, last.progress)
-        }
-    };
-    let farewell = match ram.farewell {
-        None => String::new(),
-        Some(Farewell::Ended(number, ending)) => {
-            format!(", ended {station}#{}, {ending}", number.0)
-        }
-        Some(Farewell::Left(session, _)) => format!(", left {session}"),
-    };
-    let duty = if ram.on_duty { ", on duty" } else { "" };
-    format!("RAM {part}{farewell}{duty}")
 }
 
 /// The people at a crossing, by what a robot's sensors have.

@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
+use crossguard_model_check::names::Names;
 use crossguard_protocol::StationId;
 use serde::Serialize;
 
@@ -35,6 +36,8 @@ pub(super) struct Messages {
     pub(super) strangers: Vec<StationId>,
     /// Whether there were more of them.
     pub(super) has_others: bool,
+    /// What stations are called.
+    pub(super) names: Names,
 }
 
 struct Row {
@@ -224,7 +227,9 @@ impl Messages {
             shown_from: shown.start - first,
             previous: (earlier > first).then(|| time(earlier - 1)),
             next: (now < end).then(|| time(now)),
-            rows: shown.map(|place| row(place).shown(base_us)).collect(),
+            rows: shown
+                .map(|place| row(place).shown(base_us, &self.names))
+                .collect(),
         }
     }
 }
@@ -256,7 +261,7 @@ fn partition(count: usize, holds: impl Fn(usize) -> bool) -> usize {
 }
 
 impl Row {
-    fn shown(&self, base_us: u64) -> MessageRow {
+    fn shown(&self, base_us: u64, names: &Names) -> MessageRow {
         let receivers = |is_lost: bool| {
             let of_fate = self
                 .receptions
@@ -273,8 +278,8 @@ impl Row {
                 From::Station(_) => 0,
             },
             kind: self.kind,
-            text: self.text.to_string(),
-            why: self.why.to_string(),
+            text: names.tell(&self.text),
+            why: names.tell(&self.why),
             heard: receivers(false),
             lost: receivers(true),
             took_us: times

@@ -1,7 +1,8 @@
 //! A run at one time.
 
 use crossguard_endpoint::counters::CauseName;
-use crossguard_protocol::{State, StationId, TaskType, Timer};
+use crossguard_model_check::names::Names;
+use crossguard_protocol::{State, StationId, TaskType};
 use crossguard_robot::zone::Conduct;
 use serde::Serialize;
 
@@ -84,8 +85,8 @@ pub struct RobotMoment {
     pub availability: String,
     /// The followers of a leader, each in a few words.
     pub followers: Vec<FollowerMoment>,
-    /// The armed timers: name, the station that it is about, and the milliseconds that it has left.
-    pub timers: Vec<(String, Option<StationId>, u64)>,
+    /// The armed timers: name, and the milliseconds that it has left.
+    pub timers: Vec<(String, u64)>,
     /// For how many milliseconds its sign goes on to show go, and for how many it was told to; `None` where it shows
     /// stop.
     pub sign: Option<[u64; 2]>,
@@ -227,17 +228,18 @@ impl Playback {
             let series = track.drops.get(*cause).and_then(|it| it.at(at_us));
             series.map_or(0, |(_, count)| *count)
         };
+        let names = &self.messages.names;
         RobotMoment {
             is_running,
             station: view.map(|view| view.station),
             state: view.map(|view| view.state),
             role: text(view.map(|view| view.role.to_string())),
-            session: text(view.and_then(|view| Some(view.session?.to_string()))),
+            session: text(view.and_then(|view| Some(names.tell(view.session?)))),
             executes: text(view.and_then(|view| Some(view.executes?.to_string()))),
-            duty: text(view.map(|view| view.duty.clone())),
+            duty: text(view.map(|view| names.tell(&view.duty))),
             availability: text(view.map(|view| view.availability.clone())),
             followers: view.map_or_else(Vec::new, followers),
-            timers: timers(track, at_us),
+            timers: timers(names, track, at_us),
             sign: sign(track, at_us).filter(|_| is_running),
             body: self.body(track, at_us),
             trail: self.trail(track, at_us),
@@ -322,37 +324,16 @@ fn followers(view: &crate::facts::View) -> Vec<FollowerMoment> {
 }
 
 /// The timers of the newest step, which have run since.
-fn timers(track: &Track, at_us: u64) -> Vec<(String, Option<StationId>, u64)> {
+fn timers(names: &Names, track: &Track, at_us: u64) -> Vec<(String, u64)> {
     let Some((since_us, timers)) = track.timers.at(at_us) else {
         return Vec::new();
     };
     let passed_ms = (at_us - since_us) / 1_000;
-    let shown = timers.iter().map(|(timer, left)| {
-        let text = timer.to_string();
-        let name = text.split('(').next().unwrap_or_default();
-        let left = u64::from(*left).saturating_sub(passed_ms);
-        (name.to_owned(), about(*timer), left)
-    });
+    let left = |left: u32| u64::from(left).saturating_sub(passed_ms);
+    let shown = timers
+        .iter()
+        .map(|(timer, ms)| (names.tell(timer), left(*ms)));
     shown.collect()
-}
-
-/// The station that a timer is about.
-const fn about(timer: Timer) -> Option<StationId> {
-    match timer {
-        Timer::Lease(station)
-        | Timer::Lost(station)
-        | Timer::Execution(station)
-        | Timer::Acknowledgement(station)
-        | Timer::Offer(station) => Some(station),
-        Timer::Help
-        | Timer::Selection
-        | Timer::Reservation
-        | Timer::Safety
-        | Timer::Leave
-        | Timer::IdentityLock
-        | Timer::Farewell
-        | Timer::Ram => None,
-    }
 }
 
 /// What the sign has left, and what it was told.

@@ -196,7 +196,7 @@ impl Playback {
             let at = self.since(*at_us);
             let text = match (view.executes, view.role) {
                 (Some(task), _) => task.to_string(),
-                (None, Role::None) => view.duty.clone(),
+                (None, Role::None) => self.messages.names.tell(&view.duty),
                 (None, role) => role.to_string(),
             };
             let is_narrow = |last: &StateSpan| self.column(last.from) == self.column(at);
@@ -269,7 +269,7 @@ impl Playback {
                 continue;
             }
             let trial = trials.entry(key).or_insert_with(|| Trial {
-                session,
+                session: self.messages.names.tell(session),
                 leader: String::new(),
                 team: Vec::new(),
                 from,
@@ -284,7 +284,7 @@ impl Playback {
                     let (opened, closed) = self.open(open);
                     if opened >= from && opened <= to {
                         trial.open += closed.saturating_sub(opened);
-                        trial.closed.clone_from(&open.why);
+                        trial.closed = self.messages.names.tell(&open.why);
                     }
                 }
             } else if !trial.team.contains(&track.name) {

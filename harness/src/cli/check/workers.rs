@@ -79,7 +79,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             written = written.and(super::write_charts(&report.scenario, folder));
         }
         if !arguments.json {
-            print_report(&report)?;
+            print_report(&report, arguments.verbose)?;
         }
         told.scenarios.push(report);
     }
@@ -132,8 +132,8 @@ fn show_progress(name: &str) -> impl FnMut(Progress) {
     }
 }
 
-fn print_report(report: &WorkersReport) -> Result<(), Failure> {
-    super::print_report(&report.scenario)?;
+fn print_report(report: &WorkersReport, verbose: bool) -> Result<(), Failure> {
+    super::print_report(&report.scenario, verbose)?;
     if !report.not_judged.is_empty() {
         print(format_args!(
             "  not judged with workers: {}; 'crossguard check {}' judges them",

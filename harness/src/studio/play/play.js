@@ -106,9 +106,7 @@ function air() {
 function card(robot, lane) {
   const own = walk.possible.filter((step) => step.place.at === lane);
   if (!own.length && walk.possible.some(isUnderWay) && !robot.isDown) return html("p", { class: "faint" }, "First decide what becomes of the messages on air.");
-  const { robots } = walk.frames[walk.frames.length - 1];
-  const named = (text) => text.replace(/(?<=^timer .* )\d+(?= expires$)/, (station) => walk.robots[robots.findIndex((it) => it.station === Number(station))] ?? station);
-  const label = (step) => /^timer (.*) expires$/.test(step.action) ? named(step.action).replace(/^timer (.*) expires$/, "Let timer $1 run out") : step.action[0].toUpperCase() + step.action.slice(1);
+  const label = (step) => step.action.replace(/^timer (.*) expires$/, "let timer $1 run out").replace(/^./, (first) => first.toUpperCase());
   return html("div", { class: "acts", role: "group", "aria-label": `What may happen at ${walk.robots[lane]}` }, own.map((step) => button(label(step), step, BREAKDOWN.test(step.action) ? "harm" : undefined)));
 }
 

@@ -18,13 +18,13 @@ export function robots(opening, moment) {
       pair("corridor", robot.sign ? `open for ${ms(robot.sign[0])} more` : ""),
       pair("speed", robot.body?.speed === null || !robot.body ? "" : `${robot.body.speed.toFixed(2)} m/s`),
       pair("last place", robot.body ? `${robot.body.place.map((it) => it.toFixed(1)).join(" m E, ")} m N, ${ms(robot.body.ageMs)} ago` : "")),
-    robot.timers.length ? html("ul", { class: "timers", "aria-label": "Timers" }, robot.timers.map((it) => timer(it, name))) : html("p", { class: "faint" }, "No timer runs.")));
+    robot.timers.length ? html("ul", { class: "timers", "aria-label": "Timers" }, robot.timers.map(timer)) : html("p", { class: "faint" }, "No timer runs.")));
 }
 
 // Bars are logarithmic: 10 ms to 100 s, so that a lease and a maneuver are seen on one scale.
-function timer([kind, station, left], name) {
+function timer([name, left]) {
   const part = left <= 10 ? 0.02 : Math.min(Math.log10(left / 10) / 4, 1);
-  return html("li", {}, html("span", { class: "timer-name" }, station === null ? kind : `${kind} of ${name(station)}`),
+  return html("li", {}, html("span", { class: "timer-name" }, name),
     svg("svg", { viewBox: "0 0 100 6", preserveAspectRatio: "none", "aria-hidden": "true" }, svg("rect", { width: 100, height: 6, class: "timer-whole" }), svg("rect", { width: part * 100, height: 6, class: "timer-left" })),
     html("span", { class: "n" }, ms(left)));
 }
