@@ -31,6 +31,8 @@ mod interrupts;
 #[cfg(feature = "full")]
 mod listening;
 #[cfg(feature = "full")]
+mod new;
+#[cfg(feature = "full")]
 mod odds;
 #[cfg(feature = "full")]
 mod pki;

@@ -138,8 +138,8 @@ const ALONG_M: f64 = 10.0;
 /// How fast crossings are designed for elderly people and small children, in m/s; for others it is 1.2 m/s.
 const SLOW_MPS: f64 = 0.9;
 
-/// The street of the demonstrations.
-const STREET: &str = include_str!("../plans/street.toml");
+/// The text of the site of the demonstrations.
+pub const STREET: &str = include_str!("../plans/street.toml");
 
 impl SiteFile {
     /// Reads a site.

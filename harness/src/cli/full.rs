@@ -3,13 +3,15 @@
 use clap::Subcommand;
 
 use super::{
-    Failure, codec, conform, export, fuzz, odds, pki, report, run, simulate, sniff, studio,
+    Failure, codec, conform, export, fuzz, new, odds, pki, report, run, simulate, sniff, studio,
     validate,
 };
 
 #[derive(Subcommand)]
 pub(super) enum Command {
-    /// Run one robot as one process; events are typed or piped in.
+    /// Make a folder with a site, a plan, two robots and people, to run as it is and to change.
+    New(new::Arguments),
+    /// Run one robot as one process, or all of a folder; events are typed or piped in.
     Run(run::Arguments),
     /// Work out how likely a crossing goes well when messages get lost, and how long it takes.
     Odds(Box<odds::Arguments>),
@@ -40,6 +42,7 @@ pub(super) enum Command {
 /// Does what the command says.
 pub(super) fn carry_out(command: Command) -> Result<(), Failure> {
     match command {
+        Command::New(arguments) => new::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Odds(arguments) => odds::run(&arguments),
         Command::Conform(arguments) => conform::run(&arguments),

@@ -10,6 +10,7 @@
 //!
 //! The console never waits for anybody but the robot, so that it hears a signal at any time.
 
+mod all;
 mod drops;
 mod output;
 mod typed;
@@ -17,7 +18,7 @@ mod typed;
 use std::collections::{BTreeMap, VecDeque};
 use std::io::IsTerminal;
 use std::net::SocketAddrV4;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
@@ -28,6 +29,7 @@ use crossguard_codec::{MapPlace, Service, SignalsShown};
 use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::station::Mode;
 use crossguard_endpoint::station::listen::overhear;
+use crossguard_model_check::names::Names;
 use crossguard_model_check::timed::{Limits, USUAL_DELAY};
 use crossguard_protocol::{Input, Output, Robot, State, StationId};
 use crossguard_robot::attachment::Sends;
@@ -63,8 +65,12 @@ const STATIONS: usize = 64;
 #[command(after_help = AFTER_HELP)]
 pub(super) struct Arguments {
     /// The robot's configuration.
-    #[arg(long, value_name = "FILE")]
-    config: PathBuf,
+    #[arg(long, value_name = "FILE", required_unless_present = "all")]
+    config: Option<PathBuf>,
+    /// Run each robot whose configuration is in this folder, as a process of its own, with its log beside its file. A line
+    /// that is typed goes to the robot whose name it begins with, or to all.
+    #[arg(long, value_name = "FOLDER", exclusive = true)]
+    all: Option<PathBuf>,
     /// The site, instead of that of the configuration; see 'crossguard site'.
     #[arg(long, value_name = "FILE")]
     site: Option<PathBuf>,
@@ -112,6 +118,8 @@ pub(super) struct Arguments {
     pcap: Option<PathBuf>,
     #[command(flatten)]
     watch: super::watch::WatchArguments,
+    #[command(flatten)]
+    wording: super::Wording,
     /// Print the log to standard output, and nothing else.
     #[arg(long)]
     json: bool,
@@ -136,14 +144,17 @@ typed, adds that person, and the road is never clear by it.
 Try --config harness/examples/kerb.toml --perceived harness/examples/people.jsonl.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let (Some(config), None) = (&arguments.config, &arguments.all) else {
+        return all::run(arguments.all.as_deref().unwrap_or(Path::new(".")));
+    };
     destinations::files([&arguments.log, &arguments.pcap])?;
     let besides = Besides {
         site_file: arguments.site.as_deref(),
         plan_file: arguments.plan.as_deref(),
     };
-    let file = RobotFile::read_with(&arguments.config, besides).map_err(Failure::input)?;
+    let file = RobotFile::read_with(config, besides).map_err(Failure::input)?;
     if arguments.check {
-        let (config, name, station) = (arguments.config.display(), &file.name, file.station);
+        let (config, name, station) = (config.display(), &file.name, file.station);
         return print(format_args!(
             "{config}: {name}, station {station}, can be run with this configuration"
         ));
@@ -155,12 +166,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(capture) = &capture {
         link = capture.of_all(link);
     }
-    let watch = arguments
-        .watch
-        .begin(address.clone(), arguments.security.mode().name())?;
-    let mut outputs = Outputs::open(arguments.log.as_deref(), arguments.json, watch.screen())?;
     let revoked = file.revoked.as_deref();
     let security = arguments.security.of_robot(&file.name, revoked)?;
+    let names = match arguments.wording.verbose {
+        true => Names::short(),
+        false => names(&file, security.station_id(&file.identifiers, file.station)),
+    };
+    let watch = arguments.watch.begin(
+        address.clone(),
+        arguments.security.mode().name(),
+        names.clone(),
+    )?;
+    let mut outputs = Outputs::open(arguments.log.as_deref(), arguments.json, watch.screen())?;
     let perceived = super::open_feed(arguments.perceived.as_deref())?;
     let body = file.body_or_port(arguments.seed).map_err(|error| {
         let address = file.body_port.as_ref().map(|port| port.address.to_string());
@@ -199,6 +216,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut console = Console {
         file: &file,
         lines: outputs.lines,
+        names,
         watch,
         robot: Robot::new(station, counter),
         doubts_clock: false,
@@ -214,7 +232,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         "{} is station {station}, boot {counter}, on {address}. Type 'help' for help.",
         file.name
     ));
-    console.say(&longest_times(arguments, &file));
+    console.say(&longest_times(config, &file));
     console.say_ports();
     let interrupted = interrupts();
     let outcome = console.attend(&running, &outputs.records, &typed::lines(), &interrupted);
@@ -253,15 +271,23 @@ impl OpenPort {
     }
 }
 
+/// What stations are called: by the plan, and this robot by its own name.
+fn names(file: &RobotFile, station: StationId) -> Names {
+    let roles = file.plan_file.iter().flat_map(|plan| &plan.roles);
+    let named = roles.filter(|role| !role.any);
+    let named = named.filter_map(|role| Some((role.station?, role.robot.clone()?)));
+    named.chain([(station, file.name.clone())]).collect()
+}
+
 /// How long a failure may go unanswered with these settings.
-fn longest_times(arguments: &Arguments, file: &RobotFile) -> String {
+fn longest_times(config: &Path, file: &RobotFile) -> String {
     let limits = Limits::new(&file.config, USUAL_DELAY);
     format!(
         "With these settings a guard that falls silent closes the corridor within {} ms, and a leader that does stops its \
          followers within {} ms; 'crossguard bounds --config {}' has more such times.",
         limits.corridor_closed.0,
         limits.stopped.0,
-        arguments.config.display(),
+        config.display(),
     )
 }
 
@@ -316,6 +342,7 @@ struct Console<'a> {
     file: &'a RobotFile,
     /// Where it says something to people; nowhere, when standard output is the log.
     lines: Option<Lines>,
+    names: Names,
     watch: super::watch::Watch,
     /// The robot as its newest record shows it.
     robot: Robot,
@@ -399,6 +426,7 @@ impl Console<'_> {
             for line in self.texts(record).into_iter().chain(announced).chain(told) {
                 #[expect(clippy::cast_precision_loss, reason = "centuries of microseconds fit")]
                 let time = record.at_us as f64 / 1e6;
+                let line = self.names.tell(line);
                 self.say(&format!("{time:>9.3} {}: {line}", record.robot));
             }
         }
@@ -542,8 +570,8 @@ impl Console<'_> {
             Some(Line::Wait(time)) => self.hold = Some(Hold::Time(now + time)),
             Some(Line::Until(state, time)) => self.hold = Some(Hold::State(state, now + time)),
             Some(Line::Status) => {
-                self.say(&self.robot.to_string());
-                self.say(&self.watch.surroundings());
+                self.say(&self.names.tell(&self.robot));
+                self.say(&self.names.tell(self.watch.surroundings()));
                 self.say(&self.watch.equipment());
             }
             Some(Line::Help(command)) => self.say(&help(command)),

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use clap::ValueEnum;
 use crossguard_endpoint::cause::Cause;
+use crossguard_model_check::names::Names;
 use crossguard_robot::runtime::Running;
 use crossguard_robot::trace::Record;
 
@@ -55,7 +56,12 @@ pub(super) struct Watch {
 impl WatchArguments {
     /// Begins to show a robot on this link, in this mode of security. Nothing but its log may be on a standard output
     /// that is for programs.
-    pub(super) fn begin(&self, link: String, security: &'static str) -> Result<Watch, Failure> {
+    pub(super) fn begin(
+        &self,
+        link: String,
+        security: &'static str,
+        names: Names,
+    ) -> Result<Watch, Failure> {
         let tally = Shared::default();
         tally.with(|tally| (tally.link, tally.security) = (link, security));
         let serve = |address| {
@@ -74,7 +80,7 @@ impl WatchArguments {
         if is_shown {
             let (tally, screen) = (tally.clone(), screen.clone());
             // A thread of its own: who holds standard error up holds up nothing else.
-            std::thread::spawn(move || draw(&tally, &screen));
+            std::thread::spawn(move || draw(&tally, &names, &screen));
         }
         Ok(Watch {
             tally,
@@ -85,13 +91,14 @@ impl WatchArguments {
 }
 
 /// Draws the status line until the robot has stopped.
-fn draw(tally: &Shared, screen: &Screen) {
+fn draw(tally: &Shared, names: &Names, screen: &Screen) {
     loop {
         std::thread::sleep(if screen.is_live() { REDRAW } else { REPEAT });
         let (text, has_stopped) = tally.with(|tally| (tally.line(), tally.has_stopped));
         if has_stopped {
             return screen.clear();
         }
+        let text = names.tell(text);
         if screen.is_live() {
             screen.show(&text);
         } else {

@@ -3,6 +3,7 @@
 
 mod attached;
 mod clock_step;
+mod corner;
 mod links;
 mod lost;
 mod map_and_signals;

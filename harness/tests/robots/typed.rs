@@ -25,10 +25,10 @@ fn a_person_types_every_step_and_reads_what_happens() {
         "ARI is station 1, boot 1, on 127.0.0.1:",
         "a leader that does stops its followers within ",
         "now RoleEstablished (leader)",
-        "2 joined",
-        "2 acknowledged 1#1.0/0",
-        "ManeuverExecuting, leader, available, session 1#1.0",
-        "1#1.0 ended: task completed",
+        "station 2 joined",
+        "station 2 acknowledged command 0 of ARI's crossing 1",
+        "ManeuverExecuting, leader, available, session ARI's crossing 1",
+        "ARI's crossing 1 ended: task completed",
         "stopped",
     ]);
     // Nothing is told on standard error that was not asked for.
@@ -160,7 +160,7 @@ fn a_robot_whose_log_cannot_be_written_crosses_all_the_same_and_says_so() {
     let output = run_with(&arguments, format!("{CROSS}quit\n").as_bytes());
     let (said, error) = (stdout(&output), stderr(&output));
     assert!(
-        said.contains("1#1.0 ended: task completed"),
+        said.contains("ARI's crossing 1 ended: task completed"),
         "{said}{error}"
     );
     error.must_have(&["/dev/full: No space left on device", "the robot goes on"]);
