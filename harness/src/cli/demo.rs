@@ -230,8 +230,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             file.write(record);
         }
         if shows_chart && reads {
-            let lines = lines(&mut chart, names[0], seen);
-            reads = lines.iter().all(|line| print(line).is_ok());
+            let rows = lines(&mut chart, names[0], seen);
+            reads = rows.iter().all(|line| print(line).is_ok());
         }
     });
     if shows_chart && reads {
