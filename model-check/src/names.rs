@@ -96,9 +96,9 @@ impl Names {
 }
 
 impl<N: Into<String>> FromIterator<(StationId, N)> for Names {
-    fn from_iter<T: IntoIterator<Item = (StationId, N)>>(named: T) -> Self {
+    fn from_iter<T: IntoIterator<Item = (StationId, N)>>(all: T) -> Self {
         let mut names = Self::default();
-        for (station, name) in named {
+        for (station, name) in all {
             names.set(station, name);
         }
         names

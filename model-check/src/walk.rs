@@ -211,7 +211,7 @@ impl RobotFrame {
                 Body::FallingBack(..) => BodyFrame::FallingBack,
                 Body::Ended(..) => BodyFrame::Ended,
             },
-            body_words: names.tell(&node.actuation.body),
+            body_words: names.tell(node.actuation.body),
             shows_go: node.actuation.corridor_open,
             is_down: robot.is_none(),
             hangs,

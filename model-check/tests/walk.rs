@@ -1,6 +1,7 @@
 //! A walk shows what the model does, and is followed again like a counterexample.
 
 use crossguard_model_check::model::Model;
+use crossguard_model_check::names::Names;
 use crossguard_model_check::replay::{Followed, Replay};
 use crossguard_model_check::scenario::{Bounds, Scenario};
 use crossguard_model_check::sequence::{ChartPlace, ChartStep, Fate};
@@ -73,7 +74,8 @@ fn what_may_happen_is_what_the_model_lets_happen() {
         let choice = choice % actions.len();
         steps.push(walk.possible[choice].clone());
         state = model.successor(&state, actions[choice]).unwrap().0;
-        let robots: Vec<_> = model.nodes(&state).map(ToString::to_string).collect();
+        let names = Names::of(model.scenario());
+        let robots: Vec<_> = model.nodes(&state).map(|it| names.tell(it)).collect();
         let walk = Walk::along(model.scenario().clone(), &steps);
         let words = walk.frames.last().unwrap().robots.iter();
         assert_eq!(

@@ -154,10 +154,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let file = RobotFile::read_with(config, besides).map_err(Failure::input)?;
     if arguments.check {
-        let (config, name, station) = (config.display(), &file.name, file.station);
-        return print(format_args!(
-            "{config}: {name}, station {station}, can be run with this configuration"
-        ));
+        return print(can_be_run(config, &file));
     }
     let link = configured_link(arguments, &file);
     one_signs(arguments, &link)?;
@@ -168,10 +165,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let revoked = file.revoked.as_deref();
     let security = arguments.security.of_robot(&file.name, revoked)?;
-    let names = match arguments.wording.verbose {
-        true => Names::short(),
-        false => names(&file, security.station_id(&file.identifiers, file.station)),
-    };
+    let station = security.station_id(&file.identifiers, file.station);
+    let names = names(arguments, &file, station);
     let watch = arguments.watch.begin(
         address.clone(),
         arguments.security.mode().name(),
@@ -196,7 +191,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let counter = boot.counter;
     let mut setup = file.setup(boot, body, security, link, outputs.journal);
     setup.awareness = arguments.etsi.add_to(setup.awareness);
-    let station = setup.security.station_id(&setup.identifiers, file.station);
     let clock = setup.clock;
     let mut running = setup.start();
     let operators = operators.map(|port| {
@@ -271,8 +265,17 @@ impl OpenPort {
     }
 }
 
+/// What a check of the configuration says.
+fn can_be_run(config: &Path, file: &RobotFile) -> String {
+    let (config, name, station) = (config.display(), &file.name, file.station);
+    format!("{config}: {name}, station {station}, can be run with this configuration")
+}
+
 /// What stations are called: by the plan, and this robot by its own name.
-fn names(file: &RobotFile, station: StationId) -> Names {
+fn names(arguments: &Arguments, file: &RobotFile, station: StationId) -> Names {
+    if arguments.wording.verbose {
+        return Names::short();
+    }
     let roles = file.plan_file.iter().flat_map(|plan| &plan.roles);
     let named = roles.filter(|role| !role.any);
     let named = named.filter_map(|role| Some((role.station?, role.robot.clone()?)));

@@ -100,7 +100,9 @@ pub(super) fn run(folder: &Path) -> Result<(), Failure> {
             }
         }
         if interrupted.load(Ordering::Relaxed) && !std::mem::replace(&mut is_ending, true) {
-            robots.iter_mut().for_each(|robot| robot.tell("quit"));
+            for robot in &mut robots {
+                robot.tell("quit");
+            }
         }
         for robot in &mut robots {
             failed |= robot.fails()?;
