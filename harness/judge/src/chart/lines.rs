@@ -1,5 +1,7 @@
 //! Lines of a chart on a terminal.
 
+use std::iter::successors;
+
 use super::gather::ArrowHead;
 
 /// Where the first column begins.
@@ -80,7 +82,7 @@ fn half(ends: &[(usize, bool)], spacing: usize, text: &str, is_right: bool) -> S
     drawn.into_iter().collect()
 }
 
-/// A text with a blank on each side, cut so that something of the line is left on each side of it.
+/// A text with a blank on each side, cut so that something of the line is left on each side of it; at a comma, if it can be.
 fn padded(text: &str, room: usize) -> String {
     let room = room.saturating_sub(5);
     if text.is_empty() || room == 0 {
@@ -89,7 +91,9 @@ fn padded(text: &str, room: usize) -> String {
     if text.chars().count() <= room {
         return format!(" {text} ");
     }
-    let cut: String = text.chars().take(room - 1).collect();
+    let mut parts = successors(Some(text), |it| Some(it.rsplit_once(", ")?.0));
+    let whole = parts.find(|it| it.chars().count() < room);
+    let cut = whole.map_or_else(|| text.chars().take(room - 1).collect(), str::to_owned);
     format!(" {cut}… ")
 }
 
@@ -127,6 +131,14 @@ mod tests {
         assert_eq!(chars.len(), LEFT + 3 * 20 - 2);
         assert_eq!(line.matches("RAM").count(), 1);
         assert_eq!(chars[LEFT + 20], ' ', "the sender's own column: {line}");
+    }
+
+    #[test]
+    fn a_long_text_is_cut_at_a_comma_if_it_can_be() {
+        let text = "RMCM command 0: initialPos, ARI's crossing 1";
+        assert_eq!(padded(text, 49), format!(" {text} "));
+        assert_eq!(padded(text, 40), " RMCM command 0: initialPos… ");
+        assert_eq!(padded(text, 26), " RMCM command 0: init… ");
     }
 
     #[test]
