@@ -40,8 +40,8 @@ fn from_a_free_port<T>(
         return open(port);
     }
     let is_taken = |it: &Result<T, _>| matches!(it, Err(LinkError::InUse { .. }));
-    let tries = PORTS.step_by(robots.max(1)).map(&open);
-    let free = tries.skip_while(is_taken).next();
+    let mut tries = PORTS.step_by(robots.max(1)).map(&open);
+    let free = tries.find(|it| !is_taken(it));
     free.unwrap_or_else(|| open(*PORTS.start()))
 }
 
