@@ -100,7 +100,7 @@ impl Crew {
                 place: Place(number),
             };
             self.step(now_ms, Input::Local(Event::PedestrianDetected(request)));
-            self.asks_ms = Some(now_ms + self.pause_ms());
+            self.asks_ms = Some(now_ms + ms(self.sessions.pause_s));
         }
         std::mem::take(&mut self.said)
     }
@@ -132,23 +132,8 @@ impl Crew {
         }
     }
 
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "seconds, checked by the command"
-    )]
-    fn pause_ms(&self) -> u64 {
-        (1_000.0 * self.sessions.pause_s) as u64
-    }
-
     fn step(&mut self, now_ms: u64, input: Input) {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "seconds, checked by the command"
-        )]
-        let hold_ms = (1_000.0 * self.sessions.hold_s) as u64;
-        let pause_ms = self.pause_ms();
+        let (hold_ms, pause_ms) = (ms(self.sessions.hold_s), ms(self.sessions.pause_s));
         let outputs = self.robot.step(&self.config, input);
         for output in outputs.iter() {
             let mut plan = |after_ms: u64, event| self.plans.push((now_ms + after_ms, event));
@@ -179,6 +164,15 @@ impl Crew {
             }
         }
     }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "seconds, checked by the command"
+)]
+fn ms(seconds: f64) -> u64 {
+    (1_000.0 * seconds) as u64
 }
 
 #[cfg(test)]

@@ -255,9 +255,10 @@ impl<'a> Robot<'a> {
         let told = self.surroundings.next_told();
         self.last_ram_ms = Some(now_ms);
         let low_frequency = self.generation.low_frequency_due(now_ms, &self.state);
-        let (status, from) = (self.status(), self.place(1_000 * now_ms));
+        let status = self.status();
+        let from = self.place(1_000 * now_ms);
         let said = self.crew.is_some().then_some(Said::Ram(status.view));
-        let (status, time) = (status, crossguard_codec::si::generation_delta_time(now_ms));
+        let time = crossguard_codec::si::generation_delta_time(now_ms);
         let available = status.availability;
         let mut ram = ram_from(
             &ids,

@@ -212,16 +212,21 @@ impl Chart {
     /// What is complete at this time, with names.
     fn due(&mut self, at_us: u64) -> Vec<(u64, Mark)> {
         let due = self.gathering.due(at_us);
-        self.named(due)
+        self.all_named(due)
     }
 
-    fn named(&self, marks: Vec<(u64, Mark)>) -> Vec<(u64, Mark)> {
-        let named = |(at_us, mut mark): (u64, Mark)| {
-            let (Mark::Note { text, .. } | Mark::Arrow(Arrow { text, .. })) = &mut mark;
-            *text = self.names.tell(&*text);
-            (at_us, mark)
-        };
-        marks.into_iter().map(named).collect()
+    /// A mark with names.
+    fn named(&self, mut mark: Mark) -> Mark {
+        let (Mark::Note { text, .. } | Mark::Arrow(Arrow { text, .. })) = &mut mark;
+        *text = self.names.tell(&*text);
+        mark
+    }
+
+    fn all_named(&self, marks: Vec<(u64, Mark)>) -> Vec<(u64, Mark)> {
+        let marks = marks.into_iter();
+        marks
+            .map(|(at_us, mark)| (at_us, self.named(mark)))
+            .collect()
     }
 
     fn note_at(&self, robot: &str, text: &str) -> Option<Mark> {
@@ -288,7 +293,7 @@ impl Chart {
             self.gathering.add(at_us, mark);
         }
         let rest = self.gathering.rest();
-        self.named(rest)
+        self.all_named(rest)
     }
 
     /// What a record adds, by itself.
@@ -296,8 +301,7 @@ impl Chart {
         let ended = self.signs_that_ended(record);
         let (now, after) = self.marks_of(record);
         let marks = ended.into_iter().chain(now).chain(after);
-        let marks = self.named(marks.map(|mark| (record.at_us, mark)).collect());
-        marks.into_iter().map(|(_, mark)| mark).collect()
+        marks.map(|mark| self.named(mark)).collect()
     }
 
     /// A message on its way: it is drawn where it was sent if it is heard soon.

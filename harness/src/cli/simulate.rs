@@ -9,15 +9,16 @@ use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 use crossguard_evaluation::coverage::greedy;
-use crossguard_evaluation::matrix;
+use crossguard_evaluation::matrix::{self, Axes};
 use crossguard_evaluation::messages::Sizes;
 use crossguard_evaluation::paper::{PAPER, PaperSimulation};
-use crossguard_evaluation::statements::{self, Comparison};
+use crossguard_evaluation::statements::{self, Comparison, Setting};
 use crossguard_evaluation::stationing::Stationing;
-use crossguard_evaluation::trace::Run;
+use crossguard_evaluation::trace::{Run, Traces};
 use serde::Serialize;
 
 use self::options::{Air, Assumptions, Matrix, Mobility, Output, Placement};
+use self::parameters::Parameters;
 use super::interrupts::interrupts;
 use super::{Failure, csv, destinations, print, print_json};
 
@@ -112,26 +113,14 @@ fn obs(arguments: &Obs) -> Result<(), Failure> {
     let go_on = || !interrupted.load(Ordering::Relaxed);
     let cells = matrix::obs(&traces, &axes, go_on);
     let parameters = Assumptions::of(&axes, &traces, None);
-    let was_stopped = interrupted.load(Ordering::Relaxed);
-    // Where files cannot be written, the figures are printed all the same.
-    let written = csv::write(arguments.output.csv.as_deref(), &output::by_seed(&cells)?);
-    let statements = if was_stopped {
-        Vec::new()
-    } else {
-        statements::of_coverage(parameters.setting(&axes), &cells)
-    };
-    let documented = chosen.is_documented(&axes, parameters.seeds());
-    let report = SimulateReport {
-        preset: chosen.preset_of(&traces),
-        documented,
+    let measured = Measured {
+        chosen: &chosen,
+        axes: &axes,
+        traces: &traces,
         parameters: &parameters,
-        cells: &cells,
-        paper: &PAPER,
-        statements: &statements,
+        was_stopped: interrupted.load(Ordering::Relaxed),
     };
-    finish(&arguments.output, &report)?;
-    written?;
-    whole_matrix(was_stopped)
+    measured.tell(&arguments.output, &cells, statements::of_coverage, Ok(()))
 }
 
 fn cbr(arguments: &Cbr) -> Result<(), Failure> {
@@ -152,30 +141,63 @@ fn cbr(arguments: &Cbr) -> Result<(), Failure> {
     let cells = matrix::cbr(&traces, &axes, &behaviour, &sizes, done);
     bar.finish_and_clear();
     let results = cells.map_err(Failure::input)?;
-    let cells = results.cells;
     let parameters = Assumptions::of(&axes, &traces, Some(behaviour));
-    let was_stopped = interrupted.load(Ordering::Relaxed);
-    // Where files cannot be written, the figures are printed all the same.
-    let written = csv::write(arguments.output.csv.as_deref(), &output::by_seed(&cells)?);
-    let silences = arguments.air.silences.as_deref();
-    let written = written.and(csv::write(silences, &results.silences));
-    let statements = if was_stopped {
-        Vec::new()
-    } else {
-        statements::of_load(parameters.setting(&axes), &cells)
-    };
-    let documented = chosen.is_documented(&axes, parameters.seeds());
-    let report = SimulateReport {
-        preset: chosen.preset_of(&traces),
-        documented,
+    let measured = Measured {
+        chosen: &chosen,
+        axes: &axes,
+        traces: &traces,
         parameters: &parameters,
-        cells: &cells,
-        paper: &PAPER,
-        statements: &statements,
+        was_stopped: interrupted.load(Ordering::Relaxed),
     };
-    finish(&arguments.output, &report)?;
-    written?;
-    whole_matrix(was_stopped)
+    let written = csv::write(arguments.air.silences.as_deref(), &results.silences);
+    measured.tell(
+        &arguments.output,
+        &results.cells,
+        statements::of_load,
+        written,
+    )
+}
+
+/// What a matrix was made by.
+struct Measured<'a> {
+    chosen: &'a Parameters,
+    axes: &'a Axes,
+    traces: &'a [Traces],
+    parameters: &'a Assumptions,
+    was_stopped: bool,
+}
+
+impl Measured<'_> {
+    /// Writes and prints the cells, and what the paper states of them if all are there. `written` is what became of other files:
+    /// where one cannot be written, the figures are printed all the same.
+    fn tell<C: Serialize + output::Row>(
+        &self,
+        output: &Output,
+        cells: &[C],
+        statements: impl Fn(Setting<'_>, &[C]) -> Vec<Comparison>,
+        written: Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let written = csv::write(output.csv.as_deref(), &output::by_seed(cells)?).and(written);
+        let statements = if self.was_stopped {
+            Vec::new()
+        } else {
+            statements(self.parameters.setting(self.axes), cells)
+        };
+        let seeds = self.parameters.seeds();
+        finish(
+            output,
+            &SimulateReport {
+                preset: self.chosen.preset_of(self.traces),
+                documented: self.chosen.is_documented(self.axes, seeds),
+                parameters: self.parameters,
+                cells,
+                paper: &PAPER,
+                statements: &statements,
+            },
+        )?;
+        written?;
+        whole_matrix(self.was_stopped)
+    }
 }
 
 /// Says when the matrix is not whole.

@@ -19,7 +19,7 @@ struct OfFolder {
     has_ended: bool,
 }
 
-/// The robot files of a folder: those that say which station they are of.
+/// The robot files of a folder. A file with a `station` is one.
 fn robot_files(folder: &Path) -> Result<Vec<(PathBuf, RobotFile)>, Failure> {
     let entries = std::fs::read_dir(folder).map_err(Failure::at(folder))?;
     let mut paths: Vec<_> = entries.filter_map(|it| Some(it.ok()?.path())).collect();
