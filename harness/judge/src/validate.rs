@@ -26,7 +26,7 @@
 //!
 //! W1, W2 and W4 are judged for people who step on the road as soon as a sign shows go.
 //!
-//! P1, P2 and P4 are judged where a log has people, the outline of a road and positions of robots.
+//! P1 to P4 are judged where a log has people, the outline of a road and positions of robots; P3 where it has vehicles.
 //!
 //! And what no log shows: people out of sight, whether a sign ended when its time was over, and whether a body was
 //! where its application said; how long messages were under way, since the clocks of sender and receiver are not
@@ -45,6 +45,7 @@ mod road;
 mod robot;
 mod targets;
 mod time;
+mod traffic;
 
 pub use fault::Fault;
 pub use time::Late;
@@ -96,7 +97,7 @@ pub struct Validated {
     pub properties: Vec<String>,
     /// What was not judged, and why.
     pub not_judged: Vec<String>,
-    /// How often P1, P2 and P4 were judged, and within what, or why they were not.
+    /// How often P1 to P4 were judged, and within what, or why they were not.
     pub crossing: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Logs in which people cross: P1, P2 and P4 are kept, or the record that breaks them is named. Each hazard stands
+//! Logs in which people cross: P1 to P4 are kept, or the record that breaks them is named. Each hazard stands
 //! beside the same log without it.
 
 use crossguard_codec::core::cdd::Latitude;
@@ -10,7 +10,7 @@ use crossguard_judge::sim::{Swarm, run_recorded};
 use crossguard_judge::validate::{self, Validated};
 use crossguard_protocol::{Event, Input, Output, TaskType};
 use crossguard_robot::plan::{Leg, Stage, Who};
-use crossguard_robot::sight::{Degrees, Outline, Seen, Sight};
+use crossguard_robot::sight::{Degrees, Outline, Seen, SeenVehicle, Sight};
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::trace::{self, Entry, Record};
 use crossguard_robot::zone::Conduct;
@@ -125,6 +125,24 @@ impl Crossing {
     }
 
     fn robot_sees_at(&mut self, robot: &str, sights: &[(u64, Vec<Degrees>)]) {
+        self.watches(robot, sights[0].0);
+        for (at_us, people) in sights {
+            let seen = |place: &Degrees| Seen {
+                place: *place,
+                class: VruClass::Pedestrian,
+                // What a robot makes of people is not what it is judged by.
+                conduct: Conduct::Elsewhere,
+            };
+            let sight = Sight {
+                people: people.iter().map(seen).collect(),
+                vehicles: Vec::new(),
+            };
+            self.add(*at_us, robot, Entry::People(sight));
+        }
+    }
+
+    /// A robot watches the crossing from this time on.
+    fn watches(&mut self, robot: &str, from_us: u64) {
         let rectangle = |[south, north]: [f64; 2]| {
             let corners = [(-3.0, south), (5.0, south), (5.0, north), (-3.0, north)];
             let degrees = |(east, north)| Site::default().coordinates(Place::new(east, north));
@@ -133,18 +151,9 @@ impl Crossing {
         let zone = Outline {
             waiting: rectangle([-2.5, 9.5]),
             road: rectangle([0.0, 7.0]),
+            crossing: Vec::new(),
         };
-        self.add(sights[0].0, robot, Entry::Zone(zone));
-        for (at_us, people) in sights {
-            let seen = |place: &Degrees| Seen {
-                place: *place,
-                class: VruClass::Pedestrian,
-                // What a robot makes of people is not what it is judged by.
-                conduct: Conduct::Elsewhere,
-            };
-            let people = people.iter().map(seen).collect();
-            self.add(*at_us, robot, Entry::People(Sight { people }));
-        }
+        self.add(from_us, robot, Entry::Zone(zone));
     }
 
     fn add(&mut self, at_us: u64, robot: &str, entry: Entry) {
@@ -327,6 +336,31 @@ fn hazard_g_a_guard_is_not_at_its_place_any_more_and_go_is_shown() {
     away(3.0).is_refused("P2");
     away(30.0).is_refused("P2");
     assert!(away(1.0).kept("P2").starts_with("P2 kept"));
+}
+
+#[test]
+fn hazard_i_go_begins_before_a_vehicle_that_cannot_stop() {
+    let comes = |east_m: f64, ago_us: u64| {
+        let mut log = Crossing::new();
+        let (leader, go_us) = log.go();
+        log.watches(&leader, go_us - S);
+        let vehicle = SeenVehicle {
+            place: Site::default().coordinates(Place::new(east_m, 2.0)),
+            velocity: Some([-10.0, 0.0]),
+        };
+        let sight = Sight {
+            people: Vec::new(),
+            vehicles: vec![vehicle],
+        };
+        log.add(go_us - ago_us, &leader, Entry::People(sight));
+        log
+    };
+    comes(25.0, S / 10).is_refused("P3");
+    for (east_m, ago_us) in [(60.0, S / 10), (-10.0, S / 10), (25.0, 2 * S)] {
+        let said = comes(east_m, ago_us).kept("P3");
+        assert!(said.starts_with("P3 kept 1 times"), "{said}");
+    }
+    assert!(Crossing::new().kept("P3").starts_with("P3 not judged"));
 }
 
 #[test]

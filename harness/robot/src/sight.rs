@@ -1,4 +1,4 @@
-//! What a robot's sensors have at a crossing, for its log: people without what tracks them, and the zone.
+//! What a robot has of others at a crossing, for its log: people and vehicles without what tracks them, and the zone.
 //!
 //! Places are in degrees, as in RAM, so that a log needs no site.
 
@@ -15,11 +15,27 @@ const CIRCLE_CORNERS: u8 = 24;
 /// Degrees of latitude and longitude.
 pub type Degrees = (f64, f64);
 
-/// The road users that the sensors have at a time.
+/// The road users that a robot has at a time.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Sight {
-    /// One for each.
+    /// The people whom its sensors have.
     pub people: Vec<Seen>,
+    /// The vehicles that its sensors have or that it hears, at most [`VEHICLES_MAX`].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub vehicles: Vec<SeenVehicle>,
+}
+
+/// Most vehicles of a sight: as many as the crossing machine knows.
+pub const VEHICLES_MAX: usize = 32;
+
+/// A vehicle as it was seen or heard last.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct SeenVehicle {
+    /// Latitude and longitude.
+    pub place: Degrees,
+    /// m/s to the east and to the north; unknown where its source does not say it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub velocity: Option<[f64; 2]>,
 }
 
 /// A road user that the sensors have.
@@ -61,8 +77,11 @@ impl Sight {
 pub struct Outline {
     /// Where people wait; none where nobody is detected.
     pub waiting: Vec<Degrees>,
-    /// The part of the road on which they cross; none where it is not known.
+    /// The carriageway; none where it is not known.
     pub road: Vec<Degrees>,
+    /// The part of it on which people cross, if it is not the whole.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub crossing: Vec<Degrees>,
 }
 
 impl Outline {
@@ -77,6 +96,7 @@ impl Outline {
         Self {
             waiting: outline(&zone.waiting),
             road: outline(&zone.road),
+            crossing: outline(&zone.crossing),
         }
     }
 }

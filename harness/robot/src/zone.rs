@@ -163,6 +163,12 @@ pub fn velocity([east, north]: [f64; 2]) -> Way {
     }
 }
 
+/// A velocity of the crossing machine in m/s, to the east and to the north.
+#[must_use]
+pub fn metres_per_second(way: Way) -> [f64; 2] {
+    [way.east_cm, way.north_cm].map(|it| f64::from(it) / 100.0)
+}
+
 /// Somebody on the site, as the crossing machine takes them in.
 #[must_use]
 #[expect(

@@ -328,6 +328,9 @@ fn go_ends_for_a_car_that_can_no_longer_stop() {
         scene.cars.push(Car { station, east });
         let took_ms = scene.pass_until(1_000, |it| !it.is_go());
         assert!(took_ms <= 110, "go for {took_ms} ms");
+        let leader = scene.robots[LEADER].machine.application_mut();
+        let sight = leader.next_sight().unwrap();
+        assert_eq!(sight.vehicles.len(), 1, "its log has cars that it hears");
         scene.pass_until(60_000, |it| it.goes_ms.len() == 2);
         assert!(scene.cars[0].east > 5.0, "it has passed");
         scene.cars.clear();

@@ -83,7 +83,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 fn next(folder: &Path) -> String {
     let at = folder.display();
     format!(
-        "{at} has a site, a plan, two robots with simulated bodies, and people who come to the kerb. They run as they are:\n\
+        "{at} has a site, a plan, two robots with simulated bodies, people who come to the kerb, and a car. They run as they are:\n\
          \x20 crossguard run --all {at}\n\
          Then change the files, each of which begins with what to change, and look whether they fit:\n\
          \x20 crossguard site check --site {at}/site.toml --plan {at}/plan.toml"

@@ -3,8 +3,11 @@
 use crossguard_codec::{Heard, Kind, SignalsShown};
 use crossguard_protocol::{Event, Input, Notice, Output};
 use crossguard_robot::around::{Around, OfKind};
-use crossguard_robot::sight::Sight;
+use crossguard_robot::sight::{SeenVehicle, Sight};
 use crossguard_robot::zone::Conduct;
+
+/// A slower vehicle stands.
+const STANDING_MPS: f64 = 0.5;
 
 /// A message in a few words: what it says to the protocol, where its commands take place, and what its sender
 /// shows to people.
@@ -39,8 +42,14 @@ pub(super) fn shown_in(heard: &Heard) -> Option<String> {
     })
 }
 
-/// The people at a crossing, by what a robot's sensors have.
+/// The people at a crossing, by what a robot's sensors have, and the vehicles that move.
 pub(super) fn people(sight: &Sight) -> String {
+    let is_moving = |it: &&SeenVehicle| it.velocity.is_none_or(|[x, y]| x.hypot(y) > STANDING_MPS);
+    let vehicles = match sight.vehicles.iter().filter(is_moving).count() {
+        0 => String::new(),
+        1 => "; 1 vehicle moves".to_owned(),
+        more => format!("; {more} vehicles move"),
+    };
     let counts = [
         (sight.waiting(), "waiting"),
         (sight.on_road(), "on the road"),
@@ -51,9 +60,9 @@ pub(super) fn people(sight: &Sight) -> String {
         .map(|(count, what)| format!("{count} {what}"))
         .collect();
     if counts.is_empty() {
-        return "~ people: nobody at the crossing".to_owned();
+        return format!("~ people: nobody at the crossing{vehicles}");
     }
-    format!("~ people: {}", counts.join(", "))
+    format!("~ people: {}{vehicles}", counts.join(", "))
 }
 
 /// The road users that a robot hears, without robots and without what changes all the time.
@@ -113,7 +122,14 @@ mod tests {
     #[test]
     fn people_are_counted_by_what_they_do() {
         use Conduct::{Across, Elsewhere, OnRoad, Passing, Waiting};
-        let sight = |conducts: &[Conduct]| Sight {
+        let sight = |conducts: &[Conduct], speeds: &[f64]| Sight {
+            vehicles: speeds
+                .iter()
+                .map(|speed| SeenVehicle {
+                    place: (49.0, 8.4),
+                    velocity: Some([0.0, *speed]),
+                })
+                .collect(),
             people: conducts
                 .iter()
                 .map(|conduct| Seen {
@@ -123,16 +139,21 @@ mod tests {
                 })
                 .collect(),
         };
-        for (conducts, text) in [
-            (&[][..], "~ people: nobody at the crossing"),
-            (&[Elsewhere, Passing], "~ people: nobody at the crossing"),
+        for (conducts, speeds, text) in [
+            (&[][..], &[][..], "~ people: nobody at the crossing"),
+            (
+                &[Elsewhere, Passing],
+                &[0.1],
+                "~ people: nobody at the crossing",
+            ),
             (
                 &[OnRoad, Waiting, OnRoad],
+                &[],
                 "~ people: 1 waiting, 2 on the road",
             ),
-            (&[Across], "~ people: 1 across"),
+            (&[Across], &[8.0], "~ people: 1 across; 1 vehicle moves"),
         ] {
-            assert_eq!(people(&sight(conducts)), text);
+            assert_eq!(people(&sight(conducts, speeds)), text);
         }
     }
 

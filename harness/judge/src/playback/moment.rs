@@ -96,6 +96,8 @@ pub struct RobotMoment {
     pub trail: Vec<Metres>,
     /// The people that its sensors have seen.
     pub people: Vec<PersonMoment>,
+    /// The vehicles that it has seen or heard.
+    pub vehicles: Vec<VehicleMoment>,
     /// The people that its RAM announces as one.
     pub cluster: Option<ClusterMoment>,
     /// Where its followers are to be.
@@ -141,6 +143,15 @@ pub struct PersonMoment {
     pub place: Metres,
     /// What it does at the crossing.
     pub conduct: Conduct,
+}
+
+/// A vehicle.
+#[derive(Debug, Serialize)]
+pub struct VehicleMoment {
+    /// Where.
+    pub place: Metres,
+    /// m/s to the east and to the north, where it is known.
+    pub velocity: Option<[f64; 2]>,
 }
 
 /// People who are announced as one.
@@ -244,6 +255,7 @@ impl Playback {
             body: self.body(track, at_us),
             trail: self.trail(track, at_us),
             people: self.people(track, at_us),
+            vehicles: self.vehicles(track, at_us),
             cluster: self.cluster(track, at_us),
             areas: self.areas(track, at_us),
             drops: causes.iter().map(count).collect(),
@@ -278,7 +290,8 @@ impl Playback {
     }
 
     fn people(&self, track: &Track, at_us: u64) -> Vec<PersonMoment> {
-        let people = track.sights.at(at_us).map_or(&[][..], |(_, people)| people);
+        let sight = track.sights.at(at_us);
+        let people = sight.map_or(&[][..], |(_, sight)| &sight.people);
         let shown = people.iter().take(PEOPLE_MAX);
         shown
             .map(|seen| PersonMoment {
@@ -286,6 +299,16 @@ impl Playback {
                 conduct: seen.conduct,
             })
             .collect()
+    }
+
+    fn vehicles(&self, track: &Track, at_us: u64) -> Vec<VehicleMoment> {
+        let sight = track.sights.at(at_us);
+        let vehicles = sight.map_or(&[][..], |(_, sight)| &sight.vehicles);
+        let shown = vehicles.iter().map(|seen| VehicleMoment {
+            place: self.metres(seen.place),
+            velocity: seen.velocity,
+        });
+        shown.collect()
     }
 
     fn cluster(&self, track: &Track, at_us: u64) -> Option<ClusterMoment> {

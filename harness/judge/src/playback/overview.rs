@@ -235,7 +235,7 @@ impl Playback {
         let sights = track
             .sights
             .iter()
-            .map(|(at_us, people)| (*at_us, people.iter().any(|seen| seen.conduct == conduct)));
+            .map(|(at_us, sight)| (*at_us, sight.count(conduct) > 0));
         for (at_us, is_there) in sights.chain([end]) {
             let at = self.since(at_us);
             match (since, is_there) {
@@ -409,7 +409,10 @@ mod tests {
             let record = Record {
                 at_us,
                 robot: "ARI".to_owned(),
-                entry: Entry::People(Sight { people }),
+                entry: Entry::People(Sight {
+                    people,
+                    vehicles: Vec::new(),
+                }),
             };
             recent.take(Timed {
                 log: 0,

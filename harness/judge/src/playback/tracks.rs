@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crossguard_endpoint::counters::CauseName;
 use crossguard_protocol::{StationId, Timer};
-use crossguard_robot::sight::{Outline, Seen};
+use crossguard_robot::sight::{Outline, Sight};
 
 use crate::facts::{Area, ClusterView, Fact, Placed, View};
 
@@ -71,7 +71,7 @@ pub(super) struct Track {
     /// The armed timers with the milliseconds that they had left.
     pub(super) timers: Series<Box<[(Timer, u32)]>>,
     pub(super) places: Series<Box<Placed>>,
-    pub(super) sights: Series<Vec<Seen>>,
+    pub(super) sights: Series<Sight>,
     pub(super) clusters: Series<Option<ClusterView>>,
     pub(super) areas: Series<Vec<Area>>,
     pub(super) zone: Series<Outline>,
@@ -114,7 +114,7 @@ impl Track {
             Fact::Place(placed) => self.places.push(at_us, placed),
             Fact::Areas(areas) => self.areas.push(at_us, areas),
             Fact::Zone(outline) => self.zone.push(at_us, outline),
-            Fact::People(sight) => self.sights.push(at_us, sight.people),
+            Fact::People(sight) => self.sights.push(at_us, sight),
             Fact::Cluster(cluster) => self.clusters.push(at_us, cluster),
             Fact::Counted { cause, count } => {
                 let before = self.before.get(&cause).copied().unwrap_or(0);

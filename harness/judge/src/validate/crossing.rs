@@ -1,9 +1,10 @@
-//! P1, P2 and P4 of the crossing, on logs that have people and positions.
+//! P1 to P4 of the crossing, on logs that have people, vehicles and positions.
 //!
 //! | property | what logs show | judged when |
 //! |---|---|---|
 //! | P1 | While somebody is on the carriageway, no guard leaves because of an application's word. | a guard ends its maneuver or duty by a word of its own application (`ManeuverCompleted`, `RoadClear`) or by its leader's `TaskCompleted` |
 //! | P2 | While go is shown, each guard that holds a place is within [`TOLERANCE_M`] of it, or left it a short time ago. | a guard sends a RAM, or go begins or goes on |
+//! | P3 | Go does not begin while a vehicle could no longer stop. | go begins at a robot that has vehicles in sight |
 //! | P4 | An escort that moves is no further than [`AHEAD_M`] ahead of a person in its sight on the carriageway. | an escort sends a RAM while it sees somebody on the carriageway |
 //!
 //! What people do is worked out of their [places](super::ground) alone, never of what a robot made of them. Guards are
@@ -22,11 +23,13 @@ use crossguard_protocol::{
     Config, Event, FallbackPolicy, Input, Maneuver, ManeuverId, Output, Outputs, ReleaseReason,
     Robot, SessionId, StationId, StopReason,
 };
+use crossguard_robot::sight::Sight;
 use crossguard_robot::trace::Entry;
 
 use super::fault::Fault;
 use super::ground::{Ground, Metres, OnRoad, distance, seconds};
 use super::targets;
+use super::traffic::Vehicle;
 
 /// How far a guard may be from its place, and an escort ahead of its person, besides the stated error of its
 /// position.
@@ -52,11 +55,14 @@ pub(super) struct Crossing {
     /// Until when the sign of each leader shows go.
     go: BTreeMap<String, Go>,
     targets: HashMap<(ManeuverId, StationId), Metres>,
+    /// The vehicles that each robot has.
+    vehicles: BTreeMap<String, Vec<Vehicle>>,
     /// The guard that left last by an application's word, and until when a person who saw go may be seen to step on the
     /// road.
     freed: Option<(Left, u64)>,
     left: usize,
     held: usize,
+    begun: usize,
     escorted: usize,
     has_guards: bool,
     may_be_away_ms: u64,
@@ -115,6 +121,7 @@ impl Crossing {
             Entry::Zone(outline) => self.ground.outline(robot, outline),
             Entry::People(sight) => {
                 self.ground.see(robot, at_us, sight);
+                self.see_vehicles(robot, at_us, sight);
                 self.freed_too_early(at_us)?;
             }
             Entry::Step {
@@ -122,6 +129,7 @@ impl Crossing {
                 outputs,
                 state,
             } => {
+                self.begins(robot, at_us, outputs)?;
                 self.show(robot, at_us, outputs, state, config);
                 self.guard(robot, at_us, *input, outputs, state, config)?;
                 if outputs.iter().any(|it| go_for(it).is_some()) {
@@ -154,6 +162,7 @@ impl Crossing {
     /// A robot is down.
     pub(super) fn forget(&mut self, robot: &str) {
         self.ground.forget(robot);
+        self.vehicles.remove(robot);
         self.guards.remove(robot);
     }
 
@@ -173,6 +182,50 @@ impl Crossing {
                 self.targets.insert((id, command.to), place);
             }
         }
+    }
+
+    fn see_vehicles(&mut self, robot: &str, at_us: u64, sight: &Sight) {
+        let before = self.vehicles.remove(robot).unwrap_or_default();
+        let moving = sight
+            .vehicles
+            .iter()
+            .filter_map(|seen| Some((seen.place, seen.velocity?)));
+        let vehicles = moving.map(|(place, velocity)| {
+            let at = self.ground.metres(place);
+            let same = before
+                .iter()
+                .find(|it| it.at == at && it.velocity == velocity);
+            Vehicle {
+                at,
+                velocity,
+                since_us: same.map_or(at_us, |same| same.since_us),
+            }
+        });
+        let vehicles = vehicles.collect();
+        self.vehicles.insert(robot.to_owned(), vehicles);
+    }
+
+    /// Whether go begins in front of a vehicle that could no longer stop (P3).
+    fn begins(&mut self, robot: &str, at_us: u64, outputs: &Outputs) -> Result<(), Fault> {
+        let shows = self.go.get(robot).is_some_and(|go| at_us < go.until_us);
+        let begins = !shows && outputs.iter().any(|it| go_for(it).is_some());
+        let vehicles = self
+            .vehicles
+            .get(robot)
+            .filter(|it| begins && !it.is_empty());
+        let (Some(vehicles), Some(crossing)) = (vehicles, self.ground.crossing(robot)) else {
+            return Ok(());
+        };
+        self.begun += 1;
+        let coming = vehicles.iter().find_map(|it| it.comes(crossing, at_us));
+        coming.map_or(Ok(()), |coming| {
+            Err(Fault::GoBeforeVehicle {
+                robot: robot.to_owned(),
+                speed_mps: coming.speed_mps,
+                left_m: coming.left_m,
+                needs_m: coming.needs_m,
+            })
+        })
     }
 
     /// What a step means for the sign.
@@ -387,6 +440,7 @@ impl Crossing {
         let left = (self.left == 0).then_some("no guard left by an application's word");
         let held =
             (self.held == 0).then_some("no position of a guard at a place while go was shown");
+        let begun = (self.begun == 0).then_some("go never began with a vehicle in sight");
         let escorted =
             (self.escorted == 0).then_some("no escort moved while it saw somebody on the road");
         vec![
@@ -405,6 +459,14 @@ impl Crossing {
                     "{} times: under go, each guard within {TOLERANCE_M} m and its error of its place, or away for less \
                      than {} ms",
                     self.held, self.may_be_away_ms
+                ),
+            ),
+            verdict(
+                "P3",
+                begun,
+                format!(
+                    "{} times: go began with vehicles in sight, and each could stop",
+                    self.begun
                 ),
             ),
             verdict(

@@ -186,6 +186,20 @@ pub enum Fault {
         /// How far it may be.
         may_m: f64,
     },
+    /// A sign begins to show go in front of a vehicle.
+    #[error(
+        "broke P3: {robot} begins to show go while a vehicle comes at {speed_mps:.1} m/s, {left_m:.1} m from the crossing; it needs {needs_m:.1} m to stop"
+    )]
+    GoBeforeVehicle {
+        /// The robot with the sign.
+        robot: String,
+        /// How fast the vehicle is.
+        speed_mps: f64,
+        /// How far it is from the crossing, in metres.
+        left_m: f64,
+        /// How far it goes until it stands, in metres.
+        needs_m: f64,
+    },
     /// A property is broken.
     #[error("broke {}: {}", .0.name(), .0.statement())]
     Broken(PropertyId),

@@ -91,8 +91,16 @@ impl Ground {
             corners.iter().map(|corner| self.metres(*corner)).collect()
         };
         let (waiting, road) = (corners(&outline.waiting), corners(&outline.road));
-        let road = Carriageway::of(&waiting, road);
+        let mut road = Carriageway::of(&waiting, road);
+        road.crossing = corners(&outline.crossing);
         self.roads.insert(robot.to_owned(), road);
+    }
+
+    /// The part of the road on which people cross, as a robot has it.
+    pub(super) fn crossing(&self, robot: &str) -> Option<&[Metres]> {
+        let road = self.roads.get(robot)?;
+        let outline = [&road.crossing, &road.road].map(Vec::as_slice);
+        outline.into_iter().find(|corners| corners.len() > 2)
     }
 
     /// A robot has made a record, so it lives.
@@ -239,6 +247,8 @@ fn came_from(places: &[Metres], before: &[Person], at_us: u64, pace: f64) -> Vec
 #[derive(Debug)]
 struct Carriageway {
     road: Vec<Metres>,
+    /// The part of it on which people cross, if it is not the whole.
+    crossing: Vec<Metres>,
     /// The edges at which people wait.
     kerbs: Vec<[Metres; 2]>,
 }
@@ -258,7 +268,11 @@ impl Carriageway {
                 .all(|at| is_inside(at) || contains(waiting, *at))
         };
         let kerbs = edges.filter(is_kerb).collect();
-        Self { road, kerbs }
+        Self {
+            road,
+            crossing: Vec::new(),
+            kerbs,
+        }
     }
 
     fn contains(&self, at: Metres) -> bool {
@@ -294,7 +308,7 @@ impl Carriageway {
 }
 
 /// Whether a polygon contains a place.
-fn contains(corners: &[Metres], [x, y]: Metres) -> bool {
+pub(super) fn contains(corners: &[Metres], [x, y]: Metres) -> bool {
     let ends = corners.iter().cycle().skip(1);
     let crossed = corners.iter().zip(ends).filter(|([ax, ay], [bx, by])| {
         (*ay > y) != (*by > y) && x < ax + (y - ay) / (by - ay) * (bx - ax)

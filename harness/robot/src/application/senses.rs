@@ -13,9 +13,9 @@ use crossguard_protocol::{Millis, Phase, Robot, StationId};
 use super::{Application, Conduct};
 use crate::body::Report;
 use crate::perception::{Perceived, SensorFrame};
-use crate::sight::{Seen, Sight};
+use crate::sight::{Seen, SeenVehicle, Sight, VEHICLES_MAX};
 use crate::street::Road;
-use crate::zone::{class, place, point, sighting, velocity};
+use crate::zone::{class, metres_per_second, place, point, sighting, velocity};
 
 /// Shortest time between two sights in which as many people are on the road, in seconds of the robot's own time.
 const SIGHT_PERIOD_S: f64 = 0.2;
@@ -23,13 +23,16 @@ const SIGHT_PERIOD_S: f64 = 0.2;
 /// Error of a position of which nobody says how right it is, in centimetres.
 const UNKNOWN_ERROR_CM: u16 = 100;
 
-/// The source of people who come one by one.
+/// The sources of people who come one by one, and of vehicles that are heard.
 const ONE_BY_ONE: u8 = u8::MAX;
+const HEARD: u8 = u8::MAX - 1;
 
-/// For how long somebody who came in no newer frame is taken to be there still, in seconds.
+/// For how long a sight has somebody who came in no newer frame, and a vehicle after its last message, which may be a
+/// second apart, in seconds.
 const SEEN_S: f64 = 1.0;
+const HEARD_S: f64 = 1.5;
 
-/// Somebody as a sensor source had them in its newest frame.
+/// A road user as a sensor source had it in its newest frame, or as it said itself.
 #[derive(Clone, Copy, Debug)]
 struct Observed {
     source: u8,
@@ -38,10 +41,22 @@ struct Observed {
     sighting: Sighting,
 }
 
-/// What was said of the people last.
+impl Observed {
+    fn is_there(&self, now_s: f64) -> bool {
+        let stays_s = if self.source == HEARD {
+            HEARD_S
+        } else {
+            SEEN_S
+        };
+        now_s - self.at_s <= stays_s
+    }
+}
+
+/// What was said of road users last.
 #[derive(Debug, Default)]
 pub(super) struct Said {
-    /// The people in the newest frames. A log is judged by them, so the robot's own conclusions play no part.
+    /// The road users in the newest frames and messages. A log is judged by them, so the robot's own conclusions play
+    /// no part.
     observed: Vec<Observed>,
     /// When each source made its newest frame, in seconds.
     newest_s: BTreeMap<u8, f64>,
@@ -59,18 +74,21 @@ impl Application {
             return;
         }
         let seen = sighting(vru, 0.0);
-        self.said
-            .observed
-            .retain(|it| it.source != ONE_BY_ONE || it.sighting.id != seen.id);
-        self.observe(ONE_BY_ONE, self.at_s, &[seen]);
+        self.observe_one(ONE_BY_ONE, seen);
         self.step(Input::Heard(seen, Millis::ZERO));
+    }
+
+    /// Takes in a road user who comes alone, in place of what was known of the same.
+    fn observe_one(&mut self, source: u8, seen: Sighting) {
+        let is_other = |it: &Observed| it.source != source || it.sighting.id != seen.id;
+        self.said.observed.retain(is_other);
+        self.observe(source, self.at_s, &[seen]);
     }
 
     fn observe(&mut self, source: u8, at_s: f64, sightings: &[Sighting]) {
         let now_s = self.at_s;
-        self.said.observed.retain(|it| now_s - it.at_s <= SEEN_S);
-        let people = sightings.iter().filter(|it| it.what != RoadUser::Vehicle);
-        let observed = people.map(|sighting| Observed {
+        self.said.observed.retain(|it| it.is_there(now_s));
+        let observed = sightings.iter().map(|sighting| Observed {
             source,
             at_s,
             sighting: *sighting,
@@ -78,7 +96,7 @@ impl Application {
         self.said.observed.extend(observed);
     }
 
-    /// Takes in the people of a frame that was made `age` ago, unless a newer one of its source came before.
+    /// Takes in the road users of a frame that was made `age` ago, unless a newer one of its source came before.
     fn observe_frame(&mut self, source: u8, age: Millis, sightings: &[Sighting]) {
         let at_s = self.at_s - f64::from(age.0) / 1e3;
         let newest_s = self.said.newest_s.entry(source).or_insert(at_s);
@@ -216,6 +234,17 @@ impl Application {
             error_cm: error_cm(position),
             velocity: velocity(way),
         };
+        self.observe_one(
+            HEARD,
+            Sighting {
+                id: Some(vehicle.key),
+                at,
+                error_cm: vehicle.error_cm,
+                velocity: Some(vehicle.velocity),
+                what: RoadUser::Vehicle,
+                confidence: 100,
+            },
+        );
         self.step(Input::Vehicle(vehicle, Millis::ZERO));
     }
 
@@ -244,7 +273,7 @@ impl Application {
         self.step(Input::Heard(seen, Millis::ZERO));
     }
 
-    /// What the sensors have now, if that has changed since it was said last.
+    /// Whom the robot has now, if that has changed since it was said last.
     pub fn next_sight(&mut self) -> Option<Sight> {
         let now_s = self.at_s;
         let period_s = SIGHT_PERIOD_S / self.time_scale();
@@ -259,26 +288,39 @@ impl Application {
             class: class(sighting.what),
             conduct,
         });
+        let vehicles = self.there().filter(|it| it.what == RoadUser::Vehicle);
+        let vehicles = vehicles.map(|sighting| SeenVehicle {
+            place: self.site.coordinates(place(sighting.at)),
+            velocity: sighting.velocity.map(metres_per_second),
+        });
         let sight = Sight {
             people: people.collect(),
+            vehicles: vehicles.take(VEHICLES_MAX).collect(),
         };
-        let said = self.said.last.as_ref();
-        let is_new = said.map_or(!sight.people.is_empty(), |(_, said)| *said != sight);
+        let nobody = Sight::default();
+        let said = self.said.last.as_ref().map_or(&nobody, |(_, said)| said);
+        let is_new = *said != sight;
         is_new.then(|| {
             self.said.last = Some((now_s, sight.clone()));
             sight
         })
     }
 
-    /// The people in the newest frames, each with the conduct that the robot takes it for.
+    /// The road users in the newest frames and messages.
+    fn there(&self) -> impl Iterator<Item = &Sighting> {
+        let observed = self.said.observed.iter();
+        let there = observed.filter(|it| it.is_there(self.at_s));
+        there.map(|it| &it.sighting)
+    }
+
+    /// The people among them, each with the conduct that the robot takes it for.
     fn observed(&self) -> impl Iterator<Item = (&Sighting, Conduct)> {
-        let is_there = |it: &&Observed| self.at_s - it.at_s <= SEEN_S;
-        let observed = self.said.observed.iter().filter(is_there);
-        observed.map(|it| {
+        let people = self.there().filter(|it| it.what != RoadUser::Vehicle);
+        people.map(|sighting| {
             let mut tracks = self.crossing.tracks().iter();
-            let track = tracks.find(|track| track.at() == it.sighting.at && track.is_fresh());
+            let track = tracks.find(|track| track.at() == sighting.at && track.is_fresh());
             let conduct = track.map_or(Conduct::Elsewhere, |track| track.conduct(&self.setup));
-            (&it.sighting, conduct)
+            (sighting, conduct)
         })
     }
 

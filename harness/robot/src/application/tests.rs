@@ -1,7 +1,7 @@
 //! What an application does with its body and its plan.
 
 use crossguard_codec::{RobotState, TaskParameters};
-use crossguard_endpoint::ras::clustering::PerceivedVru;
+use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_protocol::{
     Maneuver, ManeuverId, RequestId, SessionId, SessionNumber, StationId, StopReason, TaskType,
     UniqueNumber,
@@ -10,6 +10,7 @@ use crossguard_protocol::{
 use super::*;
 use crate::body::{Build, NotTaken, Report, Simulated};
 use crate::perception::SensorFrame;
+use crate::sight::Sight;
 use crate::site::{Place, Site};
 use crate::street::Street;
 use crate::zone::Zone;
@@ -105,8 +106,16 @@ fn a_late_frame_is_no_sight_of_now() {
     application.look(&nobody, Millis(40));
     application.look(&person, Millis(100));
     assert_eq!(application.next_sight(), None, "a newer one has nobody");
+    let car = PerceivedVru {
+        class: VruClass::Vehicle,
+        velocity_mps: [-8.0, 0.0],
+        ..PerceivedVru::pedestrian(2, [30.0, 3.0])
+    };
+    let person = SensorFrame::of(&[person.people[0].vru, car]);
     application.look(&person, Millis(40));
-    assert_eq!(application.next_sight().unwrap().people.len(), 1);
+    let sight = application.next_sight().unwrap();
+    assert_eq!(sight.people.len(), 1, "a vehicle is nobody on foot");
+    assert_eq!(sight.vehicles[0].velocity, Some([-8.0, 0.0]));
     application.advance(11.5);
-    assert!(application.next_sight().unwrap().people.is_empty());
+    assert_eq!(application.next_sight(), Some(Sight::default()));
 }

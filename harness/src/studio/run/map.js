@@ -1,9 +1,11 @@
-// The street to scale: kerbs, lanes, zones, bodies, people, the corridor with its lease.
+// The street to scale: kerbs, lanes, zones, bodies, people, vehicles, the corridor with its lease.
 
 import { html, id, key, look, marker, ms, svg } from "/shell/dom.js";
 
 const MARGIN = 28;
 const HEIGHT = 420;
+// A car, in metres; no robot says how large one is.
+const CAR = [1.8, 4.4];
 const CONDUCTS = { elsewhere: "elsewhere", passing: "in the zone", waiting: "waits to cross", onRoad: "on the road", across: "across" };
 
 export class StreetMap {
@@ -29,9 +31,10 @@ export class StreetMap {
     const items = this.robots.map((robot, lane) => [key(lane), robot.name]);
     if (this.street.waiting.some((it) => it.length)) items.push([box("zone"), "waiting zone"]);
     if (this.street.road.some((it) => it.length)) items.push([box("zone-road"), "its part of the road"]);
+    if (this.street.places.length) items.push([sample(svg("path", { d: "M11 8h6m-3 -3v6", class: "spot" })), "place of the site"]);
     items.push([box("corridor"), "escort; filled while the corridor is open"], [sample(svg("circle", { cx: 14, cy: 8, r: 6, class: "goal" })), "commanded place"]);
     if (this.robots.some((it) => it.waiting.length) || this.street.waiting.length) {
-      items.push([box("cluster"), "cluster in RAM"]);
+      items.push([box("cluster"), "cluster in RAM"], [sample(svg("rect", { x: 6, y: 4, width: 16, height: 8, class: "car" })), "vehicle, and its way in a second"]);
       for (const [conduct, words] of Object.entries(CONDUCTS)) items.push([sample(this.person(conduct, 14, 8)), words]);
     }
     id("map-legend").append(...items.map((item) => html("li", {}, item)));
@@ -63,6 +66,7 @@ export class StreetMap {
       svg("rect", { class: "ground", width, height: HEIGHT }),
       ...this.ground(view),
       ...moment.robots.flatMap((robot, lane) => this.escort(view, robot, lane)),
+      ...moment.robots.flatMap((robot) => robot.vehicles.flatMap((car) => this.car(view, car, labels))),
       ...moment.robots.flatMap((robot) => this.people(view, robot, labels)),
       ...moment.robots.flatMap((robot, lane) => this.body(view, robot, lane, labels)),
       ...labels.map(({ x, y, text, kind, anchor }) => svg("text", { x, y, class: kind, "text-anchor": anchor ?? "start" }, text)),
@@ -90,7 +94,7 @@ export class StreetMap {
     for (const corners of waiting) if (corners.length) shapes.push(svg("path", { d: this.outline(view, corners), class: "zone" }));
     for (const [name, place] of places) {
       const [x, y] = view.at(place);
-      shapes.push(svg("circle", { cx: x, cy: y, r: 2, class: "spot" }, svg("title", {}, name)));
+      shapes.push(svg("path", { d: `M${x - 3} ${y}h6m-3 -3v6`, class: "spot" }, svg("title", {}, name)));
     }
     return shapes;
   }
@@ -118,6 +122,27 @@ export class StreetMap {
       place(labels, view, { x: right + 4, y: top + 4, text: `cluster of ${count}`, kind: "label" });
     }
     return shapes;
+  }
+
+  // One that is out of the picture is at its edge, with its distance.
+  car(view, { place: [e, n], velocity }, labels) {
+    const { width, scale } = view;
+    const [x, y] = view.at([e, n]);
+    const speed = velocity ? Math.hypot(...velocity) : null;
+    const text = speed === null ? "vehicle" : speed < 0.5 ? "stands" : `${Math.round(speed * 3.6)} km/h`;
+    const [left, top] = [Math.min(Math.max(x, 14), width - 14), Math.min(Math.max(y, 14), HEIGHT - 14)];
+    const turn = velocity ? Math.atan2(...velocity) * 180 / Math.PI : 0;
+    const away = Math.hypot(x - left, y - top) / scale;
+    if (away > 0) {
+      place(labels, view, { x: left + 12, y: top + 4, text: `vehicle ${text}, ${away.toFixed(0)} m outside`, kind: "label" });
+      return [svg("path", { d: "M0 -9l6 14h-12Z", transform: `translate(${left.toFixed(1)} ${top.toFixed(1)}) rotate(${turn.toFixed(1)})`, class: "car" })];
+    }
+    const [w, l] = CAR.map((metres) => metres * scale);
+    const move = `translate(${x.toFixed(1)} ${y.toFixed(1)}) rotate(${turn.toFixed(1)})`;
+    place(labels, view, { x: x + w, y: y + 4, text, kind: "label" });
+    return [
+      svg("rect", { x: -w / 2, y: -l / 2, width: w, height: l, rx: w / 5, transform: move, class: "car" }),
+      speed >= 0.5 ? svg("path", { d: `M0 ${-l / 2}v${(-speed * scale).toFixed(1)}m-4 7l4 -7l4 7`, transform: move, class: "car-way" }) : ""];
   }
 
   body(view, robot, lane, labels) {
@@ -162,9 +187,9 @@ export class StreetMap {
       const name = this.robots[lane].name;
       return robot.body ? `${name} at ${robot.body.place[0].toFixed(1)} m east, ${robot.body.place[1].toFixed(1)} m north` : `${name} at no known place`;
     });
-    const people = Math.max(0, ...moment.robots.map((robot) => robot.people.length));
+    const [people, cars] = ["people", "vehicles"].map((kind) => Math.max(0, ...moment.robots.map((robot) => robot[kind].length)));
     const open = moment.robots.some((robot) => robot.sign);
-    return `Street: ${robots.join("; ")}; ${people} people; the corridor is ${open ? "open" : "closed"}`;
+    return `Street: ${robots.join("; ")}; ${people} people; ${cars} vehicles; the corridor is ${open ? "open" : "closed"}`;
   }
 }
 
