@@ -4,21 +4,37 @@ import { html, id, key, ms, seconds, svg, table } from "/shell/dom.js";
 
 const n = (value) => [value, "n"];
 
+// What was shown of each robot last, and since when it is otherwise than before.
+const shown = new Map();
+const NEW_US = 1_000_000;
+
+// A value that has changed is marked for a second of the run, and for as long as the run stands there.
+function news(key, value, at) {
+  const before = shown.get(key) ?? { value, at: null };
+  const now = before.value === value ? before : { value, at };
+  shown.set(key, now);
+  return value && now.at !== null && Math.abs(at - now.at) < NEW_US ? html("mark", {}, value) : value;
+}
+
 export function robots(opening, moment) {
   const names = new Map(opening.overview.robots.flatMap((robot) => robot.stations.map((station) => [station, robot.name])));
   const name = (station) => names.get(station) ?? `station ${station}`;
   const pair = (term, value) => value ? [html("dt", {}, term), html("dd", {}, value)] : [];
-  return moment.robots.map((robot, lane) => html("article", { class: robot.isRunning ? "robot" : "robot off", "aria-label": opening.overview.robots[lane].name },
-    html("h3", {}, key(lane), opening.overview.robots[lane].name, html("span", { class: "state" }, robot.isRunning ? robot.state ?? "" : "not running")),
+  return moment.robots.map((robot, lane) => {
+    const told = (term, value) => news(`${lane} ${term}`, value, moment.at);
+    const fact = (term, value) => pair(term, told(term, value));
+    return html("article", { class: robot.isRunning ? "robot" : "robot off", "aria-label": opening.overview.robots[lane].name },
+    html("h3", {}, key(lane), opening.overview.robots[lane].name, html("span", { class: "state" }, told("state", robot.isRunning ? robot.state ?? "" : "not running"))),
     html("dl", {},
       pair("station", robot.station === null ? "" : String(robot.station)),
-      pair("role", robot.role), pair("session", robot.session), pair("executes", robot.executes),
-      pair("on the road", robot.duty), pair("may help", robot.availability),
-      robot.followers.flatMap((it) => pair(name(it.station), `${it.task || "no task yet"}, ${it.hasLease ? "lease stands" : "no lease"}`)),
+      fact("role", robot.role), fact("session", robot.session), fact("executes", robot.executes),
+      fact("on the road", robot.duty), fact("may help", robot.availability),
+      robot.followers.flatMap((it) => fact(name(it.station), `${it.task || "no task yet"}, ${it.hasLease ? "lease stands" : "no lease"}`)),
       pair("corridor", robot.sign ? `open for ${ms(robot.sign[0])} more` : ""),
       pair("speed", robot.body?.speed === null || !robot.body ? "" : `${robot.body.speed.toFixed(2)} m/s`),
       pair("last place", robot.body ? `${robot.body.place.map((it) => it.toFixed(1)).join(" m E, ")} m N, ${ms(robot.body.ageMs)} ago` : "")),
-    robot.timers.length ? html("ul", { class: "timers", "aria-label": "Timers" }, robot.timers.map(timer)) : html("p", { class: "faint" }, "No timer runs.")));
+    robot.timers.length ? html("ul", { class: "timers", "aria-label": "Timers" }, robot.timers.map(timer)) : html("p", { class: "faint" }, "No timer runs."));
+  });
 }
 
 // Bars are logarithmic: 10 ms to 100 s, so that a lease and a maneuver are seen on one scale.
