@@ -159,6 +159,8 @@ def after(studio, folder):
     page.eval_on_selector("#slider", "it => { it.value = it.max / 2; it.dispatchEvent(new Event('input')); }")
     expect(page.locator("#map .body")).to_have_count(4)
     expect(page.locator("#map .person").first).to_be_visible()
+    # What is otherwise than at the moment before is marked.
+    expect(page.locator("#robots mark").first).to_be_visible()
     page.keyboard.press("Home")
     page.keyboard.press(" ")
     page.wait_for_function("() => Number(document.getElementById('slider').value) > 200000")
