@@ -139,7 +139,7 @@ export class StreetMap {
     }
     const [w, l] = CAR.map((metres) => metres * scale);
     const move = `translate(${x.toFixed(1)} ${y.toFixed(1)}) rotate(${turn.toFixed(1)})`;
-    place(labels, view, { x: x + w, y: y + 4, text, kind: "label" });
+    place(labels, view, { x: x + w, y: y + w, text, kind: "label" });
     return [
       svg("rect", { x: -w / 2, y: -l / 2, width: w, height: l, rx: w / 5, transform: move, class: "car" }),
       speed >= 0.5 ? svg("path", { d: `M0 ${-l / 2}v${(-speed * scale).toFixed(1)}m-4 7l4 -7l4 7`, transform: move, class: "car-way" }) : ""];
