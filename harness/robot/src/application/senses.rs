@@ -32,6 +32,9 @@ const HEARD: u8 = u8::MAX - 1;
 const SEEN_S: f64 = 1.0;
 const HEARD_S: f64 = 1.5;
 
+/// Most road users who come alone that a sight is made of, however fast somebody sends messages with ever new ids.
+const ALONE_MAX: usize = 256;
+
 /// A road user as a sensor source had it in its newest frame, or as it said itself.
 #[derive(Clone, Copy, Debug)]
 struct Observed {
@@ -80,8 +83,16 @@ impl Application {
 
     /// Takes in a road user who comes alone, in place of what was known of the same.
     fn observe_one(&mut self, source: u8, seen: Sighting) {
-        let is_other = |it: &Observed| it.source != source || it.sighting.id != seen.id;
-        self.said.observed.retain(is_other);
+        let is_same = |it: &Observed| it.source == source && it.sighting.id == seen.id;
+        let of_source = |it: &Observed| it.source == source;
+        let observed = &mut self.said.observed;
+        let is_full = observed.iter().filter(|it| of_source(it)).count() >= ALONE_MAX;
+        // The oldest stand first.
+        let replaced = observed.iter().position(is_same);
+        let replaced = replaced.or_else(|| observed.iter().position(of_source).filter(|_| is_full));
+        if let Some(place) = replaced {
+            observed.remove(place);
+        }
         self.observe(source, self.at_s, &[seen]);
     }
 

@@ -118,4 +118,9 @@ fn a_late_frame_is_no_sight_of_now() {
     assert_eq!(sight.vehicles[0].velocity, Some([-8.0, 0.0]));
     application.advance(11.5);
     assert_eq!(application.next_sight(), Some(Sight::default()));
+    for id in 0..1_000 {
+        application.perceive(&PerceivedVru::pedestrian(id, [1.0, 3.0]));
+    }
+    application.advance(12.0);
+    assert_eq!(application.next_sight().unwrap().people.len(), 256);
 }
