@@ -340,7 +340,7 @@ fn hazard_g_a_guard_is_not_at_its_place_any_more_and_go_is_shown() {
 
 #[test]
 fn hazard_i_go_begins_before_a_vehicle_that_cannot_stop() {
-    let comes = |east_m: f64, ago_us: u64| {
+    let comes = |east_m: f64| {
         let mut log = Crossing::new();
         let (leader, go_us) = log.go();
         log.watches(&leader, go_us - S);
@@ -352,12 +352,12 @@ fn hazard_i_go_begins_before_a_vehicle_that_cannot_stop() {
             people: Vec::new(),
             vehicles: vec![vehicle],
         };
-        log.add(go_us - ago_us, &leader, Entry::People(sight));
+        log.add(go_us - S / 10, &leader, Entry::People(sight));
         log
     };
-    comes(25.0, S / 10).is_refused("P3");
-    for (east_m, ago_us) in [(60.0, S / 10), (-10.0, S / 10), (25.0, 2 * S)] {
-        let said = comes(east_m, ago_us).kept("P3");
+    comes(41.0).is_refused("P3");
+    for east_m in [42.0, -10.0] {
+        let said = comes(east_m).kept("P3");
         assert!(said.starts_with("P3 kept 1 times"), "{said}");
     }
     assert!(Crossing::new().kept("P3").starts_with("P3 not judged"));

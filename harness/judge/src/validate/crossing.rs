@@ -121,7 +121,7 @@ impl Crossing {
             Entry::Zone(outline) => self.ground.outline(robot, outline),
             Entry::People(sight) => {
                 self.ground.see(robot, at_us, sight);
-                self.see_vehicles(robot, at_us, sight);
+                self.see_vehicles(robot, sight);
                 self.freed_too_early(at_us)?;
             }
             Entry::Step {
@@ -184,24 +184,14 @@ impl Crossing {
         }
     }
 
-    fn see_vehicles(&mut self, robot: &str, at_us: u64, sight: &Sight) {
-        let before = self.vehicles.remove(robot).unwrap_or_default();
-        let moving = sight
-            .vehicles
-            .iter()
-            .filter_map(|seen| Some((seen.place, seen.velocity?)));
-        let vehicles = moving.map(|(place, velocity)| {
-            let at = self.ground.metres(place);
-            let same = before
-                .iter()
-                .find(|it| it.at == at && it.velocity == velocity);
-            Vehicle {
-                at,
-                velocity,
-                since_us: same.map_or(at_us, |same| same.since_us),
+    fn see_vehicles(&mut self, robot: &str, sight: &Sight) {
+        let mut vehicles = Vec::new();
+        for seen in &sight.vehicles {
+            if let Some(velocity) = seen.velocity {
+                let at = self.ground.metres(seen.place);
+                vehicles.push(Vehicle { at, velocity });
             }
-        });
-        let vehicles = vehicles.collect();
+        }
         self.vehicles.insert(robot.to_owned(), vehicles);
     }
 
@@ -217,7 +207,7 @@ impl Crossing {
             return Ok(());
         };
         self.begun += 1;
-        let coming = vehicles.iter().find_map(|it| it.comes(crossing, at_us));
+        let coming = vehicles.iter().find_map(|it| it.comes(crossing));
         coming.map_or(Ok(()), |coming| {
             Err(Fault::GoBeforeVehicle {
                 robot: robot.to_owned(),

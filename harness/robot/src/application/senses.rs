@@ -65,6 +65,8 @@ pub(super) struct Said {
     newest_s: BTreeMap<u8, f64>,
     /// When, in seconds.
     last: Option<(f64, Sight)>,
+    /// Whether the sign showed go then.
+    go: bool,
     /// When each follower's position was heard last, on the robot's clock in ms.
     heard_ms: BTreeMap<StationId, u64>,
 }
@@ -284,14 +286,17 @@ impl Application {
         self.step(Input::Heard(seen, Millis::ZERO));
     }
 
-    /// Whom the robot has now, if that has changed since it was said last.
+    /// Whom the robot has now, if that has changed since it was said last: so often, when somebody steps on the road or is off
+    /// it, and when the sign begins to show go, for which the robot answers.
     pub fn next_sight(&mut self) -> Option<Sight> {
         let now_s = self.at_s;
+        let shows_go = self.sign.shows_go(super::micros(now_s));
+        let begins = !std::mem::replace(&mut self.said.go, shows_go) && shows_go;
         let period_s = SIGHT_PERIOD_S / self.time_scale();
         let is_early = |(said_s, said): &(f64, Sight)| {
             now_s - said_s < period_s && said.on_road() == self.on_road()
         };
-        if self.said.last.as_ref().is_some_and(is_early) {
+        if !begins && self.said.last.as_ref().is_some_and(is_early) {
             return None;
         }
         let people = self.observed().map(|(sighting, conduct)| Seen {
