@@ -1,4 +1,4 @@
-//! Records as sequence charts of the kind that the model checker draws: text, Mermaid, SVG.
+//! Records as sequence charts of the kind that the model checker draws: text and Mermaid.
 
 use std::collections::BTreeMap;
 use std::time::Duration;

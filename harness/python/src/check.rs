@@ -42,9 +42,8 @@ impl Report {
         Ok(Some(match form {
             "text" => chart.text(),
             "mermaid" => chart.mermaid(),
-            "svg" => chart.svg(),
             other => {
-                let error = format!("no form '{other}': text, mermaid or svg");
+                let error = format!("no form '{other}': text or mermaid");
                 return Err(PyValueError::new_err(error));
             }
         }))

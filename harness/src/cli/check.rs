@@ -67,7 +67,7 @@ pub(super) struct Arguments {
     /// what leads to what).
     #[arg(long)]
     safety: bool,
-    /// Write each counterexample to this folder: as a chart in text, Mermaid and SVG, and as JSON for
+    /// Write each counterexample to this folder: as a chart in text and Mermaid, and as JSON for
     /// --replay.
     #[arg(long, value_name = "FOLDER")]
     charts: Option<PathBuf>,
@@ -262,11 +262,7 @@ fn write_charts(report: &ScenarioReport, folder: &Path) -> Result<(), Failure> {
             continue;
         };
         let name = format!("{}-{}", report.name, property.id);
-        let mut forms = vec![
-            ("txt", chart.text()),
-            ("mmd", chart.mermaid()),
-            ("svg", chart.svg()),
-        ];
+        let mut forms = vec![("txt", chart.text()), ("mmd", chart.mermaid())];
         // What is no run of the protocol cannot be followed.
         if !paper::made(report)
             && let Some(replay) = Replay::of(report, property)

@@ -14,7 +14,7 @@ use super::{Failure, destinations, open_logs, print};
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
-#[command(group(ArgGroup::new("to").required(true).multiple(true).args(["facts", "svg", "mermaid"])))]
+#[command(group(ArgGroup::new("to").required(true).multiple(true).args(["facts", "mermaid"])))]
 pub(super) struct Arguments {
     /// The logs: of one robot or of several, from one machine or from several.
     #[arg(required = true, value_name = "LOG")]
@@ -22,9 +22,6 @@ pub(super) struct Arguments {
     /// Write what the logs tell as JSON lines: states, places, messages, people, drops.
     #[arg(long, value_name = "FILE")]
     facts: Option<PathBuf>,
-    /// Write the sequence chart as a picture.
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
     /// Write the sequence chart as a Mermaid diagram.
     #[arg(long, value_name = "FILE")]
     mermaid: Option<PathBuf>,
@@ -47,13 +44,13 @@ struct FactLine<'a> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    destinations::files([&arguments.facts, &arguments.svg, &arguments.mermaid])?;
+    destinations::files([&arguments.facts, &arguments.mermaid])?;
     if let Some(path) = &arguments.facts {
         write_facts(merged(&arguments.logs)?, path)?;
     }
-    if arguments.svg.is_none() && arguments.mermaid.is_none() {
+    let Some(path) = &arguments.mermaid else {
         return Ok(());
-    }
+    };
     let mut sequence = Sequence::growing();
     let mut steps = Vec::new();
     let mut logs = merged(&arguments.logs)?;
@@ -63,17 +60,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     steps.extend(sequence.rest());
     sequence.end(&mut steps);
     sequence.draw("Crossguard", &steps, |chart| {
-        let pictures = [
-            (&arguments.svg, chart.svg()),
-            (&arguments.mermaid, chart.mermaid()),
-        ];
-        for (path, picture) in pictures {
-            if let Some(path) = path {
-                std::fs::write(path, picture).map_err(Failure::at(path))?;
-                print(format_args!("{}: {} steps", path.display(), steps.len()))?;
-            }
-        }
-        Ok(())
+        std::fs::write(path, chart.mermaid()).map_err(Failure::at(path))?;
+        print(format_args!("{}: {} steps", path.display(), steps.len()))
     })
 }
 

@@ -209,7 +209,7 @@ fn tell_failure(
     let Some((page, files)) = files else {
         return Ok(());
     };
-    let files = [page, &files.log, &files.pcap, &files.svg, &files.text];
+    let files = [page, &files.log, &files.pcap, &files.mermaid, &files.text];
     let files: Vec<_> = files.map(|file| file.display().to_string()).into();
     print(format_args!("  written: {}", files.join(", ")))
 }

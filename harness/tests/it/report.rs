@@ -97,13 +97,13 @@ fn the_log_of_one_robot_alone_shows_those_that_it_heard() {
         .filter(|line| line.contains(r#""robot":"R1""#));
     let log = folder.path().join("r1.jsonl");
     std::fs::write(&log, own.collect::<Vec<_>>().join("\n") + "\n").unwrap();
-    let svg = folder.path().join("r1.svg");
-    let output = crossguard(&["export", "--svg"])
-        .arg(&svg)
+    let mermaid = folder.path().join("r1.mmd");
+    let output = crossguard(&["export", "--mermaid"])
+        .arg(&mermaid)
         .arg(&log)
         .output()
         .unwrap();
     assert_code(&output, 0);
-    let svg = std::fs::read_to_string(svg).unwrap();
-    svg.must_have(&[">R1</text>", ">station "]);
+    let mermaid = std::fs::read_to_string(mermaid).unwrap();
+    mermaid.must_have(&[" as R1\n", " as station "]);
 }

@@ -192,8 +192,8 @@ fn of_a_failure_the_log_the_chart_and_the_line_that_runs_it_again_are_written() 
     let again = "crossguard fuzz --seeds 1 --robots 4 --seed 5";
     assert!(text.starts_with("I4: a command is started at most once (R2 at 1.234 s)\n"));
     assert!(text.contains(again) && text.contains("R1"), "{text}");
-    let svg = std::fs::read_to_string(&files.svg).unwrap();
-    assert!(svg.starts_with("<svg"));
+    let mermaid = std::fs::read_to_string(&files.mermaid).unwrap();
+    assert!(mermaid.starts_with("sequenceDiagram"));
     let log = std::fs::read(&files.log).unwrap();
     let validated = validate::one(&*log).unwrap();
     assert!(validated.steps > 100);

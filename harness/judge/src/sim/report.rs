@@ -28,8 +28,8 @@ pub struct Files {
     pub pcap: PathBuf,
     /// The sequence chart as text.
     pub text: PathBuf,
-    /// The sequence chart as a picture.
-    pub svg: PathBuf,
+    /// The sequence chart as a Mermaid diagram.
+    pub mermaid: PathBuf,
 }
 
 impl Files {
@@ -39,7 +39,7 @@ impl Files {
             log: path("jsonl"),
             pcap: path("pcap"),
             text: path("txt"),
-            svg: path("svg"),
+            mermaid: path("mmd"),
         }
     }
 }
@@ -91,7 +91,7 @@ impl Recorder {
         self.sequence.draw(title, &steps, |chart| {
             let text = format!("{title}\n{again}\n\n{}", chart.text());
             std::fs::write(&files.text, text)?;
-            std::fs::write(&files.svg, chart.svg())
+            std::fs::write(&files.mermaid, chart.mermaid())
         })
     }
 }

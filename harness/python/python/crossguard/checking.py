@@ -128,7 +128,7 @@ class Report:
                 return property.verdict
         raise KeyError(id)
 
-    def chart(self, id: str, form: Literal["text", "mermaid", "svg"] = "text") -> str | None:
+    def chart(self, id: str, form: Literal["text", "mermaid"] = "text") -> str | None:
         """The run that breaks a property, as a sequence chart; `None` where nothing does."""
         return self._native.chart(id, form)
 
