@@ -77,23 +77,19 @@ def evaluation(results):
 
 
 def odds(results):
-    """Loss rate against probabilities and times, for each choice of settings."""
+    """Loss rate against probabilities and times."""
     figure, (probability, time) = plt.subplots(2, figsize=(10, 9), sharex=True)
     middle = lambda bounds: (bounds["lower"] + bounds["upper"]) / 2
-    settings = ("ramPeriodMs", "tAckMs", "nAck", "tSafetyMs")
-    varied = [name for name in settings if len({of[name] for of in results["odds"]}) > 1]
-    for of in results["odds"]:
-        curves = {}
-        for at in sorted(of["losses"], key=lambda it: it["loss"]):
-            curves.setdefault((probability, "crossing goes well"), []).append((at["loss"], middle(at["crossing"])))
-            for it in at["milestones"]:
-                name = it["milestone"]
-                curves.setdefault((probability, name), []).append((at["loss"], middle(it["probability"])))
-                if it.get("meanMs") and name in ("team", "received", "acknowledged"):
-                    curves.setdefault((time, f"{name}, mean"), []).append((at["loss"], middle(it["meanMs"])))
-        suffix = "".join(f", {name}={of[name]}" for name in varied)
-        for (axes, name), points in curves.items():
-            axes.plot(*zip(*points), marker=".", label=name + suffix)
+    curves = {}
+    for at in sorted(results["losses"], key=lambda it: it["loss"]):
+        curves.setdefault((probability, "crossing goes well"), []).append((at["loss"], middle(at["crossing"])))
+        for it in at["milestones"]:
+            name = it["milestone"]
+            curves.setdefault((probability, name), []).append((at["loss"], middle(it["probability"])))
+            if it.get("meanMs") and name in ("team", "received", "acknowledged"):
+                curves.setdefault((time, f"{name}, mean"), []).append((at["loss"], middle(it["meanMs"])))
+    for (axes, name), points in curves.items():
+        axes.plot(*zip(*points), marker=".", label=name)
     for color, (words, (mean, deviation)) in zip(("gray", "tan"), PAPER_TIMES.items()):
         time.axhspan(mean - deviation, mean + deviation, alpha=0.3, color=color, label=words)
     probability.set(title=f"A crossing under loss, followers: {results['followers']}", ylabel="probability")
@@ -109,7 +105,7 @@ def main():
         sys.exit(__doc__)
     with open(sys.argv[1], encoding="utf-8") as file:
         results = json.load(file)
-    figure = odds(results) if "odds" in results else evaluation(results)
+    figure = odds(results) if "losses" in results else evaluation(results)
     figure.tight_layout()
     figure.savefig(sys.argv[2])
 

@@ -1,13 +1,9 @@
-//! Probabilities and times under loss, against what can be worked out by hand; and the files for other tools, read
-//! back.
-
-use std::collections::BTreeMap;
+//! Probabilities and times under loss, against what can be worked out by hand.
 
 use crossguard_model_check::check::Stop;
 use crossguard_model_check::node::Rules;
 use crossguard_model_check::odds::{
-    Coupling, Enclosure, LossOdds, MarkovChain, Milestone, MilestoneOdds, OddsModel, OddsSetup,
-    Stage, TimeGrid, write_drn,
+    Coupling, Enclosure, LossOdds, Milestone, MilestoneOdds, OddsModel, OddsSetup, Stage, TimeGrid,
 };
 use crossguard_protocol::{Config, Input, Millis, Output, Outputs, Rmcm, Robot, Settings};
 
@@ -244,124 +240,4 @@ fn links_one_at_a_time_come_to_what_all_together_come_to() {
         encloses(received, by_hand, 1e-4),
         "{received}, not {by_hand}"
     );
-}
-
-fn chain(stage: Stage) -> (MarkovChain, LossOdds) {
-    let settings = Settings {
-        t_offer: Millis(500),
-        t_lease: Millis(500),
-        t_safety: Millis(600),
-        t_leave: Millis(300),
-        ..Settings::default()
-    };
-    let setup = setup(Config::new(settings).unwrap(), 1);
-    let mut model = OddsModel::new(setup.clone());
-    let chain = model
-        .chain(stage, 0.4, 1_000_000, &Stop::default())
-        .unwrap();
-    let [odds] = odds_of(OddsModel::new(setup), &[0.4]).try_into().unwrap();
-    (chain, odds)
-}
-
-#[test]
-fn the_chain_of_a_stage_says_what_its_flow_says() {
-    for milestone in [
-        Milestone::Team,
-        Milestone::Received,
-        Milestone::Interrupted,
-        Milestone::FellBack,
-    ] {
-        let (chain, odds) = chain(milestone.stage());
-        let label = chain
-            .label_names()
-            .iter()
-            .position(|name| *name == milestone.name().replace('-', "_"))
-            .unwrap();
-        for ms in [250, 500, 2_000, 8_000] {
-            // One step leads into the stage.
-            let steps = usize::try_from(ms / 50).unwrap() + 1;
-            let by_chain = chain.within(label, steps);
-            let by_flow = of(&odds, milestone).within(ms);
-            assert!(
-                encloses(by_flow, by_chain, 1e-8),
-                "{milestone:?} {ms}: {by_flow}, not {by_chain}"
-            );
-        }
-    }
-}
-
-/// Transitions by where they come from and lead to, and labels by state.
-type Parsed = (BTreeMap<(usize, usize), f64>, BTreeMap<usize, Vec<String>>);
-
-fn wanted(chain: &MarkovChain) -> Parsed {
-    let (mut transitions, mut labels) = (BTreeMap::new(), BTreeMap::new());
-    for state in 0..chain.states() {
-        for &(to, probability) in chain.row(state) {
-            assert_eq!(transitions.insert((state, to as usize), probability), None);
-        }
-        let rest = [("init", state == 0), ("over", chain.is_absorbing(state))];
-        let rest = rest
-            .into_iter()
-            .filter(|(_, has)| *has)
-            .map(|(name, _)| name.to_owned());
-        let own = chain.label_names().iter().enumerate();
-        let own = own
-            .filter(|(label, _)| chain.has(state, *label))
-            .map(|(_, name)| name.clone());
-        let all: Vec<_> = rest.chain(own).collect();
-        if !all.is_empty() {
-            labels.insert(state, all);
-        }
-    }
-    (transitions, labels)
-}
-
-fn drn(chain: &MarkovChain) -> Parsed {
-    let mut drn = Vec::new();
-    write_drn(chain, &mut drn).unwrap();
-    let drn = String::from_utf8(drn).unwrap();
-    let (head, model) = drn.split_once("@model\n").unwrap();
-    assert!(
-        head.contains(&format!("@nr_states\n{}\n", chain.states())),
-        "{head}"
-    );
-    let (mut transitions, mut labels, mut state) = (BTreeMap::new(), BTreeMap::new(), 0);
-    for line in model.lines() {
-        let words: Vec<_> = line.split_whitespace().collect();
-        match words[..] {
-            ["state", number, _, ref rest @ ..] => {
-                state = number.parse().unwrap();
-                let rest: Vec<_> = rest.iter().map(|&label| label.to_owned()).collect();
-                if !rest.is_empty() {
-                    labels.insert(state, rest);
-                }
-            }
-            ["action", ..] => {}
-            [to, ":", probability] => {
-                transitions.insert((state, to.parse().unwrap()), probability.parse().unwrap());
-            }
-            _ => panic!("{line}"),
-        }
-    }
-    (transitions, labels)
-}
-
-#[test]
-fn what_is_written_for_storm_is_the_chain() {
-    let (chain, _) = chain(Stage::Commanding);
-    let wanted = wanted(&chain);
-    assert!(
-        wanted.0.len() > 1_000 && wanted.1.len() > 10,
-        "{} states",
-        chain.states()
-    );
-    for state in 0..chain.states() {
-        let sum: f64 = chain
-            .row(state)
-            .iter()
-            .map(|(_, probability)| probability)
-            .sum();
-        assert!((sum - 1.0).abs() < 1e-9, "{state}: {sum}");
-    }
-    assert_eq!(drn(&chain), wanted);
 }

@@ -1,25 +1,21 @@
 //! `crossguard odds`.
 
 mod output;
-mod settings;
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crossguard_model_check::check::Stop;
 use crossguard_model_check::odds::{
-    ChainError, Coupling, FOLLOWERS_MAX, FlowCut, OddsModel, OddsProgress, OddsSetup, Stage,
-    TeamOdds, TimeGrid, write_drn,
+    Coupling, FOLLOWERS_MAX, FlowCut, OddsError, OddsModel, OddsProgress, OddsSetup, TeamOdds,
+    TimeGrid,
 };
 use crossguard_protocol::{Config, Millis};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
-use self::settings::{Knob, Varied};
 use super::interrupts::interrupts_that;
 use super::ranges::{number, whole};
-use super::{Failure, destinations, print, print_json, shows_progress};
+use super::{Failure, print, print_json, shows_progress};
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
@@ -47,8 +43,6 @@ pub(super) struct Arguments {
     /// A robot's configuration, as for 'crossguard run'; without it, the default settings.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
-    #[arg(long, value_name = "SETTING=VALUES", conflicts_with = "export", help = VARY)]
-    vary: Option<Varied>,
     /// How far apart the bounds of a probability may be; by default 1e-9 for a pair, 1e-5 for a trio, 1e-3 for a
     /// trio with bursts and for three followers, 1e-2 for these with bursts.
     #[arg(long, value_name = "W", value_parser = number(1e-14..=0.1))]
@@ -57,10 +51,6 @@ pub(super) struct Arguments {
     /// states at high loss rates.
     #[arg(long)]
     joint: bool,
-    /// Write the Markov chains of the stages at the one loss rate to this folder, as DRN for Storm, and what this program
-    /// says of them.
-    #[arg(long, value_name = "FOLDER")]
-    export: Option<PathBuf>,
     /// Print the results as JSON, and nothing else.
     #[arg(long)]
     json: bool,
@@ -72,12 +62,6 @@ command at every follower, its acknowledgement, the open corridor; that the corr
 before the maneuver is over. Numbers are solved from the transition function that robots run, on a grid of time, not \
 sampled. Nobody crashes in it, clocks do not drift, and every message takes the same time.";
 
-const VARY: &str = "Work it out for each of these values of one setting, like ram_period=50,100,200; it may be \
-    ram_period, t_ack, n_ack or t_safety. The lease goes with t_safety";
-
-/// The longest chain that is written.
-const STATES_MAX: usize = 2_000_000;
-
 /// What is worked out, and what came of it.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -87,10 +71,11 @@ struct OddsReport {
     burst_ms: Option<u32>,
     hold_ms: u32,
     coupling: Coupling,
-    odds: Vec<SettingsOdds>,
+    #[serde(flatten)]
+    odds: SettingsOdds,
 }
 
-/// The figures of one choice of settings.
+/// The figures, and the settings that they follow from.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct SettingsOdds {
@@ -106,53 +91,28 @@ struct SettingsOdds {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let config = super::config_or_default(arguments.config.as_deref())?;
-    destinations::folders([&arguments.export])?;
-    let configs = match &arguments.vary {
-        Some(varied) => varied.configs(&config).map_err(Failure::input)?,
-        None => vec![config.clone()],
-    };
-    let setups: Result<Vec<_>, _> = configs
-        .iter()
-        .map(|config| arguments.setup(config))
-        .collect();
-    let setups = setups?;
+    let setup = arguments.setup(&config)?;
     let stop = Stop::default();
     let asked = stop.clone();
     let _interrupted = interrupts_that(move || asked.request());
-    if let Some(folder) = &arguments.export {
-        return export(arguments, &setups[0], folder, &stop);
-    }
-    let wanted = setups.len();
-    let mut report = OddsReport {
+    let team = match arguments.solve(setup.clone(), &stop) {
+        Ok(team) => team,
+        Err(OddsError::Cut(FlowCut::Stopped)) => return Err(Failure::Incomplete),
+        Err(error) => return Err(Failure::input(error)),
+    };
+    let report = OddsReport {
         followers: arguments.followers,
         delay_ms: arguments.delay,
         burst_ms: arguments.burst,
         hold_ms: arguments.hold,
-        coupling: setups[0].coupling(),
-        odds: Vec::new(),
+        coupling: setup.coupling(),
+        odds: SettingsOdds::new(&setup, team),
     };
-    for setup in setups {
-        match arguments.solve(setup.clone(), &stop) {
-            Ok(team) => report.odds.push(SettingsOdds::new(&setup, team)),
-            Err(ChainError::Cut(FlowCut::Stopped)) => break,
-            Err(error) => return Err(Failure::input(error)),
-        }
-    }
     if arguments.json {
-        print_json(&report)?;
+        print_json(&report)
     } else {
-        output::print_tables(&report)?;
+        output::print_table(&report)
     }
-    if report.odds.len() < wanted {
-        if !arguments.json {
-            let done = report.odds.len();
-            print(format_args!(
-                "Stopped before it was done: {done} of {wanted} settings were worked out."
-            ))?;
-        }
-        return Err(Failure::Incomplete);
-    }
-    Ok(())
 }
 
 impl Arguments {
@@ -183,7 +143,7 @@ impl Arguments {
         Ok(setup)
     }
 
-    fn solve(&self, setup: OddsSetup, stop: &Stop) -> Result<TeamOdds, ChainError> {
+    fn solve(&self, setup: OddsSetup, stop: &Stop) -> Result<TeamOdds, OddsError> {
         let bar = progress(self.json);
         let mut watch = |it: OddsProgress| {
             bar.set_length(it.of as u64);
@@ -209,19 +169,6 @@ impl SettingsOdds {
             team,
         }
     }
-
-    /// The settings that can be varied, in words.
-    fn settings(&self) -> String {
-        let values = [
-            self.ram_period_ms,
-            self.t_ack_ms,
-            self.n_ack.into(),
-            self.t_safety_ms,
-        ];
-        let words = Knob::ALL.into_iter().zip(values);
-        let words = words.map(|(knob, value)| format!("{}={value}", knob.name()));
-        words.collect::<Vec<_>>().join(" ")
-    }
 }
 
 fn progress(is_json: bool) -> ProgressBar {
@@ -232,91 +179,4 @@ fn progress(is_json: bool) -> ProgressBar {
     };
     let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}, {elapsed}");
     bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-}
-
-/// What this program says of a chain that it has written: a judge compares it.
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct ChainFigures {
-    stage: Stage,
-    loss: f64,
-    states: usize,
-    transitions: usize,
-    tick_ms: u32,
-    /// The probability that a label is reached within so many steps.
-    within: Vec<WithinSteps>,
-}
-
-#[derive(Serialize)]
-struct WithinSteps {
-    label: String,
-    steps: usize,
-    probability: f64,
-}
-
-fn export(
-    arguments: &Arguments,
-    setup: &OddsSetup,
-    folder: &Path,
-    stop: &Stop,
-) -> Result<(), Failure> {
-    let [loss] = arguments.loss[..] else {
-        return Err(Failure::input(
-            "--export wants one loss rate, like --loss 0.3",
-        ));
-    };
-    let mut model = OddsModel::new(setup.clone());
-    let mut all = Vec::new();
-    for stage in Stage::ALL {
-        let chain = match model.chain(stage, loss, STATES_MAX, stop) {
-            Ok(chain) => chain,
-            Err(ChainError::Cut(FlowCut::Stopped)) => return Err(Failure::Incomplete),
-            Err(error) => return Err(Failure::Input(format!("{}: {error}", stage.name()))),
-        };
-        let path = folder.join(stage.name()).with_extension("drn");
-        written(&path, |to| write_drn(&chain, to))?;
-        let names = chain.label_names().iter().enumerate();
-        let within = names.flat_map(|(label, name)| {
-            let steps = [2, 5, 11, 41, 101, setup.grid().ticks(setup.hold()) + 1];
-            steps.map(|steps| WithinSteps {
-                label: name.clone(),
-                steps,
-                probability: chain.within(label, steps),
-            })
-        });
-        all.push(ChainFigures {
-            stage,
-            loss,
-            states: chain.states(),
-            transitions: chain.transitions(),
-            tick_ms: setup.grid().tick.0,
-            within: within.collect(),
-        });
-    }
-    let path = folder.join("figures.json");
-    written(&path, |to| {
-        serde_json::to_writer_pretty(to, &all).map_err(Into::into)
-    })?;
-    if arguments.json {
-        return print_json(&all);
-    }
-    for it in &all {
-        let (name, states, transitions) = (it.stage.name(), it.states, it.transitions);
-        print(format_args!(
-            "{name}: {states} states, {transitions} transitions"
-        ))?;
-    }
-    print(format_args!("Written to {}.", folder.display()))
-}
-
-fn written(
-    path: &Path,
-    write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
-) -> Result<(), Failure> {
-    let cannot = Failure::at(path);
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(&cannot)?;
-    }
-    let mut to = BufWriter::new(File::create(path).map_err(&cannot)?);
-    write(&mut to).and_then(|()| to.flush()).map_err(cannot)
 }

@@ -3,12 +3,11 @@
 use crossguard_protocol::Millis;
 use serde::Serialize;
 
-use super::chain::MarkovChain;
 use super::enclosure::Enclosure;
 use super::figures::{Beginning, Frame, LossOdds, MilestoneOdds, StageSize};
 use super::flow::{Flow, FlowCut, FlowLimits, flow};
 use super::setup::{Coupling, OddsImpossibility, OddsSetup};
-use super::space::{StageSpace, probability};
+use super::space::StageSpace;
 use super::stage::{Milestone, Stage};
 use super::team::{TeamModel, TeamState};
 use crate::exploration::Stop;
@@ -39,18 +38,15 @@ pub struct OddsProgress {
     pub of: usize,
 }
 
-/// Why there is no chain of a stage.
+/// Why nothing can be said of a team.
 #[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
-pub enum ChainError {
+pub enum OddsError {
     /// There is no such channel.
     #[error(transparent)]
     Impossible(#[from] OddsImpossibility),
     /// It was given up.
     #[error(transparent)]
     Cut(#[from] FlowCut),
-    /// The stage does not begin with any probability that is worth following.
-    #[error("the stage never begins at this loss rate")]
-    NeverBegins,
 }
 
 /// What is known at one loss rate between two stages.
@@ -85,7 +81,7 @@ impl OddsModel {
         losses: &[f64],
         stop: &Stop,
         watch: &mut dyn FnMut(OddsProgress),
-    ) -> Result<TeamOdds, ChainError> {
+    ) -> Result<TeamOdds, OddsError> {
         for &loss in losses {
             self.0.setup().check_loss(loss)?;
         }
@@ -137,50 +133,6 @@ impl OddsModel {
         }
         let losses = interim.into_iter().map(LossOdds::from).collect();
         Ok(TeamOdds { sizes, losses })
-    }
-
-    /// The whole chain of a stage at a loss rate, with at most so many states. Its first state stands for the moment
-    /// before the stage: the first step leads to the states in which it begins, in no time. In `gathering` the
-    /// request stands for ever.
-    ///
-    /// # Errors
-    /// There is none.
-    ///
-    /// # Panics
-    /// When 2^32 states are exceeded, far beyond what fits in memory.
-    pub fn chain(
-        &mut self,
-        stage: Stage,
-        loss: f64,
-        states_max: usize,
-        stop: &Stop,
-    ) -> Result<MarkovChain, ChainError> {
-        self.0.setup().check_loss(loss)?;
-        let mut interim = Interim::at(loss);
-        for before in Stage::ALL.into_iter().take_while(|it| *it != stage) {
-            let limits = self.limits(before);
-            let frame = self.frame(1);
-            let mut space = StageSpace::new(&mut self.0, before);
-            interim.go_through(&mut space, limits, frame, stop)?;
-        }
-        let mut space = StageSpace::new(&mut self.0, stage);
-        let start = interim.start(&mut space);
-        let all: f64 = start.iter().map(|(_, mass)| mass).sum();
-        if all <= 0.0 {
-            return Err(ChainError::NeverBegins);
-        }
-        let mut number = 0;
-        while number < space.states() {
-            if space.states() > states_max {
-                return Err(FlowCut::TooLarge(states_max).into());
-            }
-            if stop.is_requested() {
-                return Err(FlowCut::Stopped.into());
-            }
-            let _ = space.arcs(u32::try_from(number).expect("fewer than 2^32 states"));
-            number += 1;
-        }
-        Ok(chain_of(&mut space, loss, &start, all))
     }
 
     /// The team and its surroundings.
@@ -360,44 +312,4 @@ impl Counted<'_> {
         });
         self.done += 1;
     }
-}
-
-/// The chain of states that are all worked out.
-fn chain_of(space: &mut StageSpace<'_>, loss: f64, start: &[(u32, f64)], all: f64) -> MarkovChain {
-    let products = space.probabilities(loss);
-    let milestones: Vec<Milestone> = space.stage.milestones().collect();
-    let names = milestones
-        .iter()
-        .map(|milestone| milestone.name().replace('-', "_"));
-    let mut chain = MarkovChain::new(names.collect());
-    chain.push(
-        0,
-        merged(start.iter().map(|(to, mass)| (to + 1, mass / all))),
-    );
-    for number in 0..space.states() {
-        let number = u32::try_from(number).expect("fewer than 2^32 states");
-        let marks = space.marks(number);
-        let mut labels = 0;
-        for (bit, milestone) in milestones.iter().enumerate() {
-            labels |= u8::from(marks.has(*milestone)) << bit;
-        }
-        let arcs = space.arcs(number).iter();
-        let row = merged(arcs.map(|arc| (arc.to + 1, probability(*arc, &products))));
-        chain.push(labels, row);
-    }
-    chain
-}
-
-/// One transition to each state that has a chance.
-fn merged(row: impl Iterator<Item = (u32, f64)>) -> Vec<(u32, f64)> {
-    let mut merged: Vec<(u32, f64)> = row.filter(|(_, probability)| *probability > 0.0).collect();
-    merged.sort_by_key(|(to, _)| *to);
-    merged.dedup_by(|(to, probability), (kept, sum)| {
-        let is_same = to == kept;
-        if is_same {
-            *sum += *probability;
-        }
-        is_same
-    });
-    merged
 }

@@ -5,8 +5,6 @@
 //!              │  what may follow a state in a tick, and how often something is lost on the way
 //!              ▼
 //!   stage ──► space ──► flow ──► figures      transient analysis, for every loss rate
-//!              │
-//!              └──────► chain ──► export      interval iteration, PRISM, Storm
 //! ```
 //!
 //! # What the model is of
@@ -37,9 +35,7 @@
 //! [one at a time](Coupling::LinkByLink), unless they are to be taken together.
 
 mod analysis;
-mod chain;
 mod enclosure;
-mod export;
 mod figures;
 mod flow;
 mod setup;
@@ -48,10 +44,8 @@ mod stage;
 mod team;
 mod weight;
 
-pub use analysis::{ChainError, OddsModel, OddsProgress, TeamOdds};
-pub use chain::MarkovChain;
+pub use analysis::{OddsError, OddsModel, OddsProgress, TeamOdds};
 pub use enclosure::Enclosure;
-pub use export::write_drn;
 pub use figures::{LossOdds, MilestoneOdds, Quantile, ReachedBy, StageSize};
 pub use flow::FlowCut;
 pub use setup::{Coupling, FOLLOWERS_MAX, OddsImpossibility, OddsSetup, TimeGrid};

@@ -6,22 +6,24 @@ use crossguard_model_check::odds::{Coupling, Enclosure, LossOdds, Milestone, Mil
 
 use super::{Failure, OddsReport, SettingsOdds, print};
 
-/// Prints a table for each choice of settings.
-pub(super) fn print_tables(report: &OddsReport) -> Result<(), Failure> {
-    for odds in &report.odds {
-        print(format_args!("{}:", odds.settings()))?;
-        print(table(odds))?;
-        let sizes = odds.team.sizes.iter().map(|size| {
-            let (name, states, transitions) = (size.stage.name(), size.states, size.transitions);
-            format!("{name} {states} states and {transitions} transitions")
-        });
-        let width = widest(odds);
-        print(format_args!(
-            "{}; bounds are at most {width:.0e} apart; grid {} ms.\n",
-            sizes.collect::<Vec<_>>().join(", "),
-            odds.tick_ms
-        ))?;
-    }
+/// Prints the settings, the table, and what they are of.
+pub(super) fn print_table(report: &OddsReport) -> Result<(), Failure> {
+    let odds = &report.odds;
+    print(format_args!(
+        "ram_period={} t_ack={} n_ack={} t_safety={}:",
+        odds.ram_period_ms, odds.t_ack_ms, odds.n_ack, odds.t_safety_ms
+    ))?;
+    print(table(odds))?;
+    let sizes = odds.team.sizes.iter().map(|size| {
+        let (name, states, transitions) = (size.stage.name(), size.states, size.transitions);
+        format!("{name} {states} states and {transitions} transitions")
+    });
+    print(format_args!(
+        "{}; bounds are at most {:.0e} apart; grid {} ms.\n",
+        sizes.collect::<Vec<_>>().join(", "),
+        widest(odds),
+        odds.tick_ms
+    ))?;
     let channel = match report.burst_ms {
         Some(burst) => format!("losses come in bursts of {burst} ms on average"),
         None => "each message is lost independently".to_owned(),
