@@ -64,20 +64,6 @@ const UNFAIR: Fairness = Fairness {
     strong: NONE,
 };
 
-fn weak(classes: Classes) -> Fairness {
-    Fairness {
-        weak: classes,
-        strong: NONE,
-    }
-}
-
-fn strong(classes: Classes) -> Fairness {
-    Fairness {
-        weak: NONE,
-        strong: classes,
-    }
-}
-
 /// Whether the start of `system` leads to `goal`.
 fn check(system: &Small, fairness: Fairness, goal: u32) -> LeadsTo {
     let result = leads_to(system, fairness, |state| state == 0, |state| state == goal);
@@ -132,78 +118,6 @@ fn what_is_never_visited_says_nothing() {
     let two = system(2, &[(0, 1, A)]);
     let result = leads_to(&two, UNFAIR, |_| false, |_| true);
     assert_eq!(result, LeadsTo::Vacuous);
-}
-
-#[test]
-fn a_run_may_stutter_unless_fairness_forbids_it() {
-    let two = system(2, &[(0, 1, A)]);
-    assert!(!holds(&two, UNFAIR, 1));
-    assert!(holds(&two, weak(A), 1));
-    assert!(holds(&two, strong(A), 1));
-}
-
-#[test]
-fn a_state_without_a_way_out_is_a_stutter() {
-    let dead_end = system(3, &[(0, 1, A), (0, 2, A)]);
-    assert!(!holds(&dead_end, strong(A), 1));
-}
-
-#[test]
-fn a_cycle_in_which_the_class_is_always_enabled_is_unfair() {
-    // 0 and 1 may go round for ever, and A leads out of both.
-    let ring = system(3, &[(0, 1, B), (1, 0, B), (0, 2, A), (1, 2, A)]);
-    assert!(!holds(&ring, UNFAIR, 2));
-    assert!(!holds(&ring, weak(B), 2));
-    assert!(holds(&ring, weak(A), 2));
-}
-
-#[test]
-fn a_cycle_in_which_the_class_is_enabled_now_and_then_is_unfair_only_strongly() {
-    let ring = system(3, &[(0, 1, B), (1, 0, B), (1, 2, A)]);
-    assert!(!holds(&ring, weak(A | B), 2));
-    // Under strong fairness to A alone the run may still stutter in 0.
-    assert!(!holds(&ring, strong(A), 2));
-    let moving = Fairness { weak: B, strong: A };
-    assert!(holds(&ring, moving, 2));
-}
-
-#[test]
-fn a_fair_cycle_inside_a_larger_component_is_found() {
-    // The whole is one component that enables A in 2; the fair cycle is 0 and 1 alone.
-    let nested = system(
-        4,
-        &[(0, 1, B), (1, 0, B), (1, 2, NONE), (2, 0, NONE), (2, 3, A)],
-    );
-    let fairness = Fairness { weak: B, strong: A };
-    let LeadsTo::Broken(lasso) = check(&nested, fairness, 3) else {
-        panic!("0 and 1 go round for ever, and never enable A");
-    };
-    assert!(lasso.cycle.iter().all(|edge| edge.to != 2), "{lasso:?}");
-}
-
-#[test]
-fn a_cycle_behind_a_join_is_found() {
-    // Two ways lead to 3, and one of them visits the goal first. stateright's `eventually` remembers
-    // for each state only the way on which it was first found, and so overlooks the other.
-    let join = system(
-        5,
-        &[
-            (0, 1, A),
-            (0, 2, A),
-            (1, 4, A),
-            (4, 3, A),
-            (2, 3, A),
-            (3, 3, A),
-        ],
-    );
-    assert!(!holds(&join, strong(A), 4));
-}
-
-#[test]
-fn a_goal_on_every_way_is_reached() {
-    let diamond = system(4, &[(0, 1, A), (0, 2, B), (1, 3, A), (2, 3, B)]);
-    assert!(holds(&diamond, weak(A | B), 3));
-    assert!(!holds(&diamond, weak(A), 3), "2 may be left by B alone");
 }
 
 /// Whether some fair run from state 0 avoids `goal`, by trying out every set of states and

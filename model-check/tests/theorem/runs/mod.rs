@@ -2,8 +2,6 @@
 //!
 //! States are not renamed here, as the model does, so that what has happened to an exchange can be told along a run.
 
-pub(crate) mod all;
-
 use std::collections::BTreeSet;
 
 use crossguard_model_check::node::Rules;
