@@ -1,12 +1,9 @@
 //! The certificates of a PKI against the profiles of TS 103 097, clause 7.2, as rasn-its reads them.
 
+use crossguard_codec::Identifiers;
 use crossguard_codec::Part;
-use crossguard_codec::security::issue::{self, Terms};
-use crossguard_codec::security::{
-    Certificate, Duration, IssuePermission, PrivateKey, SspRange, Subjects, Time64,
-};
-use crossguard_codec::{Identifiers, security};
-use crossguard_robot::pki::{self, Holder, Term};
+use crossguard_codec::security::{Certificate, Duration, PrivateKey, Time64};
+use crossguard_robot::pki::{self, Term};
 use rasn_its::ieee1609dot2 as dot2;
 use rasn_its::ieee1609dot2::base_types as base;
 use rasn_its::ts103097::EtsiTs103097Certificate;
@@ -109,43 +106,4 @@ fn root_authority_and_ticket_have_the_profiles_of_ts_103_097() {
     assert_eq!(permits(signed).len(), 4);
     assert_eq!(signed.cert_issue_permissions, None);
     assert_eq!(signed.encryption_key, None);
-}
-
-/// A PKI from before: its root signs no lists, and its authority has no encryption key.
-#[test]
-fn a_pki_that_was_made_before_the_profiles_were_kept_goes_on() {
-    let folder = tempfile::tempdir().unwrap();
-    let terms = |name: &str, min_chain_length, hours| {
-        let these = its_aids().into_iter().map(|it| (it, SspRange::All));
-        let validity = security::Validity {
-            start: u32::try_from(NOW.0 / 1_000_000).unwrap() - 60,
-            duration: Duration::hours(hours),
-        };
-        Terms {
-            name: Some(name.to_owned()),
-            issue_permissions: vec![IssuePermission {
-                subjects: Subjects::These(these.collect()),
-                min_chain_length,
-                chain_length_range: 0,
-                for_applications: true,
-            }],
-            ..Terms::of_ticket(validity, Vec::new())
-        }
-    };
-    let key = PrivateKey::generate();
-    let certificate = issue::root(&key, &terms("root", 2, 1_000)).unwrap();
-    let root = Holder { certificate, key };
-    let (key, below) = (PrivateKey::generate(), terms("authority", 1, 500));
-    let certificate =
-        issue::authority(&root.certificate, &root.key, key.public_key(), &below).unwrap();
-    let authority = Holder { certificate, key };
-    root.write(folder.path(), "root").unwrap();
-    authority.write(folder.path(), "authority").unwrap();
-
-    let trust = pki::read_trust(folder.path()).unwrap();
-    assert_eq!(trust.roots(), std::slice::from_ref(&root.certificate));
-    assert_eq!(trust.authorities().count(), 1);
-    let authority = Holder::read(folder.path(), "authority").unwrap();
-    let permissions = pki::robot_permissions(&Identifiers::default(), &[Part::Help], None);
-    pki::new_ticket(&authority, term(24), None, permissions).unwrap();
 }

@@ -131,7 +131,6 @@ fn who_holds_vehicles_back_shows_them_stop_until_the_road_is_clear() {
         assert!(robot.duty().is_some(), "{:?}", robot.phase());
         assert_eq!(to_vehicles(&mut street), PublicSignal::Stop);
         street.robot(stays).application_mut().say_clear();
-        street.tell(stays, Stimulus::Event(Event::RoadClear));
         street.pass(1_000);
         assert_eq!(to_vehicles(&mut street), PublicSignal::None);
     }

@@ -1,5 +1,7 @@
 //! What an application does with its body and its plan.
 
+use std::sync::{Arc, Mutex};
+
 use crossguard_codec::{RobotState, TaskParameters};
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_protocol::{
@@ -15,12 +17,13 @@ use crate::site::{Place, Site};
 use crate::street::Street;
 use crate::zone::Zone;
 
-/// A body that starts, and takes nothing after that.
-#[derive(Debug)]
-struct Broken;
+/// A body that starts, and takes nothing after that. It takes down what it is told, and is still falling back.
+#[derive(Debug, Default)]
+struct Broken(Arc<Mutex<Vec<String>>>);
 
 impl Body for Broken {
     fn act(&mut self, act: BodyAct) -> Result<(), NotTaken> {
+        self.0.lock().unwrap().push(format!("{act:?}"));
         match act {
             BodyAct::Start(..) => Ok(()),
             _ => Err(NotTaken("the bus is down".to_owned())),
@@ -44,17 +47,19 @@ impl Body for Broken {
     }
 
     fn fallback(&self) -> Option<Fallback> {
-        None
+        Some(Fallback::UnderWay)
     }
 
-    fn release(&mut self) {}
+    fn release(&mut self) {
+        self.0.lock().unwrap().push("release".to_owned());
+    }
 
     fn halt(&mut self) {}
 }
 
 #[test]
 fn a_body_that_does_not_take_a_stop_is_a_fault_that_is_told_at_once() {
-    let mut application = Application::new(Box::new(Broken), None);
+    let mut application = Application::new(Box::new(Broken::default()), None);
     let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
     let leader = StationId(1);
     let session = SessionId { leader, number };
@@ -73,9 +78,34 @@ fn a_body_that_does_not_take_a_stop_is_a_fault_that_is_told_at_once() {
     assert!(why.ends_with("the bus is down"), "{why}");
 }
 
+/// Hazard: the crossing machine closes, and the sign goes on showing go; it holds a guard, and its body moves.
+#[test]
+fn what_the_crossing_machine_puts_out_reaches_sign_and_body() {
+    let body = Broken::default();
+    let told = Arc::clone(&body.0);
+    let mut application = Application::new(Box::new(body), None);
+    assert!(!application.is_body_free(), "its fallback is under way");
+    let mut shows_go_after = |output| {
+        application.carry_out(&[output].into_iter().collect());
+        application.sign().shows_go(0)
+    };
+    let outputs = [
+        Output::Go(Millis(100)),
+        Output::Stop,
+        Output::Wait,
+        Output::GoOn,
+        Output::Release,
+    ];
+    assert_eq!(
+        outputs.map(&mut shows_go_after),
+        [true, false, false, false, false]
+    );
+    assert_eq!(*told.lock().unwrap(), ["Wait", "GoOn", "release"]);
+}
+
 #[test]
 fn a_hindrance_is_told_once_until_go_is_shown_again() {
-    let mut application = Application::new(Box::new(Broken), None);
+    let mut application = Application::new(Box::new(Broken::default()), None);
     let hindered = Output::Hindered(Hindrance::NoSight);
     let mut told = |output| {
         let outputs: Outputs = [output].into_iter().collect();
@@ -103,6 +133,16 @@ fn a_late_frame_is_no_sight_of_now() {
     application.advance(10.0);
     application.look(&person, Millis(1_500));
     assert_eq!(application.next_sight(), None, "it is too old");
+    let dropped = |application: &mut Application| application.next_trouble().map(|it| it.0);
+    assert_eq!(
+        dropped(&mut application),
+        Some(Cause::FrameDropped("stale"))
+    );
+    application.look_in_vain();
+    assert_eq!(
+        dropped(&mut application),
+        Some(Cause::FrameDropped("malformed"))
+    );
     application.look(&nobody, Millis(40));
     application.look(&person, Millis(100));
     assert_eq!(application.next_sight(), None, "a newer one has nobody");

@@ -194,6 +194,7 @@ mod tests {
             ("raw IPv4", DataLink::RAW, ipv4(UDP, 0, PACKET)),
             ("raw IPv6", DataLink::RAW, ipv6(PACKET)),
             ("IPv4", DataLink::IPV4, ipv4(UDP, 0, &ethernet)),
+            ("IPv6", DataLink::IPV6, ipv6(PACKET)),
             (
                 "UDP in a Linux cooked frame",
                 DataLink::LINUX_SLL,
