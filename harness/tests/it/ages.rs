@@ -1,13 +1,10 @@
 //! What has waited in the robot for longer than `delay_max` is thrown away, under its own cause (rule 4 of the
-//! integrator's guide); what is under way for longer is not.
+//! integrator's guide).
 
 use crossguard_codec::{Identifiers, RobotState};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_judge::sim::{Deed, Happening, Swarm, run as simulate};
 use crossguard_protocol::{Config, Robot, StationId};
-use crossguard_robot::trace::{Entry, Record};
-use crossguard_robot::transport::Faults;
 
 const DELAY_MAX_MS: u64 = 50;
 
@@ -78,52 +75,4 @@ fn a_message_that_waited_too_long_is_dropped_after_the_robot_was_told_of_time() 
     let effects = handle(&mut endpoint, 1_000, datagram);
     assert!(matches!(effects[0], Effect::Stepped { .. }));
     assert!(!effects.iter().any(|e| matches!(e, Effect::Heard { .. })));
-}
-
-/// Two robots, of which the second is asked for help after a second and hangs for so long after three.
-fn hanging(hang_ms: u32, faults: &str) -> (Vec<Record>, Option<String>) {
-    let faults: Faults = faults.parse().unwrap();
-    let mut swarm = Swarm::draw(3, 2, Some(&faults));
-    swarm
-        .script
-        .retain(|happening| happening.deed == Deed::Boot);
-    (swarm.replays, swarm.is_secured, swarm.waits_at) = (Vec::new(), false, None);
-    (swarm.late_max_us, swarm.strikes) = (swarm.late_max_us.min(48_000), 0.0);
-    let deeds = [
-        (1_000_000, 0, Deed::Detect),
-        (3_000_000, 1, Deed::Hang(hang_ms)),
-    ];
-    for (at_us, place, deed) in deeds {
-        swarm.script.push(Happening { at_us, place, deed });
-    }
-    for way in &mut swarm.ways {
-        way.outages.clear();
-    }
-    let mut records = Vec::new();
-    let mut watch = |record: Record| records.push(record);
-    let outcome = simulate(&swarm, Some(&mut watch));
-    (records, outcome.finding.map(|finding| finding.property))
-}
-
-fn waited_too_long(records: &[Record]) -> usize {
-    let is_old = |record: &&Record| matches!(&record.entry, Entry::Dropped { cause, .. } if *cause == Cause::WaitedTooLong.into());
-    records.iter().filter(is_old).count()
-}
-
-#[test]
-fn what_waited_for_a_simulated_robot_that_hung_is_dropped() {
-    let (records, finding) = hanging(900, "");
-    assert_eq!(finding, None);
-    assert!(waited_too_long(&records) > 0);
-    // What arrived in the last moments is not too old.
-    let (records, _) = hanging(25, "");
-    assert_eq!(waited_too_long(&records), 0);
-}
-
-#[test]
-fn a_message_that_is_long_under_way_does_not_wait() {
-    let (records, _) = hanging(1, "delay=200..300");
-    let is_heard = |record: &&Record| matches!(record.entry, Entry::Heard { .. });
-    assert!(records.iter().filter(is_heard).count() > 20);
-    assert_eq!(waited_too_long(&records), 0);
 }

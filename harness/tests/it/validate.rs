@@ -50,38 +50,6 @@ fn logs_of_two_processes_are_valid_together_and_alone_and_not_when_altered() {
     // A follower's times are in its own log.
     assert_eq!(json(&alone)["times"]["maneuvers"], json!([]));
 
-    // As if the dog's log came from another machine, whose clock is ahead.
-    let mut lines = records(&std::fs::read_to_string(&go2).unwrap());
-    for line in &mut lines {
-        if let Some(unix_ms) = line["unixMs"].as_u64() {
-            line["unixMs"] = (unix_ms + 2_500).into();
-        }
-    }
-    write(&go2, &lines);
-    let output = run(&["validate", &ari, &go2, "--json"]);
-    assert_code(&output, 0);
-    let times = json(&output)["times"].clone();
-    let clock = &times["clocks"][0];
-    assert_eq!(clock["follower"], go2.as_str());
-    let us = |name: &str| clock[name].as_i64().unwrap();
-    // A busy machine may put a pause between the two clocks that a log begins with.
-    assert!(
-        (us("offsetUs") - 2_500_000).abs() <= us("boundUs") + 20_000,
-        "{times}"
-    );
-    for (maneuver, task) in times["maneuvers"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .zip(["initialPos", "move"])
-    {
-        assert_eq!(maneuver["task"], task);
-        let mean = |time: &str| maneuver[time]["mean"].as_f64().unwrap();
-        assert!(mean("tNegS").abs() < 0.5, "without the offset: {times}");
-        assert!(mean("roundTripS") > 0.0);
-        assert!(maneuver["paper"]["tNegS"]["mean"].is_number());
-    }
-
     // The dog's log says that it acknowledged another command.
     let mut lines = records(&std::fs::read_to_string(&go2).unwrap());
     let is_ack = |line: &Value| line["outputs"].to_string().contains("accepted");

@@ -66,22 +66,6 @@ fn large_scenarios_are_explored_by_workers() {
     }
 }
 
-#[test]
-fn two_processes_report_the_same() {
-    let folder = TempDir::new().unwrap();
-    let hosts = hosts(folder.path(), 2);
-    let processes = [0, 1].map(|number| process("stable", &hosts, number));
-    let reports = processes.map(|process| {
-        let output = process.wait_with_output().unwrap();
-        assert_code(&output, 0);
-        let mut report = json(&output)["scenarios"][0].clone();
-        report["seconds"].take();
-        report
-    });
-    assert_eq!(reports[0], reports[1]);
-    assert_eq!(reports[0]["processes"], 2);
-}
-
 /// Waits until a process says on standard error that it is in mid-run.
 fn wait_for(process: &mut Child, is_it: impl Fn(&str) -> bool) {
     let said = BufReader::new(process.stderr.take().unwrap());

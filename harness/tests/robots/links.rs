@@ -1,7 +1,5 @@
 //! `[link]` in a robot file: multicast, packets behind an Ethernet header, signed, and addresses that others reach.
 
-use std::net::UdpSocket;
-
 use crossguard_testkit::command::*;
 
 use crate::street::{ARI, CROSS, GO2, Street};
@@ -30,28 +28,6 @@ fn two_robots_cross_by_multicast_behind_an_ethernet_header_and_signed() {
             "{counters}"
         );
     }
-}
-
-#[test]
-fn datagrams_without_the_ethernet_header_that_the_link_has_are_counted_by_cause() {
-    let street = Street::new(&[]);
-    let port = free_ports(1);
-    street.link(
-        ARI,
-        &format!("address = \"127.0.0.1:{port}\"\npeers = []\nframing = \"ethernet\"\n"),
-    );
-    let mut robot = Killed(start(&street.configs[ARI]));
-    street.until(ARI, "\"sent\"");
-    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
-    for datagram in [&[0x11; 60][..], &[0x11; 60], &[0x11; 5]] {
-        socket.send_to(datagram, ("127.0.0.1", port)).unwrap();
-    }
-    street.until(ARI, "no Ethernet header");
-    quit(&mut robot.0);
-    let last = records(&street.log(ARI)).pop().unwrap();
-    let counted = &last["counters"]["link"];
-    assert_eq!(counted["another ethertype"], 2, "{last}");
-    assert_eq!(counted["no Ethernet header"], 1, "{last}");
 }
 
 #[test]

@@ -6,7 +6,6 @@ mod clock_step;
 mod corner;
 mod links;
 mod lost;
-mod map_and_signals;
 mod net;
 mod others;
 mod person_at_the_kerb;

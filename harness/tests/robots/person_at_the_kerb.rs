@@ -129,17 +129,6 @@ fn a_person_at_the_kerb_is_helped_across_and_nobody_types() {
     assert!(!people.contains("\"id\""));
 }
 
-/// Hazard A: what its sensors saw meanwhile is old when the leader reads it.
-#[test]
-fn a_leader_that_hangs_under_go_takes_no_frame_of_before_for_a_fresh_one() {
-    let [log, _] = completed(|person| {
-        person.street.signal(ARI, "-STOP");
-        steps_on_the_road(person);
-        person.street.signal(ARI, "-CONT");
-    });
-    assert!(dropped(&log, "stale") > 0);
-}
-
 /// Hazard F: a line that is no frame ended the process, also that of a guard on the road.
 #[test]
 fn lines_that_are_no_frames_end_neither_the_leader_nor_its_guard() {

@@ -1,8 +1,6 @@
 //! What a person types to a robot, reads of it, and is told when something is wrong.
 
-use std::net::{TcpListener, UdpSocket};
-use std::process::Stdio;
-use std::time::Duration;
+use std::net::TcpListener;
 
 use crossguard_testkit::command::*;
 
@@ -73,37 +71,6 @@ fn two_processes_of_one_robot_are_refused() {
     assert_eq!(counter, "crossguard boot counter 1\n");
 }
 
-#[test]
-fn what_a_robot_drops_is_told_with_its_cause_and_a_status_line_counts_it() {
-    let street = Street::new(&[]);
-    let config = &street.configs[ARI];
-    let arguments = ["run", "--config", config, "--status", "always"];
-    let mut command = crossguard(&arguments);
-    let command = command.stdin(Stdio::piped()).stdout(Stdio::piped());
-    let log = street.path("log");
-    let command = command.args(["--log", &log]);
-    let mut robot = command.stderr(Stdio::piped()).spawn().unwrap();
-    wait_until_in(&log, "\"started\"");
-    let stranger = UdpSocket::bind("127.0.0.1:0").unwrap();
-    let text = std::fs::read_to_string(config).unwrap();
-    let own = text.split("address = \"").nth(1).unwrap();
-    for _ in 0..6 {
-        std::thread::sleep(Duration::from_millis(300));
-        let own = own.split('"').next().unwrap();
-        stranger.send_to(&[0xA5; 80], own).unwrap();
-    }
-    type_to(&mut robot, "leave\nquit\n");
-    let output = robot.wait_with_output().unwrap();
-    let said = stderr(&output);
-    assert_code(&output, 0);
-    let told = stdout(&output);
-    told.must_have(&["ARI: dropped, packet: ", "leave requested: ignored, "]);
-    said.must_have(&["ARI Idle, available; sent "]);
-    let line = |text: &&str| text.contains(" heard 0 of 0 stations, ");
-    let last = said.lines().rfind(line).unwrap();
-    assert!(!last.contains(", 0 dropped or ignored"), "{last}");
-}
-
 /// Hazard: who was stopped by an emergency stop is sent commands all the same.
 #[test]
 fn after_an_emergency_stop_of_a_follower_nothing_more_is_commanded() {
@@ -166,28 +133,4 @@ fn a_robot_whose_log_cannot_be_written_crosses_all_the_same_and_says_so() {
     error.must_have(&["/dev/full: No space left on device", "the robot goes on"]);
     assert_eq!(output.status.code(), Some(3), "the log is incomplete");
     quit(&mut go2.0);
-}
-
-#[test]
-fn two_processes_block_both_directions_by_the_plan_of_the_demonstration() {
-    let mut street = Street::new(&[("autopilot = true\n", ""), ("speed = 40.0", "speed = 20.0")]);
-    let place = |place: &str| format!("place = {place}\nboot_file");
-    let first = [("boot_file", &*place("[-4.0, -0.8]"))];
-    edit(&street.configs[ARI], &first);
-    let second = [
-        ("\"Go2\"", "\"ARI-2\""),
-        ("station = 2", "station = 3"),
-        ("quadruped", "humanoid"),
-        ("boot_file", &place("[6.0, 8.2]")),
-    ];
-    edit(&street.configs[GO2], &second);
-    street.robots = vec![
-        Killed(start_with(&street.configs[ARI], &["--plan", "bilateral"])),
-        Killed(start(&street.configs[GO2])),
-    ];
-    street.say(ARI, CROSS);
-    street.until(GO2, "\"taskCompleted\"");
-    street.end();
-    assert_eq!(street.log(ARI).matches("\"corridorOpened\"").count(), 1);
-    assert_eq!(street.log(GO2).matches("\"startManeuver\"").count(), 2);
 }
