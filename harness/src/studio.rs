@@ -7,12 +7,11 @@ mod explore;
 mod live;
 mod play;
 mod shell;
-mod walks;
 
 pub use after::{Studied, saved};
 pub use explore::GivenRun;
 pub use live::Followed;
-pub use shell::serve;
+pub use shell::{publish, serve};
 
 use shell::View;
 

@@ -1,12 +1,9 @@
 //! How far an exploration may go, and how far it is.
 
-use std::hash::Hash;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-
-use stateright::{Checker, CheckerBuilder};
 
 use crate::properties::PropertyId;
 use crate::report::CutOff;
@@ -42,7 +39,7 @@ impl Stop {
     }
 
     /// As if nobody had asked.
-    fn withdraw(&self) {
+    pub(crate) fn withdraw(&self) {
         self.0.store(false, Ordering::Relaxed);
     }
 
@@ -115,40 +112,6 @@ impl ExplorationLimits {
         let stopped = self.stop.is_requested().then_some(CutOff::Stopped);
         stopped.or(reached.then_some(CutOff::TimeLimit))
     }
-}
-
-/// Lets stateright explore a model until nothing is left, or until `watch` says why it has to end. `watch` receives how many
-/// distinct states it has found, and how many steps they are away. Once `drain` is requested nothing happens any more in the
-/// model, and all threads end with what they have. stateright's own time limit is not used: it holds up threads that share
-/// work, for minutes.
-pub(crate) fn by_stateright<M>(
-    builder: CheckerBuilder<M>,
-    drain: &Stop,
-    mut watch: impl FnMut(usize, usize) -> Option<CutOff>,
-) -> (impl Checker<M>, Option<CutOff>)
-where
-    M: stateright::Model + Send + Sync + 'static,
-    M::State: Hash + Send + Sync + 'static,
-{
-    let checker = builder.spawn_bfs();
-    let mut cut_off = None;
-    while !checker.is_done() {
-        std::thread::sleep(Duration::from_millis(20));
-        let reached = watch(checker.unique_state_count(), steps(&checker));
-        cut_off = cut_off.or(reached);
-        if cut_off.is_some() {
-            drain.request();
-        }
-    }
-    let checker = checker.join();
-    // It goes runs again in order to tell them.
-    drain.withdraw();
-    (checker, cut_off)
-}
-
-/// Steps from the initial state to the farthest one: stateright counts the initial state.
-pub(crate) fn steps<M: stateright::Model>(checker: &impl Checker<M>) -> usize {
-    checker.max_depth().saturating_sub(1)
 }
 
 /// How far a check is.

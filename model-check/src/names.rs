@@ -13,7 +13,7 @@ use std::fmt::Display;
 
 use crossguard_protocol::StationId;
 
-use crate::check::names;
+use crate::chart::names;
 use crate::scenario::Scenario;
 
 /// The names of stations, as far as they are known.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::check::{chart_step, placed};
+use crate::chart::{chart_step, placed};
 use crate::model::{Action, Model, ModelState};
 use crate::properties::{Claim, PropertyId};
 use crate::report::{PropertyReport, ScenarioReport};

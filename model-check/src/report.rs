@@ -2,11 +2,17 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::check::names;
+use crate::chart::names;
 use crate::properties::{Claim, PropertyId};
 use crate::scenario::{Scenario, Size};
 use crate::sequence::{Chart, ChartStep};
 use crate::timed::Figure;
+
+/// The kit's own exploration, in a report.
+pub(crate) const KIT: &str = "crossguard";
+
+/// The engine of the second opinion, in a report.
+pub(crate) const STATERIGHT: &str = "stateright";
 
 /// The result of checking one scenario.
 #[derive(Clone, Debug, Serialize)]

@@ -3,12 +3,13 @@
 //! The steps are those of a [`Replay`](crate::replay::Replay), so a walk is kept and followed like a counterexample.
 //! Nothing is stored between two walks: to go one step further, a caller walks again from the start.
 
+mod ask;
 mod by_itself;
 
 use crossguard_protocol::{Availability, Role, State, StationId};
 use serde::{Deserialize, Serialize};
 
-use crate::check::{chart, chart_step, names, said};
+use crate::chart::{chart, chart_step, names, said};
 use crate::model::{Model, ModelState};
 use crate::names::Names;
 use crate::network::Transmission;
@@ -20,6 +21,7 @@ use crate::scenario::{Bounds, Scenario};
 use crate::sequence::ChartStep;
 use crate::transitions::{mode, mode_parts};
 
+pub use ask::{Refusal, ask};
 pub use by_itself::{Chances, next_step};
 
 /// A scenario on its way.

@@ -32,6 +32,9 @@ pub(super) struct Arguments {
     /// Do not open a browser.
     #[arg(long)]
     no_browser: bool,
+    /// Write Play and Explore into a folder for any file server, and serve nothing: `.ci/dist` puts the model beside them.
+    #[arg(long, value_name = "FOLDER", hide = true)]
+    publish: Option<PathBuf>,
 }
 
 const AFTER_HELP: &str = "\
@@ -53,6 +56,10 @@ fn address(text: &str) -> Result<IpAddr, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if let Some(folder) = &arguments.publish {
+        let written = studio::publish(folder, Studio::default());
+        return written.map_err(|error| Failure::Input(format!("{}: {error}", folder.display())));
+    }
     let has_logs = !arguments.logs.is_empty();
     let is_run = has_logs && !arguments.follow;
     let study = || {

@@ -4,10 +4,10 @@ use std::sync::OnceLock;
 
 use crossguard_model_check::paper;
 use crossguard_model_check::replay::Replay;
+use crossguard_model_check::walk;
 use serde::Serialize;
 
-use super::shell::{Page, Refusal, Skip, View};
-use super::walks::{self, json};
+use super::shell::{Page, Refusal, Skip, View, json};
 
 static PAGE: Page = Page {
     name: "explore",
@@ -55,6 +55,10 @@ impl View for Explore {
         &PAGE
     }
 
+    fn fixed(&self) -> &'static [&'static str] {
+        &["given", "scenarios", "properties", "paper"]
+    }
+
     fn ask(&self, what: &str, _query: &str, body: &str) -> Result<String, Refusal> {
         match what {
             "given" => json(&self.given),
@@ -62,7 +66,7 @@ impl View for Explore {
                 .paper
                 .get_or_init(|| serde_json::to_string(&paper::runs()).unwrap_or_default())
                 .clone()),
-            _ => walks::ask(what, body),
+            _ => walk::ask(what, body),
         }
     }
 }

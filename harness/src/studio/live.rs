@@ -9,8 +9,7 @@ use std::time::Duration;
 
 use crossguard_robot::site_file::SiteFile;
 
-use super::shell::{Page, Refusal, Skip, View};
-use super::walks::json;
+use super::shell::{Page, Refusal, Skip, View, json};
 use state::State;
 use tail::Tail;
 

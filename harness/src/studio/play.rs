@@ -1,7 +1,8 @@
 //! The protocol to play with: whatever may happen next is done by a click or a key.
 
+use crossguard_model_check::walk;
+
 use super::shell::{Page, Refusal, Skip, View};
-use super::walks;
 
 static PAGE: Page = Page {
     name: "play",
@@ -28,7 +29,11 @@ impl View for Play {
         &PAGE
     }
 
+    fn fixed(&self) -> &'static [&'static str] {
+        &["scenarios", "properties"]
+    }
+
     fn ask(&self, what: &str, _query: &str, body: &str) -> Result<String, Refusal> {
-        walks::ask(what, body)
+        walk::ask(what, body)
     }
 }

@@ -8,6 +8,7 @@
 use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::net::SocketAddr;
+use std::path::Path;
 
 use super::Studio;
 use crate::http::{self, Answer, Request};
@@ -35,7 +36,7 @@ const SCRIPTED: &str = "<noscript><p class=\"trouble\">This page needs its scrip
 pub(super) type Asset = (&'static str, &'static str);
 
 /// The files that pages share.
-const SHARED: [Asset; 11] = [
+const SHARED: [Asset; 12] = [
     ("studio.css", include_str!("shell/studio.css")),
     ("icon.svg", include_str!("shell/icon.svg")),
     ("dom.js", include_str!("shell/dom.js")),
@@ -47,6 +48,7 @@ const SHARED: [Asset; 11] = [
     ("chart.js", include_str!("walk/chart.js")),
     ("scene.js", include_str!("walk/scene.js")),
     ("model.js", include_str!("walk/model.js")),
+    ("worker.js", include_str!("walk/worker.js")),
 ];
 
 /// A page of a view.
@@ -75,6 +77,10 @@ pub(super) trait View: Send + Sync {
     fn wants(&self) -> Option<&'static str> {
         None
     }
+    /// Questions without a body whose answers are the same everywhere; with the model beside it, the page needs no other server.
+    fn fixed(&self) -> &'static [&'static str] {
+        &[]
+    }
     /// The answer, in JSON, to `/NAME/api/WHAT?QUERY`, with the body of a POST.
     fn ask(&self, what: &str, query: &str, body: &str) -> Result<String, Refusal>;
 }
@@ -87,12 +93,11 @@ pub(super) struct Skip {
     pub(super) words: &'static str,
 }
 
-/// Why a question of a page has no answer.
-pub(super) enum Refusal {
-    /// There is no such question.
-    Unknown,
-    /// It is asked wrongly: what is wanted.
-    Wrong(String),
+pub(super) use crossguard_model_check::walk::Refusal;
+
+/// An answer.
+pub(super) fn json(value: &impl serde::Serialize) -> Result<String, Refusal> {
+    serde_json::to_string(value).map_err(|cause| Refusal::Wrong(cause.to_string()))
 }
 
 /// The value of a name in a query.
@@ -115,7 +120,7 @@ pub fn serve(address: SocketAddr, studio: Studio) -> std::io::Result<SocketAddr>
 fn respond(request: &Request, views: &[Box<dyn View>]) -> Answer {
     let path = request.path.trim_start_matches('/');
     if path.is_empty() {
-        return answer("200 OK", HTML, home(views));
+        return answer("200 OK", HTML, home(views.iter().map(|it| &**it)));
     }
     let Some((folder, file)) = path.split_once('/') else {
         let view = views.iter().find(|view| view.page().name == path);
@@ -128,7 +133,7 @@ fn respond(request: &Request, views: &[Box<dyn View>]) -> Answer {
         return nothing();
     };
     if file.is_empty() || file == "index.html" {
-        return page(views, &**view);
+        return answer("200 OK", HTML, page(views.iter().map(|it| &**it), &**view));
     }
     let Some(what) = file.strip_prefix("api/") else {
         return find(view.page().files, file);
@@ -166,7 +171,7 @@ fn find(files: &[Asset], name: &str) -> Answer {
 }
 
 /// The page of a view.
-fn page(views: &[Box<dyn View>], view: &dyn View) -> Answer {
+fn page<'a>(views: impl Iterator<Item = &'a dyn View>, view: &dyn View) -> String {
     let Page {
         name,
         title,
@@ -175,13 +180,13 @@ fn page(views: &[Box<dyn View>], view: &dyn View) -> Answer {
         shared_style,
         ..
     } = view.page();
-    let shared = shared_style.map(|style| format!("/shell/{style}"));
+    let shared = shared_style.map(|style| format!("../shell/{style}"));
     let mut head = String::new();
     for style in shared.into_iter().chain([format!("{name}.css")]) {
         let _ = writeln!(head, "<link rel=\"stylesheet\" href=\"{style}\">");
     }
     let _ = write!(head, "<script type=\"module\" src=\"{name}.js\"></script>");
-    let page = FRAME
+    FRAME
         .replace("<!-- title -->", &format!("{title} · Crossguard studio"))
         .replace("<!-- links -->", &head)
         .replace(
@@ -189,9 +194,55 @@ fn page(views: &[Box<dyn View>], view: &dyn View) -> Answer {
             &format!("<a class=\"skip\" href=\"#{to}\">{words}</a>"),
         )
         .replace("<!-- views -->", &links(views, Some(view)))
-        .replace("<!-- content -->", &[SCRIPTED, content.trim_end()].concat());
-    answer("200 OK", HTML, page)
+        .replace("<!-- content -->", &[SCRIPTED, content.trim_end()].concat())
 }
+
+/// Writes the pages that need no server but the model, into a folder for any file server; the model goes to `shell/model.wasm`.
+///
+/// # Errors
+/// When a file cannot be written.
+pub fn publish(folder: &Path, studio: Studio) -> std::io::Result<()> {
+    let views = studio.views();
+    let views = views.iter().map(|it| &**it);
+    let views = views.filter(|view| !view.fixed().is_empty());
+    let alone = |page: String| {
+        let policy = format!(
+            "<head>\n<meta http-equiv=\"Content-Security-Policy\" content=\"{PUBLISHED}\">"
+        );
+        page.replace("<html ", "<html data-model=\"../shell/worker.js\" ")
+            .replace("<head>", &policy)
+    };
+    let write = |name: String, text: &str| {
+        let path = folder.join(name);
+        path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
+        std::fs::write(path, text)
+    };
+    write("index.html".into(), &alone(home(views.clone())))?;
+    for (file, text) in SHARED {
+        write(format!("shell/{file}"), text)?;
+    }
+    for view in views.clone() {
+        let name = view.page().name;
+        write(
+            format!("{name}/index.html"),
+            &alone(page(views.clone(), view)),
+        )?;
+        for (file, text) in view.page().files {
+            write(format!("{name}/{file}"), text)?;
+        }
+        for what in view.fixed() {
+            let answer = view.ask(what, "", "");
+            let answer =
+                answer.map_err(|cause| std::io::Error::other(format!("{what}: {cause:?}")))?;
+            write(format!("{name}/api/{what}"), &answer)?;
+        }
+    }
+    Ok(())
+}
+
+/// What a published page may run and load: what is beside it.
+const PUBLISHED: &str = "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; img-src 'self'; \
+    connect-src 'self'; base-uri 'none'; form-action 'none'";
 
 /// The page of a view as one file, with what it shows in it as JSON. It loads nothing, and runs its own scripts alone.
 pub(super) fn saved(view: &dyn View, shown: &str) -> String {
@@ -201,7 +252,7 @@ pub(super) fn saved(view: &dyn View, shown: &str) -> String {
     let own = format!("{name}.css");
     for (name, text) in files {
         if name.rsplit('.').next() == Some("js") {
-            let script = text.replace("\"/shell/", "\"").replace("\"./", "\"");
+            let script = text.replace("\"../shell/", "\"").replace("\"./", "\"");
             imports.insert((*name).to_owned(), data_url(&script).into());
         } else if *name == "studio.css" || Some(*name) == page.shared_style || *name == own {
             styles.push_str(text);
@@ -212,9 +263,9 @@ pub(super) fn saved(view: &dyn View, shown: &str) -> String {
     let imports = serde_json::Value::from(imports);
     FRAME
         .replace("<!-- title -->", "Crossguard run")
-        .replace("<link rel=\"icon\" href=\"/shell/icon.svg\">\n", "")
+        .replace("<link rel=\"icon\" href=\"../shell/icon.svg\">\n", "")
         .replace(
-            "<link rel=\"stylesheet\" href=\"/shell/studio.css\">",
+            "<link rel=\"stylesheet\" href=\"../shell/studio.css\">",
             &format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{SAVED}\">\n<style>{styles}</style>"),
         )
         .replace(
@@ -252,7 +303,7 @@ fn data_url(script: &str) -> String {
 }
 
 /// The links to the views, one of which may be the page that they stand on.
-fn links(views: &[Box<dyn View>], here: Option<&dyn View>) -> String {
+fn links<'a>(views: impl Iterator<Item = &'a dyn View>, here: Option<&dyn View>) -> String {
     let mut links = String::from("<nav aria-label=\"Views\">");
     for view in views {
         let is_here = here.is_some_and(|here| here.page().name == view.page().name);
@@ -263,7 +314,7 @@ fn links(views: &[Box<dyn View>], here: Option<&dyn View>) -> String {
         };
         let _ = write!(
             links,
-            "<a href=\"/{}/\"{current}>{}</a>",
+            "<a href=\"../{}/\"{current}>{}</a>",
             view.page().name,
             view.page().title
         );
@@ -272,12 +323,12 @@ fn links(views: &[Box<dyn View>], here: Option<&dyn View>) -> String {
 }
 
 /// The first page: what can be looked at.
-fn home(views: &[Box<dyn View>]) -> String {
+fn home<'a>(views: impl Iterator<Item = &'a dyn View> + Clone) -> String {
     let mut cards = String::new();
-    for view in views {
+    for view in views.clone() {
         let _ = write!(
             cards,
-            "<li><h2><a href=\"/{}/\">{}</a></h2><p>{}</p>",
+            "<li><h2><a href=\"../{}/\">{}</a></h2><p>{}</p>",
             view.page().name,
             view.page().title,
             view.page().about
@@ -299,6 +350,8 @@ fn home(views: &[Box<dyn View>]) -> String {
             "<!-- content -->",
             &format!("<ul class=\"views\">\n{cards}</ul>"),
         )
+        // It is above the folders of the views.
+        .replace("=\"../", "=\"")
 }
 
 fn answer(

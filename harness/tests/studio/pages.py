@@ -4,6 +4,8 @@ run (beside this file) installs what this needs. Arguments: the script of axe-co
 """
 
 import contextlib
+import functools
+import http.server
 import json
 import os
 import pathlib
@@ -14,6 +16,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import traceback
 
 from playwright.sync_api import expect, sync_playwright
@@ -52,6 +55,7 @@ class Studio:
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         self.url = re.search(r"http://\S+", self.process.stdout.readline()).group()
         self.server = "/".join(self.url.split("/")[:3]) + "/"
+        self.browser = browser
         self.page = browser.new_page(viewport={"width": 1280, "height": 900}, accept_downloads=True)
         self.errors, self.requests = [], []
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
@@ -267,6 +271,60 @@ def play(studio, folder):
     at.assert_clean()
 
 
+def published(studio, folder):
+    """Play on a server of files: a crossing by itself, and its link in another profile shows the same."""
+    pages = pathlib.Path(os.environ["PAGES"])
+    if not (pages / "shell/model.wasm").is_file():
+        print("published: SKIPPED, there is no model")
+        return
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=pages))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    at = studio()
+    at.process.kill()
+    at.server = f"http://127.0.0.1:{server.server_port}/"
+    page = at.open("play/")
+    page.locator("#robots button:enabled", has_text="Pedestrian").first.press("Enter")
+    expect(page.locator("#steps .row")).to_have_count(1)
+    page.fill("#seed", "3")
+    page.evaluate("document.activeElement.blur()")
+    page.keyboard.press(" ")
+    on_road = "() => document.getElementById('person').textContent.startsWith('Somebody is on the road')"
+    page.wait_for_function(on_road, timeout=60_000)
+    page.keyboard.press(" ")
+    expect(page.locator("#auto")).to_have_attribute("aria-pressed", "false")
+    shown = lambda of: [of.locator(part).all_text_contents() for part in ("#steps .row", "#robots .words", "#person", "#air .what")]
+    # The step that was under way is in the address, too.
+    page.wait_for_timeout(1_000)
+    link, here = page.url, shown(page)
+    with at.browser.new_context() as other:
+        there = other.new_page()
+        there.goto(link)
+        there.wait_for_selector("html[data-ready=true]", state="attached")
+        assert shown(there) == here
+        # A link that was cut says so, and leaves a page that can be played.
+        cut = other.new_page()
+        cut.goto(link[: len(link) * 2 // 3])
+        cut.wait_for_selector("html[data-ready=true]", state="attached")
+        expect(cut.locator("#troubles")).to_contain_text("it was cut or changed")
+        expect(cut.locator("#steps .row")).to_have_count(0)
+    page.reload()
+    page.wait_for_selector("html[data-ready=true]", state="attached")
+    assert shown(page) == here
+    at.assert_fits()
+    page = at.open("explore/")
+    expect(page.locator("#about b")).to_have_text(re.compile("^P1: "))
+    page.select_option("#goal", "3")
+    page.eval_on_selector("#search", "it => it.requestSubmit()")
+    expect(page.locator("#found")).to_have_text(re.compile("^After "))
+    at.assert_clean()
+    server.shutdown()
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
 def explore(studio, folder):
     at = studio()
     page = at.open("explore/")
@@ -350,7 +408,7 @@ def main():
     passed = failed = 0
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
-        for test in (after, report, hostile_log, play, explore, live):
+        for test in (after, report, hostile_log, play, published, explore, live):
             with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as closing:
                 def studio(*arguments):
                     at = Studio(browser, *arguments)

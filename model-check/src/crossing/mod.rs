@@ -25,9 +25,9 @@ use std::time::Duration;
 use crossguard_crossing::Setup;
 use stateright::{Checker, Model as _};
 
-use crate::check::STATERIGHT;
-use crate::exploration::{CheckProgress, Options, Stop, by_stateright, steps};
-use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
+use crate::by_stateright::{by_stateright, steps};
+use crate::exploration::{CheckProgress, Options, Stop};
+use crate::report::{CheckVerdict, CutOff, PropertyReport, STATERIGHT, ScenarioReport};
 use crate::scenario::Size;
 use crate::sequence::{ChartPlace, ChartStep};
 

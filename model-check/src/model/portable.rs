@@ -17,7 +17,7 @@ use siphasher::sip128::{Hasher128, SipHasher13};
 use smallvec::SmallVec;
 
 use super::{Action, Draft, Model, ModelState};
-use crate::check::chart;
+use crate::chart::chart;
 use crate::network::{Message, Network, Transmission};
 use crate::scenario::MAX_ROBOTS;
 use crate::sequence::ChartStep;

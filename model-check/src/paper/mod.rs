@@ -36,7 +36,7 @@ pub use readings::{OtherReading, Reading};
 pub use shown::{PaperRobotFrame, PaperRun, runs};
 pub use texts::Text;
 
-use crate::exploration::steps;
+use crate::by_stateright::steps;
 use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
 use crate::scenario::Size;
 use model::{Cast, Inquiry, PaperAction, Question};
@@ -197,7 +197,7 @@ pub fn check() -> ScenarioReport {
     ScenarioReport {
         transitions: sum(|e| e.transitions),
         seconds: start.elapsed().as_secs_f64(),
-        engines: vec![crate::check::STATERIGHT],
+        engines: vec![crate::report::STATERIGHT],
         properties,
         assumptions: assumptions(),
         ..ScenarioReport::of(NAME, SUMMARY, robots, size, cut_off)

@@ -5,7 +5,7 @@ use crossguard_protocol::{
 };
 use serde::Deserialize;
 
-use crate::check::{ACROSS, chart_step};
+use crate::chart::{ACROSS, chart_step};
 use crate::model::{Action, Delivery, Model, ModelState};
 use crate::node::Node;
 use crate::replay::follow;

@@ -1,9 +1,9 @@
 // The page: it takes the run as a whole once, and then the moment that is looked at.
 
-import { html, id, seconds } from "/shell/dom.js";
-import { StreetMap } from "/shell/map.js";
-import { Messages } from "/shell/messages.js";
-import * as panels from "/shell/panels.js";
+import { html, id, seconds } from "../shell/dom.js";
+import { StreetMap } from "../shell/map.js";
+import { Messages } from "../shell/messages.js";
+import * as panels from "../shell/panels.js";
 import { Player } from "./player.js";
 import * as source from "./source.js";
 import { Timeline } from "./timeline.js";

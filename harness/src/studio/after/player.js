@@ -1,6 +1,6 @@
 // The time that is shown: slider, buttons, keys, playing.
 
-import { id, seconds } from "/shell/dom.js";
+import { id, seconds } from "../shell/dom.js";
 
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 

@@ -1,6 +1,6 @@
 // Where the page has its run from: the server, or the page itself where it was saved.
 
-import { id } from "/shell/dom.js";
+import { id } from "../shell/dom.js";
 
 const saved = id("saved") && JSON.parse(id("saved").textContent);
 if (saved) id("repeats").parentElement.hidden = true;

@@ -1,6 +1,6 @@
 // States of the robots over the whole run, or over the trial that is chosen, with the time that is shown.
 
-import { html, id, key, seconds, svg } from "/shell/dom.js";
+import { html, id, key, seconds, svg } from "../shell/dom.js";
 
 const ROW = 22;
 const STATES = { Idle: ["idle", 0.25], HelpRequested: ["help", 0.5], RoleEstablished: ["role", 0.75], ManeuverExecuting: ["exec", 1] };

@@ -1,9 +1,9 @@
 // Runs step by step: of the paper's wording, of the kit's scenarios, of files.
 
-import { html, id } from "/shell/dom.js";
-import { Chart } from "/shell/chart.js";
-import { causeOf, load, opened, post, runOf, save, strayed, trouble } from "/shell/model.js";
-import * as scene from "/shell/scene.js";
+import { html, id } from "../shell/dom.js";
+import { Chart } from "../shell/chart.js";
+import { causeOf, load, opened, post, runOf, save, strayed, trouble } from "../shell/model.js";
+import * as scene from "../shell/scene.js";
 
 const GOALS = [
   ["Idle", null], ["HelpRequested", "requester"], ["HelpRequested", "helper"], ["RoleEstablished", "leader"], ["RoleEstablished", "follower"],

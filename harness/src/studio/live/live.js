@@ -1,9 +1,9 @@
 // Robots that run. What is old is said to be old: a picture that stands still must not look alive.
 
-import { html, id, ms } from "/shell/dom.js";
-import { StreetMap } from "/shell/map.js";
-import { Messages } from "/shell/messages.js";
-import * as panels from "/shell/panels.js";
+import { html, id, ms } from "../shell/dom.js";
+import { StreetMap } from "../shell/map.js";
+import { Messages } from "../shell/messages.js";
+import * as panels from "../shell/panels.js";
 
 const EVERY_MS = 500;
 const PATIENCE_MS = 3000;

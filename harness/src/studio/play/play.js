@@ -1,9 +1,9 @@
-// The protocol at work. The server computes each state from the scenario and the steps that were taken.
+// The protocol at work. The model computes each state from the scenario and the steps that were taken.
 
-import { html, id } from "/shell/dom.js";
-import { Chart } from "/shell/chart.js";
-import { causeOf, load, opened, post, runOf, save, strayed, trouble } from "/shell/model.js";
-import * as scene from "/shell/scene.js";
+import { html, id } from "../shell/dom.js";
+import { Chart } from "../shell/chart.js";
+import { causeOf, linked, load, opened, packed, post, runOf, save, strayed, trouble } from "../shell/model.js";
+import * as scene from "../shell/scene.js";
 import { nameIn, own, withRoom } from "./setup.js";
 
 const PAUSE_MS = 350;
@@ -21,7 +21,7 @@ function attempt(doing) {
   return work;
 }
 
-// Shows a play, if the server can follow it; otherwise the page stays as it was.
+// Shows a play, if the model can follow it; otherwise the page stays as it was.
 async function show(wanted) {
   const answer = await post("api/walk", runOf(wanted.scenario, wanted.text, wanted.steps));
   const stray = strayed(answer, wanted.steps);
@@ -31,6 +31,15 @@ async function show(wanted) {
   trouble(stray);
   if (isNew) chart = new Chart(id("steps"), walk.robots, (taken) => attempt(() => back(taken)));
   draw();
+  // A reload, or a copied link, shows the same.
+  history.replaceState(null, "", `#run=${await packed(runOf(play.scenario, play.text, play.steps))}`);
+}
+
+// A run from a file or an address.
+async function open({ scenario, text, steps }) {
+  stop();
+  await show({ scenario, text: text ?? null, steps, redo: [] });
+  id("text").value = text ?? scenarios.find((it) => it.name === scenario)?.text ?? "";
 }
 
 const take = (step) => show({ ...play, steps: [...play.steps, step], redo: [] });
@@ -197,16 +206,23 @@ async function start() {
   });
   on("file", "change", () => attempt(async () => {
     const file = await opened(id("file"));
-    if (!file) return;
-    const { scenario, text, steps } = file.run;
-    stop();
-    await show({ scenario, text: text ?? null, steps, redo: [] });
-    id("text").value = text ?? scenarios.find((it) => it.name === scenario)?.text ?? "";
+    if (file) await open(file.run);
   }));
   for (const name of ["loss", "delay"]) on(name, "input", () => { id(`${name}-now`).textContent = `${id(name).value} %`; });
   document.addEventListener("keydown", keys);
+  on("link", "click", () => attempt(async () => {
+    await navigator.clipboard.writeText(location.href);
+    id("said").textContent = "The link is copied: it shows this play in another browser, too.";
+  }));
+  const fromAddress = async () => {
+    const run = await linked();
+    if (run) await open(run);
+  };
+  addEventListener("hashchange", () => attempt(fromAddress));
   id("text").value = "";
-  await choose("pair");
+  const refused = await fromAddress().then(() => null, causeOf);
+  if (!walk) await choose("pair");
+  if (refused) trouble(refused);
   document.documentElement.dataset.ready = "true";
 }
 

@@ -1,6 +1,6 @@
 // The street to scale: kerbs, lanes, zones, bodies, people, vehicles, the corridor with its lease.
 
-import { html, id, key, look, marker, ms, svg } from "/shell/dom.js";
+import { html, id, key, look, marker, ms, svg } from "../shell/dom.js";
 
 const MARGIN = 28;
 const HEIGHT = 420;

@@ -1,6 +1,6 @@
 // The sequence chart: a row for each broadcast, with all who heard it, and for each note.
 
-import { html, id, key, look, marker, ms, seconds, svg } from "/shell/dom.js";
+import { html, id, key, look, marker, ms, seconds, svg } from "../shell/dom.js";
 
 const ROW = 24;
 

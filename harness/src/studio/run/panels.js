@@ -1,6 +1,6 @@
 // What is said in words and numbers: robots, drops, times, trials, verdicts.
 
-import { html, id, key, ms, seconds, svg, table } from "/shell/dom.js";
+import { html, id, key, ms, seconds, svg, table } from "../shell/dom.js";
 
 const n = (value) => [value, "n"];
 

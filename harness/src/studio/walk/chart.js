@@ -1,6 +1,6 @@
 // The sequence chart of a run: a row for each step.
 
-import { html, key, look, marker, svg } from "/shell/dom.js";
+import { html, key, look, marker, svg } from "../shell/dom.js";
 
 const ROW = 26;
 const REMARKS = { arrives: "", arrivesLate: "late", arrivesLateAndAgain: "late, and not for the last time", lost: "lost", delayed: "delayed" };

@@ -1,6 +1,6 @@
-// Questions to the server about runs through scenarios, and runs as files.
+// Questions about runs through scenarios, and runs as files and in addresses.
 
-import { html, id } from "/shell/dom.js";
+import { html, id } from "../shell/dom.js";
 
 async function answerOf(answer) {
   if (!answer.ok) throw new Error((await answer.text()).trim());
@@ -8,7 +8,43 @@ async function answerOf(answer) {
 }
 
 export const load = async (path) => answerOf(await fetch(path));
-export const post = async (path, body) => answerOf(await fetch(path, { method: "POST", body: JSON.stringify(body) }));
+
+// The studio answers; pages on a server of files ask the model that is beside them.
+export async function post(path, body) {
+  const text = JSON.stringify(body), beside = document.documentElement.dataset.model;
+  if (!beside) return answerOf(await fetch(path, { method: "POST", body: text }));
+  worker ??= new Worker(beside, { type: "module" });
+  const { port1, port2 } = new MessageChannel();
+  const answer = await new Promise((then, fail) => {
+    port1.onmessage = ({ data }) => then(data);
+    worker.onerror = () => fail(new Error("The model cannot be started in this browser: it wants WebAssembly and module workers."));
+    worker.postMessage(`${path.replace("api/", "")}\n${text}`, [port2]);
+  });
+  if (answer[0] !== "+") throw new Error(answer.slice(1));
+  return JSON.parse(answer.slice(1));
+}
+
+let worker = null;
+
+const through = async (octets, stream) => new Uint8Array(await new Response(new Blob([octets]).stream().pipeThrough(stream)).arrayBuffer());
+
+// A run for the end of an address: its JSON, deflated, in the base64 of addresses.
+export async function packed(run) {
+  const octets = await through(JSON.stringify(run), new CompressionStream("deflate-raw"));
+  return btoa(Array.from(octets, (it) => String.fromCharCode(it)).join("")).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
+}
+
+// The run at the end of the page's address, if there is one.
+export async function linked() {
+  const text = /^#run=(.*)/.exec(location.hash)?.[1];
+  if (text === undefined) return null;
+  try {
+    const octets = Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), (it) => it.charCodeAt(0));
+    const run = JSON.parse(new TextDecoder().decode(await through(octets, new DecompressionStream("deflate-raw"))));
+    if (Array.isArray(run.steps) && typeof run.scenario === "string") return run;
+  } catch { /* It is said below. */ }
+  throw new Error("The address holds no run that can be read: it was cut or changed. Copy the whole link; the play begins anew.");
+}
 
 export function trouble(...texts) {
   id("troubles").replaceChildren(...texts.filter(Boolean).map((text) => html("p", { class: "trouble" }, text)));
@@ -16,7 +52,7 @@ export function trouble(...texts) {
 
 // What the server said, or that it says nothing.
 export const causeOf = (error) => error instanceof TypeError
-  ? "The server does not answer. Was it ended? Start crossguard studio again, and load this page anew."
+  ? "The server does not answer. Was it ended? Start it again, and load this page anew."
   : error.message;
 
 // A run as `check --replay` reads it.

@@ -1,6 +1,6 @@
 // What is so in one state: robots in words, the street as a scheme, properties that the step touches.
 
-import { html, key, look, marker, svg } from "/shell/dom.js";
+import { html, key, look, marker, svg } from "../shell/dom.js";
 
 const SIGNS = { true: "shows go", false: "shows stop" };
 

@@ -1,12 +1,11 @@
-//! What the views of the model ask: scenarios, what happens along a run, and what properties say.
+//! What pages ask of the model: scenarios, what happens along a run, and what properties say. Questions and answers are JSON.
 
-use crossguard_model_check::properties::PropertyId;
-use crossguard_model_check::replay::Replay;
-use crossguard_model_check::scenario::Scenario;
-use crossguard_model_check::walk::{Chances, Goal, Walk, next_step, search};
 use serde::{Deserialize, Serialize};
 
-use super::shell::Refusal;
+use super::{Chances, Goal, Walk, next_step, search};
+use crate::properties::PropertyId;
+use crate::replay::Replay;
+use crate::scenario::Scenario;
 
 /// The longest run that is followed.
 const STEPS_MAX: usize = 2_000;
@@ -49,8 +48,20 @@ struct Wanted {
     goal: Goal,
 }
 
-/// The answer to a question that every view of the model may ask.
-pub(super) fn ask(what: &str, body: &str) -> Result<String, Refusal> {
+/// Why a question of a page has no answer.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Refusal {
+    /// There is no such question.
+    Unknown,
+    /// It is asked wrongly: what is wanted.
+    Wrong(String),
+}
+
+/// The answer to a question of a page, in JSON: `scenarios`, `properties`, `walk`, `next` or `search`.
+///
+/// # Errors
+/// There is no such question, or its body is not what it wants.
+pub fn ask(what: &str, body: &str) -> Result<String, Refusal> {
     match what {
         "scenarios" => json(&scenarios()),
         "properties" => json(&properties()),
@@ -127,7 +138,7 @@ fn read<'a, T: Deserialize<'a>>(body: &'a str) -> Result<T, Refusal> {
     serde_json::from_str(body).map_err(|cause| wrong(format!("this is no run: {cause}")))
 }
 
-pub(super) fn json(value: &impl Serialize) -> Result<String, Refusal> {
+fn json(value: &impl Serialize) -> Result<String, Refusal> {
     serde_json::to_string(value).map_err(|cause| wrong(cause.to_string()))
 }
 
