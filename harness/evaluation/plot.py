@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws what `crossguard simulate obs`, `crossguard simulate cbr` and `crossguard odds` print with --json.
+"""Draws what `crossguard simulate obs`, `cbr` and `crossing` and `crossguard odds` print with --json.
 
     crossguard simulate obs --json > obs.json
     python3 -m venv venv && venv/bin/pip install matplotlib
@@ -100,12 +100,47 @@ def odds(results):
     return figure
 
 
+# What `simulate crossing` measures, by its name there.
+MEASURES = {
+    "people: time at the kerb, s": {"mean": "wait_s", "95th percentile": "wait_95_s"},
+    "vehicles: delay, s": {"mean": "delay_s", "95th percentile": "delay_95_s"},
+    "people, %": {"crossed at go": "at_sign_percent", "gave up": "gave_up_percent"},
+    "per 100 people who crossed": {"TTC below 1.5 s": "ttc_per_100", "PET below 1.5 s": "pet_per_100", "hit": "hit_per_100"},
+    "robots and vehicles at one place, per hour": {"": "robots_hit_per_hour"},
+    "channel busy ratio, %": {"": "cbr_percent"},
+}
+
+
+def crossing(results):
+    """A picture for each measure, against the number of robots."""
+    cells = results["crossing"]
+    figure, pictures = plt.subplots(2, 3, figsize=(13, 7))
+    for axes, (title, fields) in zip(pictures.flat, MEASURES.items()):
+        width = 0.8 / len(fields)
+        for at, (label, field) in enumerate(fields.items()):
+            x = [group + (at - (len(fields) - 1) / 2) * width for group in range(len(cells))]
+            mean = [cell[field]["mean"] for cell in cells]
+            half = [(cell[field]["ci95"][1] or value) - value for cell, value in zip(cells, mean)]
+            # Nothing is below 0.
+            below = [min(value, it) for value, it in zip(mean, half)]
+            axes.bar(x, mean, 0.9 * width, yerr=[below, half], capsize=3, label=label)
+        axes.set(title=title, xlabel="robots")
+        axes.set_xticks(range(len(cells)), [cell["robots"] for cell in cells])
+        if len(fields) > 1:
+            axes.legend(fontsize=8)
+    seeds = results["parameters"]["seeds"]
+    figure.suptitle(f"A crossing, {seeds} seeds; means and 95 % intervals", fontsize=9)
+    return figure
+
+
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     with open(sys.argv[1], encoding="utf-8") as file:
         results = json.load(file)
-    figure = odds(results) if "losses" in results else evaluation(results)
+    kinds = {"losses": odds, "crossing": crossing}
+    draw = next((draw for name, draw in kinds.items() if name in results), evaluation)
+    figure = draw(results)
     figure.tight_layout()
     figure.savefig(sys.argv[2])
 

@@ -122,6 +122,12 @@ impl Sizes {
         }
     }
 
+    /// Octets of a VAM without containers of its own choice.
+    #[must_use]
+    pub const fn plain_vam(&self) -> usize {
+        self.vam[0]
+    }
+
     /// Octets of a CAM.
     #[must_use]
     pub const fn cam(&self, low_frequency: bool) -> usize {

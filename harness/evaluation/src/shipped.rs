@@ -44,3 +44,14 @@ pub fn traces(preset: Preset, pedestrians: usize) -> Option<Result<Traces, Trace
         ..traces
     }))
 }
+
+macro_rules! school_street {
+    ($($run:literal)*) => {
+        /// Who comes to the school street, as SUMO's floating car data: 20 runs. Its net and demand stand beside them in
+        /// `places/school-street`.
+        pub const SCHOOL_STREET: &[&[u8]] =
+            &[$(include_bytes!(concat!("../places/school-street/", $run, ".xml.gz"))),*];
+    };
+}
+
+school_street!("1" "2" "3" "4" "5" "6" "7" "8" "9" "10" "11" "12" "13" "14" "15" "16" "17" "18" "19" "20");

@@ -30,7 +30,7 @@ use crate::body::{Body, BodyAct, Fallback};
 use crate::plan::Plan;
 use crate::sight::Outline;
 use crate::sign::{Shown, Sign};
-use crate::site::Site;
+use crate::site::{Place, Site};
 use crate::street::Road;
 use crate::zone::place;
 
@@ -320,6 +320,11 @@ impl Application {
     /// Carries the body back to where it began.
     pub fn reset(&mut self) {
         self.body.carry_to_safe_place();
+    }
+
+    /// The body walks somewhere on its own account, as back to where it waits. A maneuver or fallback that begins takes its place.
+    pub fn walk_to(&mut self, place: Place) {
+        self.body.walk_to(place, None);
     }
 
     /// Something pushes the body off its place: see [`Body::push`].

@@ -1,5 +1,6 @@
 //! `crossguard simulate`.
 
+mod crossing;
 mod options;
 mod output;
 mod parameters;
@@ -37,6 +38,8 @@ enum Command {
     Obs(Obs),
     /// How busy the radio channel is, and how much less when robots stand in for people's devices.
     Cbr(Cbr),
+    /// How people and vehicles fare at a crossing that robots guard, or nobody.
+    Crossing(crossing::Crossing),
     /// Record mobility with SUMO, which runs as a process of its own.
     Record(Record),
 }
@@ -85,6 +88,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.command {
         Some(Command::Obs(arguments)) => obs(arguments),
         Some(Command::Cbr(arguments)) => cbr(arguments),
+        Some(Command::Crossing(arguments)) => crossing::run(arguments),
         Some(Command::Record(arguments)) => record(arguments),
         None => place(&arguments.rank),
     }
@@ -221,7 +225,10 @@ fn finish<C: Serialize + output::Row>(
     if output.json {
         return print_json(report);
     }
-    output::print_parameters(report.parameters)?;
+    output::print_parameters(
+        "Assumptions, most of which the paper does not state:",
+        report.parameters,
+    )?;
     print(output::table(report.cells))?;
     output::print_statements(report.documented, report.statements)
 }

@@ -20,6 +20,7 @@
 mod clock;
 mod fuzz;
 mod insider;
+mod place;
 mod report;
 mod road;
 mod ruled;
@@ -30,9 +31,13 @@ mod times;
 mod world;
 
 pub use fuzz::{Failure, Fuzz, Planned, Totals};
+pub use place::{CONFLICT_S, Measured};
 pub use report::{Files, write_failure};
 pub use ruled::Ruled;
 pub use script::{Deed, Happening};
-pub use swarm::{CarDraw, Hazard, Ids, InsiderDraw, Replay, RobotDraw, Sensing, SourceDraw, Swarm};
+pub use swarm::{
+    Arrival, CarDraw, Demand, Habits, Hazard, Ids, InsiderDraw, Replay, RobotDraw, Sensing,
+    SourceDraw, Swarm,
+};
 pub use times::{Longest, Measure, Worst};
 pub use world::{Finding, Outcome, Waits, Watch, run, run_recorded, run_with};

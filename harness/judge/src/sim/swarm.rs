@@ -4,6 +4,7 @@
 //! faults goes far into a session, one with many goes astray in every way. A run that has a little of
 //! everything would do neither.
 
+mod demand;
 mod draws;
 mod hazards;
 mod insiders;
@@ -18,6 +19,8 @@ use crossguard_robot::transport::Faults;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+pub use self::demand::{Arrival, Demand, Habits};
+pub(super) use self::demand::{DriverDraw, PersonDraw};
 use self::draws::Draws;
 pub use self::hazards::Hazard;
 pub use self::insiders::InsiderDraw;
@@ -56,6 +59,8 @@ pub struct Swarm {
     pub is_secured: bool,
     /// What robots sense by themselves; without it, they know everybody on the road.
     pub sensing: Option<Sensing>,
+    /// The streams of people and vehicles, if there are any.
+    pub demand: Option<Demand>,
     /// The insider that lies, if there is one.
     pub insider: Option<InsiderDraw>,
     /// The corner at which somebody waits once the network is healed, where a team can exist.

@@ -1,6 +1,7 @@
 //! One run: robots, the radio between them, and time.
 
 mod deeds;
+mod flow;
 mod lies;
 mod people;
 mod radio;
@@ -31,6 +32,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 
+use self::flow::Flow;
 use self::people::{Corner, OnRoad, Progress};
 use self::radio::Arrival;
 use self::sensors::{FrameInFlight, SimulatedSensor};
@@ -39,6 +41,7 @@ pub use self::walkers::Waits;
 use self::walkers::Walker;
 use super::clock::Drifting;
 use super::insider::Insider;
+use super::place::PlaceLog;
 use super::road::{Overdue, Post, Road, Sight};
 use super::ruled::Ruled;
 use super::swarm::{HEALED_DELAY_MS, Hazard, RobotDraw, Swarm};
@@ -138,7 +141,17 @@ pub fn run_with<'a>(
     rules: &'static dyn Rules,
     watch: Option<&'a mut dyn Watch>,
 ) -> Outcome {
-    let mut world = World::new(swarm, rules, watch);
+    finish(&mut World::new(swarm, rules, watch))
+}
+
+/// [`run_with`] of a swarm with demand, and what happened to people and vehicles.
+pub(super) fn run_flow(swarm: &Swarm, rules: &'static dyn Rules) -> (Outcome, PlaceLog) {
+    let mut world = World::new(swarm, rules, None);
+    (finish(&mut world), world.flow.log)
+}
+
+fn finish(world: &mut World<'_>) -> Outcome {
+    let swarm = world.swarm;
     let finding = world.go_on().err();
     let mut worst = world.times.worst();
     worst.add(world.road.worst());
@@ -211,6 +224,8 @@ enum Next {
     Sees(usize, usize),
     /// A vehicle says where it is.
     Drives(usize),
+    /// The streams of people and vehicles go on.
+    Flows,
 }
 
 struct Seat<'a> {
@@ -253,6 +268,7 @@ struct World<'a> {
     waits: [Waits; 2],
     sensors: Vec<SimulatedSensor<'a>>,
     frames: Vec<FrameInFlight>,
+    flow: Flow,
     /// The properties of the truth that had something to say.
     met: BTreeSet<&'static str>,
     progress: Option<Progress>,
@@ -316,6 +332,7 @@ impl<'a> World<'a> {
             waits: Default::default(),
             sensors: sensors::of(swarm),
             frames: Vec::new(),
+            flow: Flow::default(),
             met: BTreeSet::new(),
             progress: None,
             names: BTreeMap::new(),
@@ -354,6 +371,7 @@ impl<'a> World<'a> {
             world.monitor.lies(insider.station());
             world.at(0, Next::Lies);
         }
+        world.begin_flow();
         world.at(swarm.heals_us, Next::Heals);
         world
     }
@@ -407,6 +425,7 @@ impl<'a> World<'a> {
             }
             Next::Sees(place, frame) => self.see_frame(place, frame),
             Next::Drives(car) => self.drive(car),
+            Next::Flows => self.flows(),
             Next::Strikes(place) => self.strike(place),
             Next::Boots(place) => self.boot(place),
             Next::Notices => self.notice_again(),
@@ -446,6 +465,9 @@ impl<'a> World<'a> {
 
     /// Whether all robots have been at rest for a while since the network was healed.
     fn is_over(&mut self) -> bool {
+        if self.swarm.demand.is_some() {
+            return self.is_healed;
+        }
         let at_rest = |seat: &Seat| seat.machine.as_ref().is_none_or(Machine::is_at_rest);
         let is_asked = self.progress.as_ref().is_some_and(|it| !it.is_done);
         if !self.is_healed || is_asked || !self.seats.iter().all(at_rest) {

@@ -10,7 +10,6 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 use serde_json::Value;
 
-use super::options::Assumptions;
 use super::{Failure, print};
 use crate::cli::shows_progress;
 
@@ -128,9 +127,9 @@ pub(super) fn print_statements(
 }
 
 /// What the results depend on, one line each.
-pub(super) fn print_parameters(parameters: &Assumptions) -> Result<(), Failure> {
+pub(super) fn print_parameters(head: &str, parameters: &impl Serialize) -> Result<(), Failure> {
     let value = serde_json::to_value(parameters).map_err(Failure::input)?;
-    print("Assumptions, most of which the paper does not state:")?;
+    print(head)?;
     print_value(2, &value)?;
     print("")
 }

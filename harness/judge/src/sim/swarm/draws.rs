@@ -95,6 +95,7 @@ impl Draws {
             replays: self.replays(heals_us),
             is_secured,
             sensing: None,
+            demand: None,
             insider: None,
             waits_at: None,
         };

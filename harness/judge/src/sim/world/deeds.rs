@@ -1,6 +1,6 @@
 //! What happens to robots: they notice people, fail, hang, lose power and boot again.
 
-use crossguard_codec::{Identifiers, TaskParameters};
+use crossguard_codec::{Identifiers, SignalMeans, TaskParameters};
 use crossguard_protocol::{Availability, Event, Robot, StationId};
 
 use crossguard_endpoint::station::Security;
@@ -174,8 +174,14 @@ impl World<'_> {
         );
         let body = body.holding(draw.config.settings().holding);
         let application = Application::new(Box::new(body), Some(draw.plan.clone()));
+        // Where roles are parted only the leader calls for people who wait.
+        let calls = self.swarm.demand.is_none() || place == 0;
         let application = match &self.swarm.sensing {
-            Some(sensing) => application.on(super::sensors::road(sensing)),
+            Some(sensing) => application.on(super::sensors::road(sensing, calls)),
+            None => application,
+        };
+        let application = match &self.swarm.demand {
+            Some(_) => application.showing_by(Some(SignalMeans::DISPLAY)),
             None => application,
         };
         seat.newest = Newest::default();

@@ -113,6 +113,7 @@ impl World<'_> {
 
     pub(super) fn transmit(&mut self, from: usize, packet: &Rc<[u8]>, is_ram: bool) {
         self.is_on_air(packet);
+        self.is_told(packet);
         if !self.is_healed && !self.swarm.replays.is_empty() {
             self.aired.push((from, Rc::clone(packet)));
         }

@@ -2,11 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crossguard_codec::{Identity, Kind, RoadUser};
 use crossguard_endpoint::Stimulus;
 use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
-use crossguard_endpoint::station::LocalDynamicMap;
 use crossguard_protocol::Millis;
 use crossguard_robot::perception::{Perceived, SensorFrame, seen_from};
 use crossguard_robot::site::Place;
@@ -21,11 +19,14 @@ use crate::sim::swarm::{CarDraw, Ids, Sensing, SourceDraw, Swarm};
 /// How far from the crossing vehicles come and go, in metres.
 const CAR_FROM_M: f64 = 220.0;
 
+/// How far sensors see vehicles, in metres.
+const SENSES_M: f64 = 40.0;
+
 /// Time from a CAM to the next, in microseconds.
 const CAM_PERIOD_US: u64 = 200_000;
 
 /// The station id of the first vehicle.
-const CARS: u32 = 9_000;
+pub(super) const CARS: u32 = 9_000;
 
 /// A sensor of a robot.
 #[derive(Debug)]
@@ -64,10 +65,10 @@ pub(super) fn of(swarm: &Swarm) -> Vec<SimulatedSensor<'_>> {
 }
 
 /// The road that robots watch.
-pub(super) fn road(sensing: &Sensing) -> Road {
+pub(super) fn road(sensing: &Sensing, calls: bool) -> Road {
     let street = Street::default().zone();
     let mut zone = Zone {
-        waiting: street.waiting,
+        waiting: street.waiting.filter(|_| calls),
         ..Zone::of_road(street.road.unwrap_or(Area::Polygon(Vec::new())))
     };
     zone.sensors.miss_max = sensing.miss_max;
@@ -109,12 +110,7 @@ impl World<'_> {
     fn frame(&mut self, sensor: usize, draw: &SourceDraw) -> SensorFrame {
         let now_us = self.now_us;
         let miss_max = self.swarm.sensing.as_ref().map_or(0, |it| it.miss_max);
-        let SimulatedSensor {
-            number,
-            missed,
-            frames,
-            ..
-        } = &mut self.sensors[sensor];
+        let SimulatedSensor { missed, frames, .. } = &mut self.sensors[sensor];
         *frames += 1;
         let [west, east] = draw.covers.unwrap_or([-40.0, 40.0]);
         let mut people = Vec::new();
@@ -151,6 +147,22 @@ impl World<'_> {
                 error_m: draw.error_m * 1.42,
             });
         }
+        // Of vehicles it has the velocity.
+        for (id, at, east_mps) in self.vehicles_near(SENSES_M) {
+            let vehicle = PerceivedVru {
+                id,
+                position_m: [at.east, at.north],
+                velocity_mps: [east_mps, 0.0],
+                class: VruClass::Vehicle,
+                confidence: 0.9,
+            };
+            people.push(Perceived {
+                vru: vehicle,
+                has_id: true,
+                has_velocity: true,
+                error_m: 0.5,
+            });
+        }
         people.shuffle(&mut self.draws);
         if draw.ids == Ids::Shuffled {
             for (id, person) in (1..).zip(&mut people) {
@@ -159,7 +171,7 @@ impl World<'_> {
         }
         let corners = [[west, -40.0], [east, -40.0], [east, 40.0], [west, 40.0]];
         SensorFrame {
-            source: *number,
+            source: self.sensors[sensor].number,
             covers: draw.covers.map(|_| Area::Polygon(corners.to_vec())),
             people,
         }
@@ -212,28 +224,8 @@ impl World<'_> {
             if seat.hangs_until_us.is_some() || !self.draws.random_bool(0.9) {
                 continue;
             }
-            let now_ms = seat.clock.shows_us(self.now_us) / 1_000;
-            let Some(machine) = &mut seat.machine else {
-                continue;
-            };
-            let station = CARS + u32::try_from(number).unwrap_or(0);
-            let user = RoadUser {
-                identity: Identity::Station(station),
-                kind: Kind::Vehicle,
-                station_type: None,
-                position: seat.draw.plan.site.position(Place::new(east, 1.75)),
-                speed: Some(car.speed_mps.abs()),
-                heading: Some(if car.speed_mps > 0.0 { 90.0 } else { 270.0 }),
-                cardinality: 1,
-                signals: None,
-                measured_its: 0,
-            };
-            let mut map = LocalDynamicMap::default();
-            map.observe(user, now_ms);
-            let robot = machine.endpoint().robot().clone();
-            machine.application_mut().listen(&map, &robot, now_ms);
-            seat.heard_us.insert(number, self.now_us);
-            self.handle(place, Stimulus::Time)?;
+            let (at, is_westward) = (Place::new(east, 1.75), car.speed_mps <= 0.0);
+            self.hear_vehicle(place, number, at, car.speed_mps.abs(), is_westward)?;
         }
         self.at(self.now_us + CAM_PERIOD_US, Next::Drives(number));
         Ok(())

@@ -9,7 +9,7 @@ use crossguard_robot::site::Place;
 use super::{Finding, World};
 
 /// How far a guard may be from its place, in metres.
-const TOLERANCE_M: f64 = 2.05;
+pub(super) const TOLERANCE_M: f64 = 2.05;
 
 /// How far an escort may be ahead of its person, in metres, and how far it goes until it stands.
 const AHEAD_M: f64 = 2.5;

@@ -16,9 +16,9 @@ use crate::sim::swarm::{SECOND_US, longest_us};
 const KERBS: [f64; 2] = [0.0, 7.0];
 
 /// Where people wait, where they come from, and where they go to.
-const WAITS_AT: f64 = -0.5;
-const COMES_FROM: f64 = -4.0;
-const GOES_TO: f64 = 12.0;
+pub(super) const WAITS_AT: f64 = -0.5;
+pub(super) const COMES_FROM: f64 = -4.0;
+pub(super) const GOES_TO: f64 = 12.0;
 
 /// Most people who wait.
 const WAITING_MAX: usize = 4;
@@ -29,16 +29,16 @@ pub(super) struct Walker {
     /// Who.
     pub(super) id: u32,
     /// Since when they wait.
-    since_us: u64,
+    pub(super) since_us: u64,
     /// Until when they do.
-    patient_until_us: u64,
+    pub(super) patient_until_us: u64,
     /// Whether the faults of the run were over by then.
-    is_after_healing: bool,
-    waits: bool,
+    pub(super) is_after_healing: bool,
+    pub(super) waits: bool,
     /// At whose sign they stepped on the road.
-    session: Option<SessionId>,
+    pub(super) session: Option<SessionId>,
     /// Where they are when, in order of time.
-    way: Vec<(u64, Place)>,
+    pub(super) way: Vec<(u64, Place)>,
 }
 
 impl Walker {
@@ -69,13 +69,13 @@ impl Walker {
         self.session == Some(session)
     }
 
-    fn is_gone(&self, now_us: u64) -> bool {
+    pub(super) fn is_gone(&self, now_us: u64) -> bool {
         !self.waits && self.way.last().is_none_or(|(at_us, _)| *at_us <= now_us)
     }
 }
 
 /// Walks on to a place at a speed.
-fn walk(way: &mut Vec<(u64, Place)>, to: Place, speed_mps: f64) {
+pub(super) fn walk(way: &mut Vec<(u64, Place)>, to: Place, speed_mps: f64) {
     if let Some((at_us, from)) = way.last().copied() {
         way.push((at_us + time_us(from.distance(to) / speed_mps), to));
     }
