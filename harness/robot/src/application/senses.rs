@@ -184,7 +184,7 @@ impl Application {
         self.step(Input::Body(report));
     }
 
-    fn pose(&self, position: &Position) -> Option<Pose> {
+    pub(super) fn pose(&self, position: &Position) -> Option<Pose> {
         Some(Pose {
             at: self.at_point(position)?,
             error_cm: error_cm(position),

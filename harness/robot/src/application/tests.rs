@@ -2,11 +2,12 @@
 
 use std::sync::{Arc, Mutex};
 
-use crossguard_codec::{RobotState, TaskParameters};
+use crossguard_codec::{Identity, Kind, Position, RobotState, TaskParameters};
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
+use crossguard_endpoint::station::LocalDynamicMap;
 use crossguard_protocol::{
-    Maneuver, ManeuverId, RequestId, SessionId, SessionNumber, StationId, StopReason, TaskType,
-    UniqueNumber,
+    Maneuver, ManeuverId, RequestId, Robot, SessionId, SessionNumber, StationId, StopReason,
+    TaskType, UniqueNumber,
 };
 
 use super::*;
@@ -163,4 +164,33 @@ fn a_late_frame_is_no_sight_of_now() {
     }
     application.advance(12.0);
     assert_eq!(application.next_sight().unwrap().people.len(), 256);
+    let user = crossguard_codec::RoadUser {
+        identity: Identity::Station(9),
+        kind: Kind::Vehicle,
+        station_type: None,
+        position: Site::default().position(Place::new(30.0, 2.0)),
+        speed: Some(8.0),
+        heading: Some(270.0),
+        cardinality: 1,
+        signals: None,
+        measured_its: 0,
+    };
+    let mut map = LocalDynamicMap::default();
+    map.observe(user, 13_000);
+    application.advance(13.0);
+    application.listen(&map, &Robot::new(StationId(1), 1), 13_000);
+    assert_eq!(application.next_sight().unwrap().vehicles.len(), 1);
+}
+
+/// Hazard: a guard whose position is not known passes for one that is at its place.
+#[test]
+fn a_position_that_is_not_known_is_no_pose() {
+    let application = Application::new(Box::new(Broken::default()), None);
+    assert_eq!(application.pose(&Position::default()), None);
+    let known = Site::default().position(Place::new(4.0, 2.0));
+    let pose = application.pose(&Position {
+        ellipse: None,
+        ..known
+    });
+    assert_eq!(pose.map(|it| it.error_cm), Some(100));
 }
