@@ -182,9 +182,7 @@ const DEVIATIONS: f64 = 4.0;
 
 /// The probability that a milestone has been reached by `ms`, as the command says it.
 fn said(report: &Value, milestone: &str, ms: u64) -> f64 {
-    let milestones = report["odds"][0]["losses"][0]["milestones"]
-        .as_array()
-        .unwrap();
+    let milestones = report["losses"][0]["milestones"].as_array().unwrap();
     let of = milestones
         .iter()
         .find(|it| it["milestone"] == milestone)
