@@ -1,4 +1,4 @@
-//! The questions of the studio's pages, answered in the browser: [`ask`](crossguard_model_check::walk::ask) as WebAssembly.
+//! The questions of the studio's pages, answered in the browser: [`ask`] as WebAssembly.
 //! `harness/src/studio/walk/worker.js` calls it. Built for `wasm32-unknown-unknown` by `.ci/dist`.
 //!
 //! Text goes through one buffer in the module's memory: the page asks for [`room`], writes its question there, calls [`answer`],
