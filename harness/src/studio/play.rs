@@ -15,6 +15,7 @@ static PAGE: Page = Page {
     content: include_str!("play/content.html"),
     shared_style: Some("walk.css"),
     files: &[
+        ("guide.js", include_str!("play/guide.js")),
         ("play.css", include_str!("play/play.css")),
         ("play.js", include_str!("play/play.js")),
         ("setup.js", include_str!("play/setup.js")),

@@ -271,6 +271,89 @@ def play(studio, folder):
     at.assert_clean()
 
 
+# Each row of the guide's script, by the first way to it: what it offers is possible there.
+ROWS = """async () => {
+    const [{ ROWS, choices }, { withRoom }] = await Promise.all(["./guide.js", "./setup.js"].map((it) => import(new URL(it, location))));
+    const text = withRoom("pair", (await (await fetch("api/scenarios")).json()).find((it) => it.name === "pair").text);
+    const found = new Map(), queue = [["start", []]], wrong = [];
+    while (queue.length) {
+        const [row, steps] = queue.shift();
+        if (found.has(row)) continue;
+        found.set(row, steps);
+        const body = JSON.stringify({ scenario: "pair-with-room", text, property: "", steps });
+        const walk = await (await fetch("api/walk", { method: "POST", body })).json();
+        const offered = choices(row, walk.possible), last = walk.frames[steps.length];
+        for (const [kind, [, to]] of Object.entries(ROWS[row][1])) {
+            if (offered[kind]) queue.push([to, [...steps, offered[kind]]]);
+            else wrong.push(`${row}: ${kind} is not possible`);
+        }
+        if (last.broken.length) wrong.push(`${row}: ${last.broken}`);
+        if (last.robots.some((it) => it.showsGo) !== ["go", "road", "across"].includes(row)) wrong.push(`${row}: the sign`);
+        if (!Object.keys(ROWS[row][1]).length && last.robots.some((it) => it.state !== "Idle" || it.isDown || it.onDuty)) wrong.push(`${row}: not idle`);
+    }
+    return [...wrong, ...Object.keys(ROWS).filter((it) => !found.has(it))];
+}"""
+
+
+def guide(studio, folder):
+    """The guided crossing by keys alone: a message is lost, a reload keeps the place, and the leader loses power."""
+    at = studio()
+    page = at.open("play/")
+    assert page.evaluate(ROWS) == [], page.evaluate(ROWS)
+    said = page.locator("#guide-said")
+    said_at = lambda begins: expect(said).to_have_text(re.compile(f"^{begins}"))
+    while not page.evaluate("document.activeElement.id.startsWith('guide-')"):
+        page.keyboard.press("Tab")
+    expect(page.locator("#guide-next")).to_be_focused()
+    said_at("A person waits")
+    page.keyboard.press("Enter")
+    said_at("Robot 1 has detected")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    said_at("The message is lost")
+    expect(page.locator("#guide-next")).to_be_focused()
+
+    def assert_escorted():
+        expect(page.locator("#person")).to_have_text(re.compile("^Somebody is on the road"))
+        person, escort = (page.locator(f"#street {it}").bounding_box() for it in (".walker", ".marker.robot-2"))
+        assert abs(person["x"] - escort["x"]) < 60 and abs(person["y"] - escort["y"]) < 20, (person, escort)
+
+    def go_on(until, key="n"):
+        while not re.match(until, before := said.text_content()):
+            page.keyboard.press(key)
+            expect(said).not_to_have_text(before)
+
+    go_on("The person is on the road")
+    assert_escorted()
+    at.assert_fits()
+    page.reload()
+    page.wait_for_selector("html[data-ready=true]", state="attached")
+    said_at("The person is on the road")
+    go_on("The person is across, and both robots are idle.")
+    expect(page.locator("#steps .row", has_text="who stepped on the road there is across")).to_have_count(1)
+    expect(page.locator("#guide button:visible")).to_have_text(["Play freely"])
+    # Back to the person on the road, where the leader fails.
+    go_on("The person is on the road", "u")
+    page.locator("#guide-power").press("Enter")
+    said_at("Robot 1 has lost power")
+    go_on("Robot 2 is on duty without a leader")
+    assert_escorted()
+    go_on("The person is across, and both robots are idle, although")
+    # Another step ends the guide; undo leads back to it, and the reader may close it.
+    page.locator("#robots button", has_text="Hangs").first.press("Enter")
+    said_at("You left the guide: it does not go on from “robot 1: hangs”")
+    page.locator("#robots button", has_text="Crashes").first.press("Enter")
+    expect(said).to_be_hidden()
+    for _ in range(2):
+        page.keyboard.press("u")
+    said_at("The person is across, and both")
+    page.locator("#guide-free").press("Enter")
+    expect(said).to_be_hidden()
+    page.keyboard.press("Enter")
+    said_at("The person is across, and both")
+    at.assert_clean()
+
+
 def published(studio, folder):
     """Play on a server of files: a crossing by itself, and its link in another profile shows the same."""
     pages = pathlib.Path(os.environ["PAGES"])
@@ -283,7 +366,8 @@ def published(studio, folder):
     at.process.kill()
     at.server = f"http://127.0.0.1:{server.server_port}/"
     page = at.open("play/")
-    page.locator("#robots button:enabled", has_text="Pedestrian").first.press("Enter")
+    page.keyboard.press("n")
+    expect(page.locator("#guide-said")).to_have_text(re.compile("^Robot 1 has detected"))
     expect(page.locator("#steps .row")).to_have_count(1)
     page.fill("#seed", "3")
     page.evaluate("document.activeElement.blur()")
@@ -408,7 +492,7 @@ def main():
     passed = failed = 0
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
-        for test in (after, report, hostile_log, play, published, explore, live):
+        for test in (after, report, hostile_log, play, guide, published, explore, live):
             with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as closing:
                 def studio(*arguments):
                     at = Studio(browser, *arguments)

@@ -4,6 +4,7 @@ import { html, id } from "../shell/dom.js";
 import { Chart } from "../shell/chart.js";
 import { causeOf, linked, load, opened, packed, post, runOf, save, strayed, trouble } from "../shell/model.js";
 import * as scene from "../shell/scene.js";
+import * as guide from "./guide.js";
 import { nameIn, own, withRoom } from "./setup.js";
 
 const PAUSE_MS = 350;
@@ -13,6 +14,8 @@ const BREAKDOWN = /crashes|hangs/;
 let scenarios = [], properties = new Map();
 // The scenario with its file where it is none of the kit, the steps that were taken, and those that were taken back.
 let play = { scenario: "pair", text: null, steps: [], redo: [] };
+// The scenario of the guide, whether the reader wants it, and the steps that it offers.
+let guideText = null, isGuided = true, offered = {};
 let walk = null, chart = null, timer = null, work = Promise.resolve();
 
 // One thing after the other, however fast keys are pressed.
@@ -93,6 +96,7 @@ function draw() {
   id("broken").replaceChildren(...frame.broken.map((it) => html("p", { class: "trouble" }, html("b", {}, `${it} is broken: `), properties.get(it)?.statement ?? "", ". The run ends here; undo goes on.")));
   air();
   id("robots").replaceChildren(...scene.robots(walk.robots, frame, card));
+  offered = guide.draw(play, walk.possible, isGuided && play.text === guideText, line);
 }
 
 const button = (label, step, kind) => html("button", { type: "button", class: kind, onclick: () => attempt(() => take(step)) }, label);
@@ -139,6 +143,22 @@ function next() {
   return post("api/next", { run: runOf(play.scenario, play.text, play.steps), chances });
 }
 
+// The guide leads on by this choice.
+const lead = (kind) => offered[kind] && take(offered[kind]);
+
+// Begins the guide where the play is on its way; elsewhere it begins a play anew.
+async function guided() {
+  isGuided = true;
+  draw();
+  if (id("guide").hidden) await choose("pair");
+  id("guide-next").focus();
+}
+
+function free() {
+  isGuided = false;
+  draw();
+}
+
 function stop() {
   clearInterval(timer);
   timer = null;
@@ -148,6 +168,8 @@ function stop() {
 
 function toggle() {
   if (timer) { stop(); return; }
+  isGuided = false;
+  draw();
   id("auto").textContent = "Stop";
   id("auto").setAttribute("aria-pressed", "true");
   timer = setInterval(() => attempt(async () => {
@@ -174,7 +196,7 @@ function keys(event) {
   if (event.target.closest("select, textarea, input, summary") || event.ctrlKey || event.altKey || event.metaKey) return;
   if (event.key === " " && event.target.closest("button, .rows")) return;
   const doing = {
-    a: deliverAll, u: () => back(play.steps.length - 1), r: again, " ": toggle,
+    n: () => lead("next"), a: deliverAll, u: () => back(play.steps.length - 1), r: again, " ": toggle,
     d: () => { const step = fated("arrives") ?? fated("arrivesLate"); return step && take(step); },
     l: () => { const step = fated("lost"); return step && take(step); },
     w: () => { const step = fated("delayed"); return step && take(step); },
@@ -187,6 +209,7 @@ function keys(event) {
 async function start() {
   const [listed, texts] = await Promise.all(["scenarios", "properties"].map((it) => load(`api/${it}`)));
   scenarios = listed;
+  guideText = withRoom("pair", scenarios.find((it) => it.name === "pair").text);
   properties = scene.byId(texts);
   id("scenario").replaceChildren(...scenarios.map((it) => html("option", { value: it.name }, `${it.name}: ${it.summary}`)));
   id("scenario").value = "pair";
@@ -196,6 +219,9 @@ async function start() {
   on("anew", "click", () => attempt(() => back(0)));
   on("undo", "click", () => attempt(() => back(play.steps.length - 1)));
   on("redo", "click", () => attempt(again));
+  for (const kind of ["next", "lose", "power"]) on(`guide-${kind}`, "click", () => attempt(() => lead(kind)));
+  on("guide-free", "click", free);
+  on("guided", "click", () => attempt(guided));
   on("auto", "click", toggle);
   on("save", "click", () => save(`${play.scenario.replace(/[^\w-]+/g, "-")}.json`, runOf(play.scenario, play.text, play.steps)));
   on("setup", "submit", (event) => {
@@ -212,6 +238,7 @@ async function start() {
   document.addEventListener("keydown", keys);
   on("link", "click", () => attempt(async () => {
     await navigator.clipboard.writeText(location.href);
+    id("said").setAttribute("aria-live", "polite");
     id("said").textContent = "The link is copied: it shows this play in another browser, too.";
   }));
   const fromAddress = async () => {

@@ -21,7 +21,7 @@ const PERSON = {
 
 export function person(names, frame) {
   const [kind, at] = typeof frame.person === "string" ? [frame.person, null] : Object.entries(frame.person)[0];
-  return { kind, words: PERSON[kind](names, at) };
+  return { kind, at, words: PERSON[kind](names, at) };
 }
 
 // A scheme: the model knows places by their purpose, and no distances.
@@ -29,17 +29,19 @@ export function street(names, frame) {
   const where = person(names, frame);
   const [top, bottom] = [46, 134];
   const stripes = Array.from({ length: 6 }, (_, place) => svg("rect", { x: 290, y: top + 6 + place * 14, width: 60, height: 7, class: "stripe" }));
-  const spots = { parked: [70, 165], underWay: [180, 112], inPosition: [235, 90], fallingBack: [180, 150], ended: [70, 24] };
+  const spots = { parked: [70, 165], underWay: [180, 112], inPosition: [235, 90], beside: [366, 86], fallingBack: [180, 150], ended: [70, 24] };
+  // Who escorts the person on the road is beside them, and a leader that fails meanwhile stays where it was.
+  const isBeside = (robot) => where.kind === "onRoad" && /^(under way \(move|falls back .*escort)/.test(robot.bodyWords);
   const used = {};
   const bodies = frame.robots.map((robot, lane) => {
-    const asks = robot.role === "leader" || robot.role === "requester";
-    const kind = asks && robot.body === "parked" ? "sign" : robot.body;
+    const asks = robot.role === "leader" || robot.role === "requester" || (robot.isDown && where.at === lane);
+    const kind = asks && robot.body === "parked" ? "sign" : isBeside(robot) ? "beside" : robot.body;
     const row = used[kind] = (used[kind] ?? 0) + 1;
     const [x, y] = kind === "sign" ? [385 + (row - 1) * 90, 158] : [spots[kind][0] + (row - 1) * 62, spots[kind][1]];
     return svg("g", { class: robot.isDown ? "gone" : "" },
       svg("path", { d: marker(lane, x, y, 8), class: `fill marker ${look(lane)}` }),
       svg("text", { x, y: y + 21, "text-anchor": "middle" }, short(names[lane])),
-      kind === "sign" || robot.showsGo ? svg("g", { class: robot.showsGo ? "sign go" : "sign stop" },
+      (kind === "sign" && !robot.isDown) || robot.showsGo ? svg("g", { class: robot.showsGo ? "sign go" : "sign stop" },
         svg("rect", { x: x - 19, y: y - 31, width: 38, height: 18, rx: 3 }),
         svg("text", { x, y: y - 18, "text-anchor": "middle", class: "sign-text" }, robot.showsGo ? "GO" : "STOP")) : "");
   });
