@@ -143,6 +143,18 @@ impl Body {
         self.running().filter(guarding).filter(is_there)
     }
 
+    /// The maneuver by which it guards people now, also by a fallback that stays with them.
+    pub(crate) fn guards_still(self, settings: &Settings) -> Option<Maneuver> {
+        use FallbackPolicy::{EscortToKerb, HoldUntilClear};
+        match self {
+            Self::FallingBack(maneuver, EscortToKerb | HoldUntilClear) => {
+                let guards = settings.guarding.contains(maneuver.task);
+                guards.then_some(maneuver)
+            }
+            _ => self.guards(settings),
+        }
+    }
+
     /// Whether to start this is to go on with what it falls back from, for the same leader: it is where it was.
     #[must_use]
     pub fn resumes(self, started: Maneuver) -> bool {

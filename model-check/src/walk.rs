@@ -81,7 +81,9 @@ pub struct RobotFrame {
     pub timers: Vec<String>,
     /// What its body does.
     pub body: BodyFrame,
-    /// The same, with the maneuver.
+    /// Whether its body guards who is on the road, or would: in its place, beside a person, or in a fallback that stays.
+    pub guards: bool,
+    /// What its body does, with the maneuver.
     pub body_words: String,
     /// Whether its sign shows go.
     pub shows_go: bool,
@@ -171,11 +173,15 @@ impl WalkFrame {
         let broken: Vec<_> = model.broken_by(state).collect();
         let met = model.newly_met();
         let (on_air, delayed) = model.on_their_way(state);
-        let robots = model.nodes(state).enumerate();
+        let settings = model.scenario().config.settings();
+        let on_road = model.history(state).pedestrian.on_road();
+        let robot = |(place, node): (usize, &Node)| {
+            let guarding = node.actuation.body.guards_still(settings);
+            let guards = guarding.is_some_and(|it| on_road.is_none_or(|on| on == it.id.session));
+            RobotFrame::of(model.names(), node, guards, state.hangs(place))
+        };
         Self {
-            robots: robots
-                .map(|(place, node)| RobotFrame::of(model.names(), node, state.hangs(place)))
-                .collect(),
+            robots: model.nodes(state).enumerate().map(robot).collect(),
             on_air: OnItsWay::all(model, &on_air),
             delayed: OnItsWay::all(model, &delayed),
             person: match model.history(state).pedestrian {
@@ -193,7 +199,7 @@ impl WalkFrame {
 }
 
 impl RobotFrame {
-    fn of(names: &Names, node: &Node, hangs: bool) -> Self {
+    fn of(names: &Names, node: &Node, guards: bool, hangs: bool) -> Self {
         let robot = node.robot.as_ref();
         let (state, role) = mode_parts(mode(node));
         let timers = robot.map(|robot| {
@@ -213,6 +219,7 @@ impl RobotFrame {
                 Body::FallingBack(..) => BodyFrame::FallingBack,
                 Body::Ended(..) => BodyFrame::Ended,
             },
+            guards,
             body_words: names.tell(node.actuation.body),
             shows_go: node.actuation.corridor_open,
             is_down: robot.is_none(),

@@ -11,6 +11,7 @@ use crossguard_model_check::paper::{
 use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::report::{CheckVerdict, PropertyReport, ScenarioReport};
 use crossguard_model_check::scenario::Scenario;
+use crossguard_model_check::walk::{BodyFrame, PersonFrame, Walk};
 
 static REPORT: LazyLock<ScenarioReport> = LazyLock::new(check);
 static RUNS: LazyLock<Vec<PaperRun>> = LazyLock::new(runs);
@@ -137,12 +138,73 @@ fn a_lost_command_is_not_waited_for_for_ever() {
     assert_eq!(report.verdict("P10"), Some(CheckVerdict::Holds));
 }
 
+const ON_ROAD: PersonFrame = PersonFrame::OnRoad(Some(0));
+
+/// Hazard: the pictures of the paper's wording do not show who is left alone.
+#[test]
+fn a_street_of_the_paper_shows_a_person_whom_nobody_guards() {
+    let mut found = Vec::new();
+    for run in &*RUNS {
+        assert_eq!(run.frames.len(), run.steps.len() + 1);
+        let [first, .., last] = &run.frames[..] else {
+            panic!("{}: no frames", run.text.id)
+        };
+        let is_on_road = run.text.id.starts_with('W');
+        let waits = is_on_road.then_some(PersonFrame::Waiting);
+        assert_eq!(first.person, waits, "{}", run.text.id);
+        if last.person == Some(ON_ROAD) && !last.robots.iter().any(|it| it.guards) {
+            let robots = last.robots.iter();
+            found.push((run.text.id, robots.map(|it| it.body).collect::<Vec<_>>()));
+        }
+    }
+    let expected = [
+        ("W1", BodyFrame::InPosition),
+        ("W1", BodyFrame::UnderWay),
+        ("W2", BodyFrame::FallingBack),
+    ];
+    let expected = expected.map(|(id, body)| (id, vec![BodyFrame::Parked, body]));
+    assert_eq!(found, expected);
+    // The word to go was given once, and its leader is gone.
+    let mut runs = RUNS.iter();
+    let gone = &runs.find(|it| it.text.id == "W1").unwrap().frames[13].robots[0];
+    assert!(gone.is_down && gone.shows_go);
+}
+
+/// Hazard: the protocol goes another way than the story beside the paper's, or leaves the person alone as well.
+#[test]
+fn the_kit_guards_everybody_in_the_stories_in_which_the_paper_leaves_somebody_alone() {
+    let mut ends = Vec::new();
+    for run in &*RUNS {
+        let is_alone = run.frames.last().unwrap().person == Some(ON_ROAD);
+        assert_eq!(run.beside.is_some(), is_alone, "{}", run.text.id);
+        let Some(kit) = &run.beside else { continue };
+        assert_eq!(kit.taken.len(), run.frames.len());
+        assert_eq!(kit.taken.last(), Some(&kit.steps.len()));
+        let walk = Walk::along(Scenario::load(kit.scenario).unwrap(), &kit.steps);
+        assert_eq!(walk.stray, None);
+        for frame in &walk.frames {
+            assert!(frame.broken.is_empty(), "{:?}", frame.broken);
+            let guards = frame.robots.iter().any(|it| it.guards);
+            assert!(guards || frame.person == PersonFrame::Waiting);
+        }
+        let last = walk.frames.last().unwrap();
+        let goes = last.robots.iter().any(|it| it.shows_go);
+        ends.push((run.text.id, last.person, last.robots[1].body, goes));
+    }
+    let expected = [
+        ("W1", PersonFrame::Waiting, BodyFrame::UnderWay, false),
+        ("W1", PersonFrame::Waiting, BodyFrame::UnderWay, false),
+        ("W2", ON_ROAD, BodyFrame::FallingBack, true),
+    ];
+    assert_eq!(ends, expected);
+}
+
 /// The studio reads these keys and kinds.
 #[test]
 fn a_run_is_written_flat_with_its_text() {
     let run = &serde_json::to_value(&*RUNS).unwrap()[0];
     let keys: Vec<_> = run.as_object().unwrap().keys().collect();
-    let expected = "closedBy explanation frames id kind paragraph person repeatsAfter robots section statement steps title";
+    let expected = "beside closedBy explanation frames id kind paragraph person repeatsAfter robots section statement steps title";
     assert_eq!(keys, expected.split(' ').collect::<Vec<_>>());
     assert_eq!(
         (&run["kind"], &run["section"]),

@@ -396,7 +396,8 @@ def published(studio, folder):
     assert shown(page) == here
     at.assert_fits()
     page = at.open("explore/")
-    expect(page.locator("#about b")).to_have_text(re.compile("^P1: "))
+    expect(page.locator("#about b")).to_have_text(re.compile("^W1: "))
+    expect(page.locator("#person-beside")).to_have_text("Somebody waits at the kerb: no sign shows go.")
     page.select_option("#goal", "3")
     page.eval_on_selector("#search", "it => it.requestSubmit()")
     expect(page.locator("#found")).to_have_text(re.compile("^After "))
@@ -413,8 +414,33 @@ def explore(studio, folder):
     at = studio()
     page = at.open("explore/")
     at.assert_reached_by_tab(20, "skip", "run", "file", "scenario", "who", "goal", "next", "slider")
-    page.evaluate("document.activeElement.blur()")
+    # Under the same story somebody is alone on the road by the paper's wording, and not with the kit.
+    waits = "Somebody waits at the kerb: no sign shows go."
+    for story, paper, kit, on_road in (
+        ("led onto the road although the leader is gone", "word of ARI. Nobody guards.", waits, 0),
+        ("let across while the guard is still on its way", "word of ARI. Nobody guards.", waits, 0),
+        ("left alone in the middle of the road", "word of ARI. Nobody guards.", "sign of ARI. Go2 guards.", 1),
+    ):
+        page.select_option("#run", label=f"{'W2' if on_road else 'W1'}: {story}")
+        expect(page.locator("#about b")).to_have_text(re.compile(story))
+        expect(page.locator("#person")).to_have_text("Somebody waits at the kerb.")
+        expect(page.locator("#person-beside")).to_have_text(waits)
+        page.click("#last")
+        expect(page.locator("#person")).to_have_text(f"Somebody is on the road, at the {paper}")
+        expect(page.locator("#person-beside")).to_have_text(re.compile(re.escape(kit) + "$"))
+        expect(page.locator("#street .walker.onRoad")).to_have_count(1)
+        expect(page.locator("#street-beside .walker.onRoad")).to_have_count(on_road)
+        expect(page.locator("#street-beside .sign.go")).to_have_count(on_road)
+        at.assert_fits()
+    # The kit's run goes on by hand.
+    page.click("#open-beside")
+    expect(page.locator("#person")).to_have_text("Somebody is on the road, at the sign of robot 1. robot 2 guards.")
+    expect(page.locator("#possible button").first).to_be_visible()
+    page.select_option("#run", label="P1: late acknowledgement after fallback")
     expect(page.locator("#about b")).to_have_text(re.compile("^P1: "))
+    expect(page.locator("#street")).to_contain_text("about messages alone")
+    expect(page.locator("#beside")).to_be_hidden()
+    page.evaluate("document.activeElement.blur()")
     states = lambda: page.locator("#robots .state").all_text_contents()
     seen = [states()]
     assert seen[0] == ["Idle", "Idle"]
@@ -435,7 +461,7 @@ def explore(studio, folder):
     page.select_option("#goal", "0")
     page.eval_on_selector("#search", "it => it.requestSubmit()")
     expect(page.locator("#found")).to_have_text(re.compile("^After "))
-    expect(page.locator("#person")).to_have_text("Somebody is on the road, at the sign of robot 1.")
+    expect(page.locator("#person")).to_have_text("Somebody is on the road, at the sign of robot 1. robot 2 guards.")
     expect(page.locator("#touched")).to_contain_text(re.compile("W1.*when.*a pedestrian steps on the road"))
     run_of_page = json.loads(at.saved(folder).read_text())
     page.select_option("#who", "1")

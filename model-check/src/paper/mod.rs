@@ -15,6 +15,7 @@
 //!
 //! A [`Reading`] that says more in one of them is checked too, and the page tells what it changes.
 
+mod beside;
 mod found;
 mod hazards;
 mod model;
@@ -30,10 +31,11 @@ use std::time::Instant;
 
 use stateright::{Checker, Model as _};
 
+pub use beside::KitRun;
 pub use hazards::{Hazard, HazardKind, Passage};
 pub use page::page;
 pub use readings::{OtherReading, Reading};
-pub use shown::{PaperRobotFrame, PaperRun, runs};
+pub use shown::{PaperFrame, PaperRobotFrame, PaperRun, runs};
 pub use texts::Text;
 
 use crate::by_stateright::steps;

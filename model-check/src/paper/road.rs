@@ -18,6 +18,7 @@ use super::robot::{
     HelpStatus, PaperInput, PaperRam, PaperRmcm, PaperRobot, PaperTask, Progression, RobotIndex,
     Whereabouts,
 };
+use crate::walk::{BodyFrame, PersonFrame};
 
 /// What a body does, and by which command of which leader.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -101,14 +102,10 @@ impl Road {
     /// What may happen on the road by itself, where these robots let people cross.
     pub(super) fn moves(&self, inviting: impl Iterator<Item = RobotIndex>, moves: &mut Vec<Move>) {
         match self.pedestrian {
-            PaperPedestrian::Waiting if self.guard == PaperTask::Move => {
-                let escorts = self.bodies.iter().filter_map(|body| match body {
-                    PaperBody::Guarding(charge) => Some(Move::StepOn(charge.leader)),
-                    _ => None,
-                });
-                moves.extend(escorts);
+            PaperPedestrian::Waiting => {
+                let said = self.told_to_go(inviting);
+                moves.extend(said.into_iter().map(Move::StepOn));
             }
-            PaperPedestrian::Waiting => moves.extend(inviting.map(Move::StepOn)),
             PaperPedestrian::OnRoad(_) => moves.push(Move::Across),
             PaperPedestrian::Across => {}
         }
@@ -119,6 +116,51 @@ impl Road {
         }
     }
 
+    /// The leaders at whose word somebody may go, where these robots let people cross.
+    pub(super) fn told_to_go(&self, inviting: impl Iterator<Item = RobotIndex>) -> Vec<RobotIndex> {
+        if self.guard != PaperTask::Move {
+            return inviting.collect();
+        }
+        let leader = |body: &PaperBody| match body {
+            PaperBody::Guarding(charge) => Some(charge.leader),
+            _ => None,
+        };
+        self.bodies.iter().filter_map(leader).collect()
+    }
+
+    /// Somebody at the crossing, as pages show them.
+    pub(super) const fn person(&self) -> PersonFrame {
+        match self.pedestrian {
+            PaperPedestrian::Waiting => PersonFrame::Waiting,
+            PaperPedestrian::OnRoad(leader) => PersonFrame::OnRoad(Some(leader)),
+            PaperPedestrian::Across => PersonFrame::Across,
+        }
+    }
+
+    /// What a body does, as pages show it.
+    pub(super) fn body(&self, place: RobotIndex) -> BodyFrame {
+        match self.bodies[place] {
+            PaperBody::Parked => BodyFrame::Parked,
+            PaperBody::UnderWay(_) => BodyFrame::UnderWay,
+            PaperBody::Guarding(_) => BodyFrame::InPosition,
+            PaperBody::FallingBack(_) => BodyFrame::FallingBack,
+            PaperBody::Ended(_) => BodyFrame::Ended,
+        }
+    }
+
+    /// Whether a body guards who is on the road, or would, among these robots.
+    pub(super) fn guards(&self, place: RobotIndex, robots: &[Option<PaperRobot>]) -> bool {
+        let body = self.bodies[place];
+        matches!(body, PaperBody::Guarding(charge) if self.is_traffic_stopped(charge.leader, robots))
+            && (self.is_free() || self.needs(body))
+    }
+
+    /// Whether this leader does its part for the people that it sends: beside an escort, it stops the traffic itself.
+    fn is_traffic_stopped(&self, leader: RobotIndex, robots: &[Option<PaperRobot>]) -> bool {
+        self.guard != PaperTask::Move
+            || robots[leader].is_some_and(|robot| robot.follower().is_some())
+    }
+
     /// Something happens on the road by itself, among these robots.
     pub(super) fn happen(&mut self, what: Move, robots: &[Option<PaperRobot>]) {
         match what {
@@ -127,10 +169,7 @@ impl Road {
                     .bodies
                     .iter()
                     .any(|body| self.accounts_for(*body, leader));
-                // Beside an escort, the leader itself stops the traffic.
-                let stops_traffic = self.guard != PaperTask::Move
-                    || robots[leader].is_some_and(|robot| robot.follower().is_some());
-                if !is_guarded || !stops_traffic {
+                if !is_guarded || !self.is_traffic_stopped(leader, robots) {
                     self.broken |= Hazard::W1.bit();
                 }
                 self.pedestrian = PaperPedestrian::OnRoad(leader);

@@ -22,8 +22,11 @@ async function show(run) {
     const walk = await post("api/walk", runOf(run.scenario, run.text, run.steps));
     Object.assign(run, { robots: walk.robots, frames: walk.frames, possible: walk.possible, stray: strayed(walk, run.steps) });
   }
+  if (run.beside) run.beside.frames ??= (await post("api/walk", runOf(run.beside.scenario, null, run.beside.steps))).frames;
   trouble(run.stray);
   about(run);
+  id("now").classList.toggle("both", Boolean(run.beside));
+  id("beside").hidden = !run.beside;
   chart = new Chart(id("steps"), run.robots, go);
   chart.fill(run.steps, run.repeatsAfter);
   id("slider").max = run.steps.length;
@@ -57,17 +60,37 @@ function go(to) {
   }
   const [street, robots, touched, possible] = parts;
   robots.replaceChildren(...scene.robots(shown.robots, frame));
+  if (frame.person) drawStreet("", frame);
+  else street.replaceChildren(html("p", { class: "faint" }, "This run is about messages alone. The runs that begin with W have a street."));
   if (shown.isPaper) {
-    street.replaceChildren();
+    if (shown.beside) besides();
+    else if (frame.person) id("person").append(" Nobody is on the road at the end of this run, so no run of the kit is beside it.");
     touched.replaceChildren(html("p", { class: "faint" }, count === shown.steps.length ? `Broken: ${shown.broken}.` : "The properties of the paper's wording are judged at the end of its runs."));
     possible.replaceChildren(html("p", { class: "faint" }, "The paper's wording is shown as it was found; choose a scenario to go on by hand."));
     return;
   }
-  street.replaceChildren(scene.street(shown.robots, frame));
-  id("person").textContent = scene.person(shown.robots, frame).words;
   touched.replaceChildren(scene.touched(frame, properties));
   choices();
 }
+
+function drawStreet(which, frame) {
+  id(`street${which}`).replaceChildren(scene.street(shown.robots, frame));
+  id(`person${which}`).textContent = scene.person(shown.robots, frame).words;
+}
+
+// The kit beside the paper's wording, after as much of the story. Its robots have the names of the paper's.
+function besides() {
+  const kit = shown.beside;
+  if (!kit.frames) return;
+  drawStreet("-beside", kit.frames[kit.taken[count]]);
+  const named = (text) => text.replace(/robot (\d+)/g, (robot, number) => shown.robots[number - 1] ?? robot);
+  const steps = kit.steps.slice(kit.taken[count - 1] ?? 0, kit.taken[count]);
+  id("steps-beside").replaceChildren(...steps.map((step) => html("li", {}, named([name(step, shown.robots), ...step.outputs].join("; ")))));
+}
+
+const name = (step, robots) => step.place.between
+  ? `${robots[step.place.between.from]} → ${robots[step.place.between.to]}: ${step.action} (${step.place.between.fate.replace(/([A-Z])/g, " $1").toLowerCase()})`
+  : `${robots[step.place.at]}: ${step.action}`;
 
 // The steps that may come next. They are known for the end of the run; elsewhere they are asked for.
 async function choices() {
@@ -84,11 +107,8 @@ async function choices() {
     }
   }
   if (at !== count || run !== shown) return;
-  const name = (step) => step.place.between
-    ? `${run.robots[step.place.between.from]} → ${run.robots[step.place.between.to]}: ${step.action} (${step.place.between.fate.replace(/([A-Z])/g, " $1").toLowerCase()})`
-    : `${run.robots[step.place.at]}: ${step.action}`;
   id("possible").replaceChildren(possible.length
-    ? html("ul", { class: "choices" }, possible.map((step) => html("li", {}, html("button", { type: "button", onclick: () => branch(step) }, name(step)))))
+    ? html("ul", { class: "choices" }, possible.map((step) => html("li", {}, html("button", { type: "button", onclick: () => branch(step) }, name(step, run.robots)))))
     : html("p", { class: "faint" }, "Nothing: the run ends here."));
 }
 
@@ -114,7 +134,7 @@ const fromFile = ({ file, run }) => ({
 const fromPaper = (it) => ({
   title: `${it.id}: ${it.title}`, isPaper: true, robots: it.robots, steps: it.steps, repeatsAfter: it.repeatsAfter, broken: it.statement,
   explanation: it.explanation, person: it.person, passage: `${it.kind}: section ${it.section}, ${it.paragraph}`, closedBy: it.closedBy,
-  frames: it.frames.map((robots) => ({ robots, met: [], broken: [] })),
+  frames: it.frames.map((frame) => ({ ...frame, isPaper: true, met: [], broken: [] })), beside: it.beside,
 });
 
 const fromScenario = (it) => ({ title: `${it.name}: ${it.summary}`, scenario: it.name, steps: [], isStart: true });
@@ -183,7 +203,9 @@ async function start() {
   scenarios = listed;
   properties = scene.byId(texts);
   if (given.length) offer("From files", given.map(fromFile));
-  offer("The paper's wording, where it fails", paper.map(fromPaper));
+  const onStreet = (it) => it.frames[0].person !== null;
+  offer("The paper's wording on the street", paper.filter(onStreet).map(fromPaper));
+  offer("The paper's wording, messages alone", paper.filter((it) => !onStreet(it)).map(fromPaper));
   offer("Scenarios of the kit, from their start", scenarios.map(fromScenario));
   id("scenario").replaceChildren(...scenarios.map((it) => html("option", {}, it.name)));
   setScenario("pair");
@@ -196,6 +218,10 @@ async function start() {
     if (run) await choose(offer("Opened here", [fromFile(run)]));
   }));
   id("save").addEventListener("click", () => save(`${shown.scenario.replace(/[^\w-]+/g, "-")}.json`, runOf(shown.scenario, shown.text, shown.steps)));
+  id("open-beside").addEventListener("click", () => attempt(() => {
+    const { scenario, steps, taken } = shown.beside;
+    return show({ title: `The kit in the story of ${shown.title}`, scenario, steps, at: taken[count] });
+  }));
   id("first").addEventListener("click", () => go(0));
   id("previous").addEventListener("click", () => go(count - 1));
   id("next").addEventListener("click", next);

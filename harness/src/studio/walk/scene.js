@@ -14,14 +14,18 @@ export function robots(names, frame, more) {
 }
 
 const PERSON = {
-  waiting: () => "Somebody waits at the kerb.",
+  waiting: (names, at, frame) => frame.isPaper || frame.robots.some((it) => it.showsGo) ? "Somebody waits at the kerb." : "Somebody waits at the kerb: no sign shows go.",
   across: () => "The person is across.",
-  onRoad: (names, at) => `Somebody is on the road, at the sign of ${names[at] ?? "a robot"}.`,
+  onRoad: (names, at, frame) => {
+    const guards = names.filter((_, lane) => frame.robots[lane].guards);
+    const by = `Somebody is on the road, at the ${frame.isPaper ? "word" : "sign"} of ${names[at] ?? "a robot"}.`;
+    return `${by} ${guards.join(" and ") || "Nobody"} ${guards.length > 1 ? "guard" : "guards"}.`;
+  },
 };
 
 export function person(names, frame) {
   const [kind, at] = typeof frame.person === "string" ? [frame.person, null] : Object.entries(frame.person)[0];
-  return { kind, at, words: PERSON[kind](names, at) };
+  return { kind, at, words: PERSON[kind](names, at, frame) };
 }
 
 // A scheme: the model knows places by their purpose, and no distances.
@@ -30,23 +34,26 @@ export function street(names, frame) {
   const [top, bottom] = [46, 134];
   const stripes = Array.from({ length: 6 }, (_, place) => svg("rect", { x: 290, y: top + 6 + place * 14, width: 60, height: 7, class: "stripe" }));
   const spots = { parked: [70, 165], underWay: [180, 112], inPosition: [235, 90], beside: [366, 86], fallingBack: [180, 150], ended: [70, 24] };
-  // Who escorts the person on the road is beside them, and a leader that fails meanwhile stays where it was.
+  // Who escorts the person on the road is beside them.
   const isBeside = (robot) => where.kind === "onRoad" && /^(under way \(move|falls back .*escort)/.test(robot.bodyWords);
   const used = {};
   const bodies = frame.robots.map((robot, lane) => {
-    const asks = robot.role === "leader" || robot.role === "requester" || (robot.isDown && where.at === lane);
-    const kind = asks && robot.body === "parked" ? "sign" : isBeside(robot) ? "beside" : robot.body;
+    // A guard is at the crossing: beside the person, in its place, or in a fallback that stays. A leader that fails stays at its sign.
+    const atSign = robot.role === "leader" || robot.role === "requester" || robot.showsGo || (robot.isDown && where.at === lane);
+    const kind = isBeside(robot) ? "beside" : robot.guards ? "inPosition" : atSign && robot.body === "parked" ? "sign" : robot.body;
     const row = used[kind] = (used[kind] ?? 0) + 1;
     const [x, y] = kind === "sign" ? [385 + (row - 1) * 90, 158] : [spots[kind][0] + (row - 1) * 62, spots[kind][1]];
-    return svg("g", { class: robot.isDown ? "gone" : "" },
-      svg("path", { d: marker(lane, x, y, 8), class: `fill marker ${look(lane)}` }),
-      svg("text", { x, y: y + 21, "text-anchor": "middle" }, short(names[lane])),
-      (kind === "sign" && !robot.isDown) || robot.showsGo ? svg("g", { class: robot.showsGo ? "sign go" : "sign stop" },
+    return svg("g", {},
+      svg("g", { class: robot.isDown ? "gone" : "" },
+        svg("path", { d: marker(lane, x, y, 8), class: `fill marker ${look(lane)}` }),
+        svg("text", { x, y: y + 21, "text-anchor": "middle" }, short(names[lane]))),
+      // The paper has a word to go, and no sign that shows stop.
+      (kind === "sign" && !robot.isDown && !frame.isPaper) || robot.showsGo ? svg("g", { class: robot.showsGo ? "sign go" : "sign stop" },
         svg("rect", { x: x - 19, y: y - 31, width: 38, height: 18, rx: 3 }),
         svg("text", { x, y: y - 18, "text-anchor": "middle", class: "sign-text" }, robot.showsGo ? "GO" : "STOP")) : "");
   });
   const at = { waiting: [320, bottom + 18], onRoad: [320, (top + bottom) / 2], across: [320, top - 14] }[where.kind];
-  const labels = names.map((name, lane) => `${name} ${frame.robots[lane].bodyWords}${frame.robots[lane].showsGo ? `, its sign ${SIGNS[true]}` : ""}`);
+  const labels = names.map((name, lane) => `${name} ${frame.robots[lane].bodyWords}${frame.robots[lane].showsGo ? (frame.isPaper ? ", its word is go" : `, its sign ${SIGNS[true]}`) : ""}`);
   return svg("svg", { viewBox: "0 0 640 196", class: "scheme", role: "img", "aria-label": `${where.words} ${labels.join(". ")}.` },
     svg("rect", { x: 0, y: top, width: 640, height: bottom - top, class: "lane" }),
     svg("line", { x1: 0, y1: (top + bottom) / 2, x2: 640, y2: (top + bottom) / 2, class: "lane-middle" }),
