@@ -35,7 +35,7 @@ export function street(names, frame) {
   const stripes = Array.from({ length: 6 }, (_, place) => svg("rect", { x: 290, y: top + 6 + place * 14, width: 60, height: 7, class: "stripe" }));
   const spots = { parked: [70, 165], underWay: [180, 112], inPosition: [235, 90], beside: [366, 86], fallingBack: [180, 150], ended: [70, 24] };
   // Who escorts the person on the road is beside them.
-  const isBeside = (robot) => where.kind === "onRoad" && /^(under way \(move|falls back .*escort)/.test(robot.bodyWords);
+  const isBeside = (robot) => where.kind === "onRoad" && robot.guards && /^(under way \(move|falls back .*escort)/.test(robot.bodyWords);
   const used = {};
   const bodies = frame.robots.map((robot, lane) => {
     // A guard is at the crossing: beside the person, in its place, or in a fallback that stays. A leader that fails stays at its sign.
