@@ -2,11 +2,11 @@
 
 use std::fs::File;
 use std::path::PathBuf;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::Ordering;
 
 use crossguard_endpoint::ras::motion::distance_m;
 use crossguard_evaluation::fcd::{self, Recording};
+use crossguard_evaluation::matrix::in_parallel;
 use crossguard_evaluation::messages::DATA_RATE_MBPS;
 use crossguard_evaluation::messages::{
     Signed, Sizes, air_time_us, frame_octets, packet_air_time_us,
@@ -165,31 +165,16 @@ pub(super) fn run(arguments: &Crossing) -> Result<(), Failure> {
         .collect();
     let bar = output::progress(arguments.output.json, "runs");
     bar.set_length(jobs.len() as u64);
-    let (next, done) = (AtomicUsize::new(0), Mutex::new(vec![None; jobs.len()]));
-    let work = || {
-        while !interrupted.load(Ordering::Relaxed) {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            let Some((robots, of)) = jobs.get(number) else {
-                return;
-            };
-            let demand = Demand::draw(of.seed, &of.people, &of.vehicles, habits);
-            let measured = Measured::of(&Swarm::at_place(of.seed, *robots, demand));
-            let mut done = done
-                .lock()
-                .unwrap_or_else(std::sync::PoisonError::into_inner);
-            done[number] = Some(measured);
-            bar.inc(1);
-        }
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let run = |(robots, of): &(usize, &Comers)| {
+        let demand = Demand::draw(of.seed, &of.people, &of.vehicles, habits);
+        Measured::of(&Swarm::at_place(of.seed, *robots, demand))
     };
-    std::thread::scope(|scope| {
-        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(work);
-        }
+    let done = in_parallel(threads, &jobs, run, |_, _| {
+        bar.inc(1);
+        !interrupted.load(Ordering::Relaxed)
     });
     bar.finish_and_clear();
-    let done = done
-        .into_inner()
-        .unwrap_or_else(std::sync::PoisonError::into_inner);
     let runs = done.chunks(seeds).zip(&arguments.robots);
     // A number of robots of which a run is missing is left out.
     let cells = runs.filter_map(|(runs, robots)| {
@@ -246,7 +231,7 @@ fn habits(lines: &[String]) -> Result<Habits, Failure> {
     all.try_into().map_err(Failure::input)
 }
 
-/// Who comes, from files or from those that come along.
+/// The people and vehicles of each run, from the files that are named or from the school street.
 fn comers(arguments: &Crossing) -> Result<Vec<Comers>, Failure> {
     if arguments.fcd.is_empty() {
         let shipped = (1..).zip(shipped::SCHOOL_STREET);

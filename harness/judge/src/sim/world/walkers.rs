@@ -10,10 +10,11 @@ use serde::Serialize;
 
 use super::people::OnRoad;
 use super::{Finding, World};
+use crate::sim::place::ROAD_M;
 use crate::sim::swarm::{SECOND_US, longest_us};
 
 /// The kerbs of the street, in metres to the north.
-const KERBS: [f64; 2] = [0.0, 7.0];
+const KERBS: [f64; 2] = [0.0, ROAD_M];
 
 /// Where people wait, where they come from, and where they go to.
 pub(super) const WAITS_AT: f64 = -0.5;
