@@ -18,7 +18,7 @@ pub type Degrees = (f64, f64);
 /// The road users that a robot has at a time.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Sight {
-    /// The people whom its sensors have.
+    /// The people that its sensors have.
     pub people: Vec<Seen>,
     /// The vehicles that its sensors have or that it hears, at most [`VEHICLES_MAX`].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

@@ -1,7 +1,7 @@
 //! Whether go began before vehicles that could no longer stop (P3), as far as sights in logs tell.
 //!
 //! Only the geometry of a log is used: the places and velocities that a robot had when go began, and the outline of its
-//! crossing. A robot logs whom it has when its sign begins to show go, so nothing is older than what it decided by. A vehicle
+//! crossing. A robot logs its newest sight when its sign begins to show go, so the log is as new as the decision. A vehicle
 //! comes on straight ahead; its error and the age of its report, which a robot has to add, are left out.
 
 use super::ground::Metres;

@@ -286,8 +286,8 @@ impl Application {
         self.step(Input::Heard(seen, Millis::ZERO));
     }
 
-    /// Whom the robot has now, if that has changed since it was said last: so often, when somebody steps on the road or is off
-    /// it, and when the sign begins to show go, for which the robot answers.
+    /// The road users that the robot senses or hears now, if they have changed since the last sight. A sight is due after a
+    /// period, when the number of people on the road changes, and when the sign begins to show go.
     pub fn next_sight(&mut self) -> Option<Sight> {
         let now_s = self.at_s;
         let shows_go = self.sign.shows_go(super::micros(now_s));
