@@ -343,3 +343,79 @@ fn each_cause_of_a_rejection_is_on_the_page_of_security() {
         .collect();
     assert_eq!(missing, Vec::<&str>::new());
 }
+
+/// Whether `cargo test` finds the test that a page tells to run: the package, its target, and a function, module or file
+/// of that name.
+fn is_test(command: &str) -> bool {
+    let words: Vec<_> = command.split_whitespace().skip(2).collect();
+    let (package, target, name) = match words[..] {
+        ["-p", package, "--test", target] => (package, target, None),
+        ["-p", package, "--test", target, name] => (package, target, Some(name)),
+        ["-p", package, "--lib", name] => (package, "", Some(name)),
+        _ => return false,
+    };
+    let named = |name: &str| format!("name = \"{name}\"");
+    let mut manifests = Vec::new();
+    files(&repository(), "toml", &mut manifests);
+    manifests.retain(|path| path.ends_with("Cargo.toml"));
+    let texts = manifests
+        .iter()
+        .map(|path| std::fs::read_to_string(path).unwrap());
+    let mut both = manifests.iter().zip(texts);
+    let Some((manifest, text)) = both.find(|(_, text)| text.contains(&named(package))) else {
+        return false;
+    };
+    let folder = manifest.parent().unwrap();
+    let code = folder.join(if target.is_empty() { "src" } else { "tests" });
+    let has_target = target.is_empty()
+        || text.contains(&named(target))
+        || code.join(format!("{target}.rs")).is_file()
+        || code.join(target).join("main.rs").is_file();
+    let mut sources = Vec::new();
+    files(&code, "rs", &mut sources);
+    let has = |name: &str| {
+        sources.iter().any(|path| {
+            path.file_stem().is_some_and(|it| it == name)
+                || std::fs::read_to_string(path)
+                    .unwrap()
+                    .contains(&format!("fn {name}("))
+        })
+    };
+    has_target && name.is_none_or(has)
+}
+
+/// A row of the page on the paper has a verdict, what it names is there, and what is not met says why. The line of counts
+/// is the sum of the rows.
+#[test]
+fn the_page_on_the_paper_names_what_there_is_and_counts_its_verdicts() {
+    let (_, page) = read("model-check/doc/paper.md");
+    let scripts = repository().join("protocol/tests/scripts");
+    let mut counts = BTreeMap::from(["met", "partly", "not", "input"].map(|it| (it, 0)));
+    let rows = page.lines().filter_map(|line| line.strip_prefix("| "));
+    for row in rows.filter(|row| !row.starts_with("paragraph |")) {
+        let cells: Vec<_> = row.trim_end_matches(" |").split(" | ").collect();
+        let [_, _, verdict, here, see, differs] = cells[..] else {
+            panic!("another number of columns: {row}");
+        };
+        let count = counts.get_mut(verdict);
+        *count.unwrap_or_else(|| panic!("no verdict {verdict}: {row}")) += 1;
+        assert!(verdict == "met" || differs != "nothing", "no reason: {row}");
+        let (here, see) = (quoted(here), quoted(see));
+        let is_shown = !here.is_empty() && !see.is_empty();
+        assert!(verdict == "not" || is_shown, "nothing to see: {row}");
+        for path in here {
+            assert!(repository().join(&path).exists(), "no {path}: {row}");
+        }
+        for seen in see {
+            let is_there = seen.starts_with("crossguard ")
+                || seen.starts_with("cargo test ") && is_test(&seen)
+                || scripts.join(&seen).is_file();
+            assert!(is_there, "no {seen}: {row}");
+        }
+    }
+    let [met, partly, not, input] = ["met", "partly", "not", "input"].map(|it| counts[it]);
+    let sum = met + partly + not + input;
+    let line =
+        format!("**{sum} statements: {met} met, {partly} partly, {not} not, {input} inputs.**");
+    assert!(page.contains(&line), "the line of counts is: {line}");
+}
