@@ -15,7 +15,7 @@
 //! - [`SignedMessage`] reads envelopes, [`Verifier`] decides whether one can be relied on, and
 //!   [`Rejected`] names each cause.
 //! - A private key is behind the trait [`SigningKey`]: in memory ([`PrivateKey`], wiped when it is dropped), or in a
-//!   token that signs (`harness/robot/examples/pkcs11`).
+//!   token that signs.
 //! - A [`TrustStore`] has the certificates that are revoked as well. What is signed with one of them, or below it,
 //!   is rejected, also where it was known before.
 //! - [`issue`] makes the certificates of roots, authorities and pseudonyms, for a test PKI.

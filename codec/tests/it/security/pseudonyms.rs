@@ -1,9 +1,15 @@
 //! Changing the pseudonym.
 
-use crossguard_codec::security::{
-    Duration, SignedMessage, SignerIdentifier, Station, Tolerances, Unsigned, issue::Terms,
-};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
+use crossguard_codec::security::{
+    Duration, KeyFailure, PublicKey, Signature, SignedMessage, SignerIdentifier, SigningKey,
+    Station, Ticket, Tolerances, Unsigned, issue::Terms,
+};
+use p256::ecdsa::signature::hazmat::PrehashSigner as _;
+
+use super::forge;
 use super::pki::{NOW, NOW_S, PAYLOAD, Pki, RAM, after_ms, hear, ticket_terms, validity};
 
 #[test]
@@ -62,4 +68,42 @@ fn a_pseudonym_that_is_over_is_passed_over() {
     let only_later = vec![tickets[2].clone()];
     let none = Station::new(pki.trust(), only_later, Tolerances::default(), NOW);
     assert_eq!(none.unwrap_err(), Unsigned::NoValidTicket);
+}
+
+/// A key in a token that can be removed. The token tells points and signatures as octets.
+#[derive(Debug)]
+struct Removable(p256::ecdsa::SigningKey, Arc<AtomicBool>);
+
+const REMOVED: KeyFailure = KeyFailure("the token was removed");
+
+impl SigningKey for Removable {
+    fn public_key(&self) -> PublicKey {
+        let point = self.0.verifying_key().to_sec1_point(false);
+        PublicKey::of_sec1(point.as_bytes()).unwrap()
+    }
+
+    fn sign(&self, digest: &[u8; 32]) -> Result<Signature, KeyFailure> {
+        if !self.1.load(Ordering::Relaxed) {
+            return Err(REMOVED);
+        }
+        let signature: p256::ecdsa::Signature = self.0.sign_prehash(digest).unwrap();
+        Ok(Signature::of_octets(&signature.to_bytes().into()).unwrap())
+    }
+}
+
+#[test]
+fn a_key_that_lies_elsewhere_signs_while_it_is_there() {
+    let (pki, is_there) = (Pki::new(1), Arc::new(AtomicBool::new(true)));
+    let certificate = pki.ticket(10, &ticket_terms()).certificate().clone();
+    let ticket = Ticket::new(
+        certificate,
+        Removable(forge::key(10), Arc::clone(&is_there)),
+    );
+    let tickets = vec![ticket.unwrap()];
+    let mut sender = Station::new(pki.trust(), tickets, Tolerances::default(), NOW).unwrap();
+    let envelope = sender.seal(NOW, RAM, PAYLOAD).unwrap();
+    assert!(hear(&mut pki.station(20), NOW, &envelope).is_ok());
+    is_there.store(false, Ordering::Relaxed);
+    let sealed = sender.seal(after_ms(100), RAM, PAYLOAD);
+    assert_eq!(sealed, Err(Unsigned::Key(REMOVED)));
 }
