@@ -9,7 +9,6 @@ use crossguard_codec::security::Time64;
 use crossguard_codec::{Identifiers, Identity, RoadUser, Service};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::counters::Counters;
-use crossguard_endpoint::station::LocalDynamicMap;
 use crossguard_endpoint::station::listen::{overhear, peek};
 use crossguard_endpoint::station::{Unobserved, service_of};
 use serde::Serialize;
@@ -48,11 +47,10 @@ pub struct Seen {
     pub message: Option<ItsMessage>,
 }
 
-/// Listens in, and remembers who is around.
+/// Reads one packet after the other.
 #[derive(Clone, Debug, Default)]
 pub struct Sniffer {
     identifiers: Identifiers,
-    map: LocalDynamicMap,
     counters: Counters,
     signatures: Signatures,
     began_ms: Option<u64>,
@@ -79,12 +77,6 @@ impl Sniffer {
         self
     }
 
-    /// Who is around.
-    #[must_use]
-    pub const fn map(&self) -> &LocalDynamicMap {
-        &self.map
-    }
-
     /// How often each kind of message was seen, and what could not be read.
     #[must_use]
     pub const fn counters(&self) -> &Counters {
@@ -97,7 +89,6 @@ impl Sniffer {
         let began_ms = *self.began_ms.get_or_insert(now_ms);
         #[expect(clippy::cast_precision_loss, reason = "centuries of milliseconds fit")]
         let at_s = now_ms.saturating_sub(began_ms) as f64 / 1e3;
-        self.map.forget(now_ms);
         // No signature is trusted by a clock that goes back.
         let is_late = (1..=DISORDER_MS).contains(&self.newest_its.saturating_sub(now_its));
         let now_its = if is_late { self.newest_its } else { now_its };
@@ -120,7 +111,7 @@ impl Sniffer {
             event: None,
             message: None,
         };
-        if let Err((cause, text)) = self.read(packet, now_ms, now_its, &mut seen) {
+        if let Err((cause, text)) = self.read(packet, now_its, &mut seen) {
             self.counters.count(cause);
             seen.text = text;
         }
@@ -130,7 +121,6 @@ impl Sniffer {
     fn read(
         &mut self,
         packet: &[u8],
-        now_ms: u64,
         now_its: u64,
         seen: &mut Seen,
     ) -> Result<(), (Cause, String)> {
@@ -164,9 +154,6 @@ impl Sniffer {
         seen.station = Some(message.header().station_id.0);
         seen.road_users = message.road_users(now_its);
         seen.event = message.event();
-        for user in &seen.road_users {
-            self.map.observe(*user, now_ms);
-        }
         seen.text = self.describe(&message, octets, &headers, &seen.road_users);
         if is_partly_read {
             seen.text.push_str(", and parts that are not read");

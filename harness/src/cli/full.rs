@@ -29,7 +29,7 @@ pub(super) enum Command {
     Export(export::Arguments),
     /// Repeat the paper's evaluation: coverage and channel load on a grid of streets.
     Simulate(Box<simulate::Arguments>),
-    /// Print what is on the channel, one line per message, live or from a pcap file.
+    /// Print what is in a capture, one line per message.
     Sniff(sniff::Arguments),
     /// Convert messages between octets and JSON.
     #[command(subcommand)]

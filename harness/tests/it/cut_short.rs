@@ -19,7 +19,6 @@ demo --speed 1 --port PORT --log log --json | 500 ms -TERM = 3 | "stopped": true
 check team-of-four pair --json --threads 1          | 2000 ms -INT = 3  | "exhaustive": false; "cutOff": "stopped"
 fuzz --seeds 1000000 --threads 1 --json --out out   | 2000 ms -TERM = 3 | "seeds":
 simulate cbr --set threads=1 --json --csv csv | 1000 ms -INT = 3 | "cells": []; cells with fewer seeds than asked for are left out | csv
-sniff --address 127.0.0.1:0                         | 1000 ms -TERM = 0 |
 studio --no-browser --port 0                        | 1000 ms -INT = 0  | in a browser; Ctrl-C ends it
 conform --config Go2.toml --start START --typed --json | 5000 ms -TERM = 3 | "played":
 "#;

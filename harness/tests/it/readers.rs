@@ -141,9 +141,8 @@ fn a_sniffer_sees_both_robots(of: &Run, seen: &[Value]) {
         "needHelp, 1#",
         "offerHelp",
         "leader of station 2, 1#",
-        "around: robot station 2",
+        "load: RAM ",
     ]);
-    assert_eq!(of.sniffed("--count 3").len(), 3);
 }
 
 fn signatures_are_verified_where_roots_are_given(of: &Run, seen: &[Value]) {
