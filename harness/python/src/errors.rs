@@ -7,7 +7,6 @@ import_exception!(crossguard.errors, BootError);
 import_exception!(crossguard.errors, BrokenInequality);
 import_exception!(crossguard.errors, DecodeError);
 import_exception!(crossguard.errors, EncodeError);
-import_exception!(crossguard.errors, ScenarioError);
 import_exception!(crossguard.errors, UnreadableLog);
 
 /// Settings break an inequality.

@@ -7,7 +7,6 @@
 //!        ├─► robot ──────► crossguard_protocol::Robot::step
 //!        ├─► endpoint ───► crossguard_endpoint::endpoint, trace
 //!        ├─► codec ──────► crossguard_judge::readable
-//!        ├─► check ──────► crossguard_model_check
 //!        └─► validate ───► crossguard_judge::validate
 //! ```
 //!
@@ -18,7 +17,6 @@
 use pyo3::prelude::*;
 
 mod boot;
-mod check;
 mod codec;
 mod endpoint;
 mod errors;
@@ -33,8 +31,6 @@ mod validate;
 mod _crossguard {
     #[pymodule_export]
     use crate::boot::Boot;
-    #[pymodule_export]
-    use crate::check::{Report, check, scenarios};
     #[pymodule_export]
     use crate::codec::{decode, encode};
     #[pymodule_export]

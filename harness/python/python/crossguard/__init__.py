@@ -3,8 +3,7 @@
 - `Robot` is the state machine alone: `robot.step(input)` gives what is to be done, in order.
 - `Endpoint` is a whole robot: with its packets, sending rules, counters and log.
 - `decode` and `encode` turn messages and packets into dictionaries and back.
-- `check` has the model checker exhaust a scenario, `validate` tells whether logs are of something that
-  could have happened.
+- `validate` tells whether logs are of something that could have happened.
 
 `inputs`, `events`, `outputs`, `notices`, `reasons`, `messages`, `phases`, `timers`, `types` and `body`
 have what goes in and comes out, as frozen dataclasses that `match` takes apart. All rules are in Rust;
@@ -14,7 +13,6 @@ there is none in Python.
 from . import body, events, inputs, messages, notices, outputs, phases, reasons, timers, types
 from ._crossguard import Boot, __version__
 from .body import Measurement, Position, RobotState, TaskParameters
-from .checking import Progress, Property, Report, Verdict, check, scenarios
 from .codec import decode, encode
 from .config import Config, Identifiers, MessageIdentifiers
 from .endpoint import Endpoint, Moment
@@ -23,7 +21,6 @@ from .errors import (
     BrokenInequality,
     DecodeError,
     EncodeError,
-    ScenarioError,
     UnreadableLog,
 )
 from .robot import Robot
@@ -47,13 +44,9 @@ __all__ = [
     "MessageIdentifiers",
     "Moment",
     "Position",
-    "Progress",
-    "Property",
-    "Report",
     "Robot",
     "RobotState",
     "Role",
-    "ScenarioError",
     "State",
     "TaskParameters",
     "TaskSet",
@@ -62,10 +55,8 @@ __all__ = [
     "Urgency",
     "Validated",
     "Validation",
-    "Verdict",
     "__version__",
     "body",
-    "check",
     "decode",
     "encode",
     "events",
@@ -75,7 +66,6 @@ __all__ = [
     "outputs",
     "phases",
     "reasons",
-    "scenarios",
     "timers",
     "types",
     "validate",

@@ -1,26 +1,22 @@
 """The Rust side of the package, spoken to in JSON. Not for use: `crossguard` has all of it."""
 
-from collections.abc import Callable
 from os import PathLike
 from types import TracebackType
-from typing import Literal, final
+from typing import final
 
 __version__: str
 
 __all__ = [
     "Boot",
     "Endpoint",
-    "Report",
     "Robot",
     "__version__",
-    "check",
     "check_identifiers",
     "check_settings",
     "decode",
     "default_identifiers",
     "default_settings",
     "encode",
-    "scenarios",
     "shapes",
     "validate",
 ]
@@ -114,26 +110,11 @@ class Endpoint:
     @property
     def next_wakeup_ms(self) -> int: ...
 
-@final
-class Report:
-    @property
-    def has_failed(self) -> bool: ...
-    def json(self) -> str: ...
-    def chart(self, id: str, form: Literal["text", "mermaid"]) -> str | None: ...
-
 def default_settings() -> str: ...
 def check_settings(settings: str) -> None: ...
 def default_identifiers() -> str: ...
 def check_identifiers(identifiers: str) -> None: ...
 def decode(octets: bytes, dictionary: str) -> str: ...
 def encode(message: str) -> bytes: ...
-def scenarios() -> list[str]: ...
-def check(
-    name: str,
-    threads: int | None,
-    max_states: int | None,
-    timeout_s: float | None,
-    progress: Callable[[int, int, int | None], object],
-) -> Report: ...
 def validate(logs: list[tuple[str, str | None]]) -> str: ...
 def shapes() -> str: ...

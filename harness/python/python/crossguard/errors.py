@@ -40,10 +40,6 @@ class EncodeError(ValueError):
     """A dictionary is no message or packet, or has no encoding."""
 
 
-class ScenarioError(ValueError):
-    """A scenario cannot be used; the text names the file and the line."""
-
-
 class UnreadableLog(ValueError):
     """A log is empty, or has a line that is no record."""
 
