@@ -1,7 +1,7 @@
 """What other encoders make of the messages of this kit.
 
 Reads lines `TYPE HEX`. Each is decoded and encoded again by asn1tools from the kit's own modules, a CAM
-or DENM also by pycrate from the modules of release 1 that it brings along; what differs is an error. Then parts
+also by pycrate from the module of release 1 that it brings along; what differs is an error. Then parts
 of the decoded messages are exchanged, and the encodings of the results are printed in the same form,
 for the kit to decode. RAM and RMCM also go through the C codec that asn1c makes of the modules, if
 $CROSSGUARD_JUDGE_C names the folder with its converters. All of them run in processes of their own; no
@@ -20,11 +20,10 @@ import tempfile
 
 import asn1tools
 from pycrate_asn1dir.ITS_CAM_2 import CAM_PDU_Descriptions
-from pycrate_asn1dir.ITS_DENM_3 import DENM_PDU_Descriptions
 
 ASN1 = pathlib.Path(__file__).parent.parent / "asn1"
-MODULES = ["CDD", "Common", "VAM", "RAM", "RMCM", "CAM", "CPM", "CDD211", "DENM"]
-RELEASE_1 = {"CAM": CAM_PDU_Descriptions.CAM, "DENM": DENM_PDU_Descriptions.DENM}
+MODULES = ["CDD", "Common", "VAM", "RAM", "RMCM", "CAM", "CPM", "CDD211"]
+RELEASE_1 = {"CAM": CAM_PDU_Descriptions.CAM}
 
 
 def without_defaults(value):

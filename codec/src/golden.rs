@@ -2,7 +2,7 @@
 //!
 //! A file has a line `name: hexadecimal digits` for each vector; other lines are comments.
 
-/// CAM, DENM, CPM, and VAM of the older dictionary.
+/// CAM, CPM, and VAM of the older dictionary.
 pub const ITS: &str = include_str!("../tests/golden/its.txt");
 /// VAM of the dictionary v2.4.1.
 pub const VAM: &str = include_str!("../tests/golden/vam.txt");

@@ -1,11 +1,9 @@
-//! The messages of other stations: CAM, DENM, VAM and CPM, in the versions that are on the road.
+//! The messages of other stations: CAM, VAM and CPM, in the versions that are on the road.
 //!
 //! | message | standard | dictionary (TS 102 894-2) |
 //! |---|---|---|
 //! | [`CAM`] | TS 103 900 v2.3.1; EN 302 637-2 v1.4.1 has the same bits | v2.4.1 |
 //! | the same, `protocolVersion` 1 | EN 302 637-2 v1.3.2, read without the special vehicle container | v1.2.1 |
-//! | [`DENM`] | TS 103 831 v2.3.1; EN 302 637-3 v1.3.1 has the same bits | v2.4.1 |
-//! | the same, `protocolVersion` 1 | EN 302 637-3 v1.2.2, read without the à-la-carte container | v1.2.1 |
 //! | [`VAM`] | TS 103 300-3 v2.3.1 | v2.4.1 |
 //! | [`VAM211`] | TS 103 300-3 v2.2.1 | v2.1.1 |
 //! | [`CPM`] | TS 103 324 v2.1.1 | v2.4.1 or v2.1.1 |
@@ -14,13 +12,11 @@
 //! the stations on the channel use. They are read as rasn reads them: in every encoding of a value,
 //! also one that spells out a DEFAULT or has extension additions that this crate does not know, which
 //! [`Received::is_canonical`] tells. A value outside of its range is an error with its field. The extension containers of a CAM (two-wheelers, paths, lanes and the like, which release 2
-//! adds) are kept as the octets that they are on the wire, and not looked into. What release 2 adds to
-//! a DENM behind its extension markers is skipped like any unknown addition. Causes of
-//! events are named after release 2, which has 0 to 128; others, which only release 1 can tell, are numbers.
+//! adds) are kept as the octets that they are on the wire, and not looked into.
+//!
+//! Not read are events (DENM): nothing that a robot does would follow from one.
 
-mod cause;
 mod cpm;
-mod event;
 mod release1;
 mod road_user;
 
@@ -29,7 +25,6 @@ use serde::{Deserialize, Serialize};
 use crate::asn1;
 use crate::asn1::cam::CAM;
 use crate::asn1::cdd211::VAM211;
-use crate::asn1::denm::DENM;
 use crate::asn1::vam::VAM;
 use crate::core::Fault;
 use crate::core::cdd::{ItsPduHeader, MessageId, OrdinalNumber1B, StationId};
@@ -41,16 +36,12 @@ use crate::message::sealed::Sealed;
 use crate::message::{Pdu, Received, decode, encode, header_of};
 use crate::size::MESSAGE_LEN_MAX;
 
-pub use cause::Cause;
 pub use cpm::{CPM, CpmContainer};
-pub use event::Event;
 
 /// `protocolVersion` and `messageId` of CAM.
 const CAM_HEADER: (u8, u8) = (2, 2);
-/// `protocolVersion` of CAM and DENM before 2018.
+/// `protocolVersion` of CAM before 2018.
 const RELEASE_1: u8 = 1;
-/// Those of DENM.
-const DENM_HEADER: (u8, u8) = (2, 1);
 /// Those of CPM.
 const CPM_HEADER: (u8, u8) = (2, 14);
 /// Those of VAM.
@@ -67,8 +58,6 @@ pub enum ItsMessage {
     Rmcm(Box<RMCM>),
     /// Cooperative awareness.
     Cam(Box<CAM>),
-    /// Notification of an event on the road.
-    Denm(Box<DENM>),
     /// Awareness of a vulnerable road user.
     Vam(Box<VAM>),
     /// The same on the dictionary v2.1.1.
@@ -99,17 +88,13 @@ impl ItsMessage {
             (id, _) if id == CAM_HEADER.1 && is_release_1 => {
                 Ok(release1::cam(octets)?.map(Box::new).map(Self::Cam))
             }
-            (id, _) if id == DENM_HEADER.1 && is_release_1 => {
-                Ok(release1::denm(octets)?.map(Box::new).map(Self::Denm))
-            }
             (id, _) if id == CAM_HEADER.1 => of(identifiers, octets, Self::Cam),
-            (id, _) if id == DENM_HEADER.1 => of(identifiers, octets, Self::Denm),
             (id, _) if id == CPM_HEADER.1 => of(identifiers, octets, Self::Cpm),
             (id, Dictionary::V2_4_1) if id == VAM_HEADER.1 => of(identifiers, octets, Self::Vam),
             (id, Dictionary::V2_1_1) if id == VAM_HEADER.1 => of(identifiers, octets, Self::Vam211),
             _ => Err(DecodeError::MessageId {
                 found,
-                expected: "RAM, RMCM, CAM, DENM, VAM or CPM",
+                expected: "RAM, RMCM, CAM, VAM or CPM",
             }),
         }
     }
@@ -123,7 +108,6 @@ impl ItsMessage {
             Self::Ram(ram) => encode(identifiers, &**ram),
             Self::Rmcm(rmcm) => encode(identifiers, &**rmcm),
             Self::Cam(cam) => encode(identifiers, &**cam),
-            Self::Denm(denm) => encode(identifiers, &**denm),
             Self::Vam(vam) => encode(identifiers, &**vam),
             Self::Vam211(vam) => encode(identifiers, &**vam),
             Self::Cpm(cpm) => encode(identifiers, &**cpm),
@@ -137,7 +121,6 @@ impl ItsMessage {
             Self::Ram(ram) => ram.header(),
             Self::Rmcm(rmcm) => rmcm.header(),
             Self::Cam(cam) => cam.header(),
-            Self::Denm(denm) => denm.header(),
             Self::Vam(vam) => vam.header(),
             Self::Vam211(vam) => vam.header(),
             Self::Cpm(cpm) => cpm.header(),
@@ -153,17 +136,11 @@ impl ItsMessage {
             Self::Cam(cam) if cam.header.protocol_version.0 == RELEASE_1 => {
                 "EN 302 637-2 v1.3.2 on TS 102 894-2 v1.2.1"
             }
-            Self::Denm(denm) if denm.header.protocol_version.0 == RELEASE_1 => {
-                "EN 302 637-3 v1.2.2 on TS 102 894-2 v1.2.1"
-            }
             Self::Cam(cam) if cam.cam.cam_parameters.extension_containers.is_some() => {
                 "TS 103 900 v2.3.1 on TS 102 894-2 v2.4.1"
             }
             Self::Cam(_) => {
                 "EN 302 637-2 v1.4.1 and TS 103 900 v2.3.1, which have the same bits here"
-            }
-            Self::Denm(_) => {
-                "EN 302 637-3 v1.3.1 and TS 103 831 v2.3.1, which have the same bits here"
             }
             Self::Vam(_) => "TS 103 300-3 v2.3.1 on TS 102 894-2 v2.4.1",
             Self::Vam211(_) => "TS 103 300-3 v2.2.1 on TS 102 894-2 v2.1.1",
@@ -242,7 +219,6 @@ macro_rules! by_rasn {
 }
 
 by_rasn!(CAM, "CAM", CAM_HEADER);
-by_rasn!(DENM, "DENM", DENM_HEADER);
 by_rasn!(VAM, "VAM", VAM_HEADER);
 by_rasn!(VAM211, "VAM", VAM_HEADER);
 pdu!(CPM, "CPM", CPM_HEADER);

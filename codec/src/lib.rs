@@ -18,7 +18,7 @@
 //!   is an error that names the field. [`encode_into`] writes to a buffer of the caller's.
 //! - [`asn1`] has the types that rasn makes of the modules: the reference that the core is compared
 //!   with, and what the core does not have.
-//! - [`its`] has the messages of other stations: CAM, DENM, VAM and CPM. These are read in every
+//! - [`its`] has the messages of other stations: CAM, VAM and CPM. These are read in every
 //!   encoding that their senders choose, and [`Received::is_canonical`] tells.
 //! - [`si`] converts physical quantities, and saturates.
 //! - [`ram_from`], [`view_of_ram`], [`rmcm_from_commands`], [`rmcm_from_answer`] and [`views_of_rmcm`]

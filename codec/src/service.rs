@@ -31,7 +31,8 @@ named! {
 
 impl Service {
     /// Messages that the kit names and does not decode, by their BTP-B ports (TS 103 248, table 2).
-    pub const FOREIGN: [(u16, &str); 7] = [
+    pub const FOREIGN: [(u16, &str); 8] = [
+        (2_002, "DENM"),
         (2_003, "MAPEM"),
         (2_004, "SPATEM"),
         (2_005, "SAEM"),

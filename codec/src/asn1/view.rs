@@ -1,9 +1,9 @@
 //! Serde views of types that rasn gives none: bit and octet strings as hexadecimal text, as in the JSON
-//! encoding rules (ITU-T X.697), character strings as text, and extensible integers as numbers.
+//! encoding rules (ITU-T X.697), and extensible integers as numbers.
 
 use std::fmt::Write as _;
 
-use rasn::types::{BitString, FixedBitString, Ia5String, Integer, NumericString, OctetString};
+use rasn::types::{BitString, FixedBitString, Integer, OctetString};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -83,19 +83,6 @@ text! {
     |octets| to_hex(BitString::from_slice(octets).iter().by_vals()),
     |text| from_hex(text, text.len() * 4).map(|bits| bits.into_vec().into())
 }
-text! {
-    /// ASCII.
-    ia5, Ia5String,
-    |text| String::from_utf8_lossy(text.as_iso646_bytes()).into(),
-    |text| Ia5String::from_iso646_bytes(text.as_bytes())
-}
-text! {
-    /// Digits and spaces.
-    numeric, NumericString,
-    |text| String::from_utf8_lossy(text.as_bytes()).into(),
-    |text| NumericString::from_bytes(text.as_bytes())
-}
-
 /// A bit string of any size: `{"value": "80", "length": 1}`.
 pub(super) mod bits {
     use super::{BitString, Deserialize, Deserializer, Serialize, Serializer, from_hex, to_hex};

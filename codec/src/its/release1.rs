@@ -1,10 +1,10 @@
-//! CAM and DENM with `protocolVersion` 1: EN 302 637-2 v1.3.2 and EN 302 637-3 v1.2.2, on TS 102 894-2 v1.2.1.
+//! CAM with `protocolVersion` 1: EN 302 637-2 v1.3.2 on TS 102 894-2 v1.2.1.
 //!
-//! Their bits are those of version 2 but for three types, which are rewritten before rasn reads them: a `CurvatureValue`
-//! has 16 bits and the unit 1/30,000 per metre, a `CauseCode` has no extension marker, and `ClosedLanes` has other fields.
-//! The last parts, `specialVehicleContainer` and `alacarte`, have more of these; they and additions are left out.
+//! Its bits are those of version 2 but for three types: a `CurvatureValue` has 16 bits and the unit 1/30,000 per metre, which is
+//! rewritten before rasn reads it. `CauseCode` and `ClosedLanes` stand in the last part, `specialVehicleContainer`, alone, which is
+//! left out, and so are additions.
 
-use crate::asn1::{self, cam::CAM, denm::DENM};
+use crate::asn1::{self, cam::CAM};
 use crate::error::{DecodeError, FieldPath};
 use crate::message::Received;
 
@@ -16,14 +16,6 @@ const HIGH_FREQUENCY: usize = CAM_ENDS[0] + 3 + 9 + POSITION;
 const CURVATURE: usize = HIGH_FREQUENCY + 2 + 7 + 19 + 21 + 2 + 13 + 6 + 16;
 /// `ReferencePosition`.
 const POSITION: usize = 31 + 32 + 36 + 24;
-/// Presence bits of situation and à-la-carte container, behind the header.
-const SITUATION: usize = 48;
-const A_LA_CARTE: usize = 50;
-/// Extension marker of the management container, then its presence bits.
-const MANAGEMENT: usize = 51;
-/// The sizes of its optional fields.
-const OPTIONAL: [usize; 5] = [1, 3, 2, 17, 14];
-
 /// Reads a CAM of version 1.
 pub(super) fn cam(octets: &[u8]) -> Result<Received<CAM>, DecodeError> {
     let mut bits = Bits::of(octets);
@@ -41,34 +33,6 @@ pub(super) fn cam(octets: &[u8]) -> Result<Received<CAM>, DecodeError> {
         };
         let bit = |at: i32| (per_10_km + 1_023) >> (10 - at) & 1 == 1;
         bits.0.splice(CURVATURE..CURVATURE + 16, (0..11).map(bit));
-    }
-    read(&bits, is_cut)
-}
-
-/// Reads a DENM of version 1.
-pub(super) fn denm(octets: &[u8]) -> Result<Received<DENM>, DecodeError> {
-    let mut bits = Bits::of(octets);
-    if bits.has(MANAGEMENT) {
-        // None are known, and the situation would be behind them.
-        return Err(DecodeError::ProtocolVersion {
-            message: "DENM",
-            found: 1,
-            known: 2,
-        });
-    }
-    let is_cut = bits.clear(&[A_LA_CARTE]);
-    let optional = (MANAGEMENT + 1..).zip(OPTIONAL);
-    let optional: usize = optional
-        .filter(|(at, _)| bits.has(*at))
-        .map(|(_, size)| size)
-        .sum();
-    let situation = MANAGEMENT + 6 + 48 + 42 + 42 + POSITION + 8 + optional;
-    if bits.has(SITUATION) && situation + 40 <= bits.0.len() {
-        let (event_type, has_linked) = (situation + 6, bits.has(situation + 1));
-        bits.0.insert(event_type, false);
-        if has_linked {
-            bits.0.insert(event_type + 17, false);
-        }
     }
     read(&bits, is_cut)
 }
@@ -112,10 +76,6 @@ impl Bits {
             .iter()
             .flat_map(|octet| (0..8).rev().map(move |at| octet >> at & 1 == 1));
         Self(bits.collect())
-    }
-
-    fn has(&self, at: usize) -> bool {
-        self.0.get(at) == Some(&true)
     }
 
     /// Clears these; whether any was set.

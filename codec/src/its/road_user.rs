@@ -75,7 +75,7 @@ macro_rules! of_vam {
 
 impl ItsMessage {
     /// Who is on the road, as this message tells that is received at `now`, a `TimestampIts`: its
-    /// sender, unless it is a CPM, a DENM or an RMCM, the people that a RAM announces, and what a CPM
+    /// sender, unless it is a CPM or an RMCM, the people that a RAM announces, and what a CPM
     /// perceives, at most 255 objects. Nobody by a VAM that breaks a cluster up.
     #[must_use]
     pub fn road_users(&self, now: u64) -> Vec<RoadUser> {
@@ -94,7 +94,7 @@ impl ItsMessage {
                 )
                 .collect()
             }
-            Self::Rmcm(_) | Self::Denm(_) => Vec::new(),
+            Self::Rmcm(_) => Vec::new(),
             Self::Cam(cam) => vec![of_cam(cam, now)],
             Self::Vam(vam) => of_vam!(vam, now),
             Self::Vam211(vam) => of_vam!(vam, now),

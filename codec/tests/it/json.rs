@@ -8,7 +8,6 @@ use crossguard_codec::asn1;
 use crossguard_codec::asn1::cdd::{
     AltitudeConfidence, GeoPosition, PathPointPredicted, VruClusterProfiles,
 };
-use crossguard_codec::asn1::denm::DENM;
 use crossguard_codec::asn1::vam::VAM;
 use crossguard_codec::core::{Uper, ram::RAM, rmcm::RMCM};
 use crossguard_codec::{Identifiers, Message, RobotState, TaskParameters};
@@ -89,7 +88,6 @@ proptest! {
         keeps(&arbitrary::any::<asn1::ram::RAM>(seed));
         keeps(&arbitrary::any::<asn1::rmcm::RMCM>(seed));
         keeps(&arbitrary::foreign::<VAM>(seed));
-        keeps(&arbitrary::foreign::<DENM>(seed));
     }
 }
 

@@ -7,13 +7,12 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::support::core::{Random, octets_of};
-use crate::support::{arbitrary, flipped, from_hex, its_vectors, on, samples, to_hex};
-use crossguard_codec::asn1::denm::DENM;
+use crate::support::{flipped, from_hex, its_vectors, on, samples, to_hex};
 use crossguard_codec::core::{Uper, ram::RAM, rmcm::RMCM};
 use crossguard_codec::its::ItsMessage;
-use crossguard_codec::{Dictionary, Identifiers, encode};
+use crossguard_codec::{Dictionary, Identifiers};
 
-/// How many RAM, how many RMCM, and of how many DENM the ones that fit.
+/// How many RAM and how many RMCM.
 const MESSAGES: u64 = 2_000;
 
 /// Any RAM and RMCM, each as type and octets.
@@ -38,15 +37,6 @@ fn of_robots() -> Vec<(&'static str, Vec<u8>)> {
     messages.collect()
 }
 
-/// Any DENM that fits into a packet.
-fn of_events() -> Vec<(&'static str, Vec<u8>)> {
-    let identifiers = Identifiers::default();
-    let messages = (0..MESSAGES).map(arbitrary::foreign::<DENM>);
-    messages
-        .filter_map(|denm| Some(("DENM", encode(&identifiers, &denm).ok()?)))
-        .collect()
-}
-
 /// The golden vectors of other stations, and whatever they become by a flipped bit that is still a
 /// message without additions.
 fn of_others() -> Vec<(&'static str, Vec<u8>)> {
@@ -56,7 +46,6 @@ fn of_others() -> Vec<(&'static str, Vec<u8>)> {
             // C4 is of release 2, which pycrate does not know.
             b"C4" => continue,
             [b'C', _] => "CAM",
-            [b'D', _] => "DENM",
             [b'P', _] => "CPM",
             [b'V', ..] => "VAM",
             [b'W', _] => "VAM211",
@@ -86,7 +75,7 @@ fn asn1tools_and_pycrate_agree_byte_for_byte() {
         .stdout(Stdio::piped())
         .spawn()
         .unwrap();
-    let messages = [of_robots(), of_events(), of_others()].concat();
+    let messages = [of_robots(), of_others()].concat();
     let mut input = judge.stdin.take().unwrap();
     for (kind, octets) in &messages {
         writeln!(input, "{kind} {}", to_hex(octets)).unwrap();

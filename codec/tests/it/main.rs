@@ -3,7 +3,6 @@
 mod allocations;
 mod broken_vectors;
 mod core_laws;
-mod denm;
 mod differential;
 mod extensions;
 mod foreign;

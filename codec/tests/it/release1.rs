@@ -1,9 +1,8 @@
-//! CAM and DENM of `protocolVersion` 1. The vectors were written bit by bit from TS 102 894-2 v1.2.1, and Wireshark 4.0.17, whose
-//! dissectors `CAMv1` and `DENMv1` are made from ETSI's modules, reads the same values out of them.
+//! CAM of `protocolVersion` 1. The vectors were written bit by bit from TS 102 894-2 v1.2.1, and Wireshark 4.0.17, whose
+//! dissector `CAMv1` is made from ETSI's module, reads the same values out of them.
 
 use crate::support::{flips, from_hex};
 use crossguard_codec::asn1::cam::{CAM, HighFrequencyContainer};
-use crossguard_codec::asn1::denm::DENM;
 use crossguard_codec::its::ItsMessage;
 use crossguard_codec::{DecodeError, Identifiers};
 
@@ -11,10 +10,6 @@ use crossguard_codec::{DecodeError, Identifiers};
 const CAR: &str = "0102075bcd1503e8405a56bd962e173e60e0c80a0709b7743e00384122b68902908a83334bc75fffb00000b01f3bf82f8e70006380fa1fc17c73800310";
 /// The same with the container of an emergency vehicle.
 const EMERGENCY: &str = "0102075bcd1503e8605a56bd962e173e60e0c80a0709b7743e00384122b68902908a83334bc75fffb00000b01f3bf82f8e70006380fa1fc17c73800315f5f018";
-/// A risk of collision, linked to a stationary vehicle, with an event point and a trace.
-const EVENT: &str = "0101075bcd15c703ade68a80039437e06a7d050df81abe852b5ecb170b9f307064050384dbba1f4809603db61045e020200098004f1ce37019049c20900e03e77f05f1ce000c60";
-/// The same with the container of a stationary vehicle.
-const A_LA_CARTE: &str = "0101075bcd15e703ade68a80039437e06a7d050df81abe852b5ecb170b9f307064050384dbba1f4809603db61045e020200098004f1ce37019049c20900e03e77f05f1ce000c60382b6020";
 
 fn read(octets: &[u8]) -> Result<ItsMessage, DecodeError> {
     ItsMessage::decode(&Identifiers::default(), octets).map(|it| it.message)
@@ -23,13 +18,6 @@ fn read(octets: &[u8]) -> Result<ItsMessage, DecodeError> {
 fn cam(digits: &str) -> CAM {
     match read(&from_hex(digits)).unwrap() {
         ItsMessage::Cam(cam) => *cam,
-        other => panic!("{other:?}"),
-    }
-}
-
-fn denm(digits: &str) -> DENM {
-    match read(&from_hex(digits)).unwrap() {
-        ItsMessage::Denm(denm) => *denm,
         other => panic!("{other:?}"),
     }
 }
@@ -85,27 +73,8 @@ fn curvatures_of_release_1_are_brought_to_the_scale_of_version_2() {
 }
 
 #[test]
-fn a_denm_of_release_1_is_read_up_to_its_a_la_carte_container() {
-    let message = denm(EVENT);
-    assert_eq!(denm(A_LA_CARTE).denm, message.denm);
-    let event = read(&from_hex(EVENT)).unwrap().event().unwrap();
-    assert_eq!(
-        event.to_string(),
-        "collisionRisk (vulnerableRoadUser), 48.765432 9.123457, event 7 of station 123456789, for 600 s"
-    );
-    let json = serde_json::to_value(&message.denm).unwrap();
-    assert_eq!(json["situation"]["linkedCause"]["causeCode"], 94, "{json}");
-    assert_eq!(
-        json["situation"]["eventZone"][0]["eventPosition"]["deltaLongitude"],
-        20
-    );
-    assert_eq!(json["location"]["eventSpeed"]["speedValue"], 100);
-    assert_eq!(json["management"]["stationType"], 15);
-}
-
-#[test]
 fn octets_of_release_1_that_are_cut_off_or_flipped_are_read_or_refused() {
-    for digits in [CAR, EMERGENCY, EVENT, A_LA_CARTE] {
+    for digits in [CAR, EMERGENCY] {
         let octets = from_hex(digits);
         for length in 6..octets.len() - 9 {
             assert!(read(&octets[..length]).is_err(), "{digits}: {length}");
@@ -114,7 +83,6 @@ fn octets_of_release_1_that_are_cut_off_or_flipped_are_read_or_refused() {
             let _ = read(&flipped);
         }
         let longer = [&octets[..], &[0, 0]].concat();
-        let is_cut = [EMERGENCY, A_LA_CARTE].contains(&digits);
-        assert_eq!(read(&longer).is_ok(), is_cut, "{digits}");
+        assert_eq!(read(&longer).is_ok(), digits == EMERGENCY, "{digits}");
     }
 }

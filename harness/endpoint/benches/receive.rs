@@ -42,7 +42,6 @@ fn receive(c: &mut Criterion) {
     for (name, packet) in [
         ("RAM", ram()),
         ("CAM", packet(Service::Cam, golden::ITS, "C2")),
-        ("DENM", packet(Service::Denm, golden::ITS, "D1")),
         ("VAM", packet(Service::Vam, golden::VAM, "V11")),
         ("CPM", packet(Service::Cpm, golden::ITS, "P2")),
         ("garbage", vec![0xA5; 200]),

@@ -1,4 +1,4 @@
-//! RAM, RMCM, CAM, DENM, VAM and CPM on both dictionaries: what is accepted has a canonical encoding, which
+//! RAM, RMCM, CAM, VAM and CPM on both dictionaries: what is accepted has a canonical encoding, which
 //! is the encoding that it came in or is said not to be.
 #![no_main]
 

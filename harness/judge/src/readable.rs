@@ -8,7 +8,7 @@
 //! A signed packet is taken apart as well, with who signed it; what it takes to make one is not in JSON.
 
 use crossguard_codec::geonet::{BasicHeader, Discarded, GeonetError, Headers, NextHeader};
-use crossguard_codec::its::{Event, ItsMessage};
+use crossguard_codec::its::ItsMessage;
 use crossguard_codec::{DecodeError, EncodeError, Identifiers};
 use crossguard_endpoint::station::listen::peek;
 use serde::Serialize;
@@ -34,9 +34,6 @@ pub struct Decoded {
     /// Who signed the packet, and whether that was verified.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub signature: Option<Signature>,
-    /// What a DENM tells, in SI units and with the names of its causes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub event: Option<Event>,
     /// The message.
     pub message: ItsMessage,
 }
@@ -113,7 +110,6 @@ impl Decoded {
             standard: received.message.standard(),
             packet,
             signature: signatures.of(identifiers, octets, None),
-            event: received.message.event(),
             message: received.message,
         })
     }

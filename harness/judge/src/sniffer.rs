@@ -4,7 +4,7 @@
 
 use crossguard_codec::geonet::{BasicHeader, LongPositionVector};
 use crossguard_codec::geonet::{Headers, NextHeader, Transport};
-use crossguard_codec::its::{Event, ItsMessage};
+use crossguard_codec::its::ItsMessage;
 use crossguard_codec::security::Time64;
 use crossguard_codec::{Identifiers, Identity, RoadUser, Service};
 use crossguard_endpoint::cause::Cause;
@@ -22,7 +22,7 @@ use crate::signature::{Signature, Signatures};
 pub struct Seen {
     /// Seconds since the first packet.
     pub at_s: f64,
-    /// The name of its message, also of messages that are not decoded (MAPEM, SPATEM and the like), or `?`.
+    /// The name of its message, also of messages that are not decoded (DENM, MAPEM, SPATEM and the like), or `?`.
     pub kind: &'static str,
     /// The station that sent the message.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -39,9 +39,6 @@ pub struct Seen {
     /// Who is on the road, as the message tells.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub road_users: Vec<RoadUser>,
-    /// What happened on the road, as a DENM tells.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub event: Option<Event>,
     /// The whole message under its kind, with the names and numbers of its ASN.1 module, where it is decoded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub message: Option<ItsMessage>,
@@ -108,7 +105,6 @@ impl Sniffer {
             ),
             text: String::new(),
             road_users: Vec::new(),
-            event: None,
             message: None,
         };
         if let Err((cause, text)) = self.read(packet, now_its, &mut seen) {
@@ -126,15 +122,16 @@ impl Sniffer {
     ) -> Result<(), (Cause, String)> {
         let (headers, octets) =
             peek(packet).map_err(|why| (Cause::Discarded(why.cause()), why.to_string()))?;
-        if let Some(service) = Service::at_port(&self.identifiers, headers.port) {
-            seen.kind = service.name();
-        } else if let Some(name) = Service::foreign_at_port(headers.port) {
+        if let Some(name) = Service::foreign_at_port(headers.port) {
             seen.kind = name;
             // All begin with the same header.
             let station = octets.get(2..).and_then(<[u8]>::first_chunk);
             seen.station = station.map(|it| u32::from_be_bytes(*it));
             seen.text = place_of_packet(&headers.source);
             return Ok(());
+        }
+        if let Some(service) = Service::at_port(&self.identifiers, headers.port) {
+            seen.kind = service.name();
         }
         let message = ItsMessage::decode(&self.identifiers, octets);
         let message = message.map_err(|error| (Cause::from(&error), error.to_string()))?;
@@ -153,7 +150,6 @@ impl Sniffer {
         }
         seen.station = Some(message.header().station_id.0);
         seen.road_users = message.road_users(now_its);
-        seen.event = message.event();
         seen.text = self.describe(&message, octets, &headers, &seen.road_users);
         if is_partly_read {
             seen.text.push_str(", and parts that are not read");
@@ -186,7 +182,6 @@ impl Sniffer {
                 // The people around a robot.
                 parts.extend(users.iter().skip(1).map(cluster));
             }
-            ItsMessage::Denm(denm) => parts.push(Event::from(&**denm).to_string()),
             ItsMessage::Cpm(_) => {
                 parts.push(format!("{} objects", users.len()));
                 parts.push(place_of_packet(&headers.source));

@@ -31,12 +31,11 @@ def test_golden_messages(vector: dict[str, object]) -> None:
     assert encode(vector["message"]) == octets  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("name", ["G1", "G2"])
-def test_golden_packets(name: str) -> None:
-    packet = golden("packets.txt")[name]
+def test_golden_packet() -> None:
+    packet = golden("packets.txt")["G1"]
     decoded = decode(packet)
     assert decoded["octets"] == len(packet)
-    assert {"G1": "cam", "G2": "denm"}[name] in decoded["message"]
+    assert "cam" in decoded["message"]
     assert encode(decoded) == packet
 
 

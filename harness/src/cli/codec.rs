@@ -14,7 +14,7 @@ use super::{Failure, print, print_json};
 
 #[derive(clap::Subcommand)]
 pub(super) enum Command {
-    /// Print a message (RAM, RMCM, CAM, DENM, VAM, CPM) or a `GeoNetworking` packet with one as JSON.
+    /// Print a message (RAM, RMCM, CAM, VAM, CPM) or a `GeoNetworking` packet with one as JSON.
     #[command(after_help = EXAMPLES)]
     Decode {
         /// Read the message from this file; from standard input by default.

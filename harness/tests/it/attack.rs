@@ -44,7 +44,6 @@ fn garbage() -> Vec<Vec<u8>> {
     cut_short.truncate(50);
     let mut secured = a_ram(&good);
     secured[0] = 0x12;
-    let denm = hex::decode(golden::vector(golden::ITS, "D1")).unwrap();
     vec![
         Vec::new(),
         vec![1],
@@ -53,8 +52,8 @@ fn garbage() -> Vec<Vec<u8>> {
         vec![0x11; 1_900],
         cut_short,
         secured,
-        packet(77, Service::Denm, &denm),
         packet(77, Service::Denm, &good),
+        packet(77, Service::Cam, &good),
         packet(77, Service::Rmcm, &good),
         a_ram(&[1]),
         a_ram(&good[..good.len() / 2]),
@@ -73,10 +72,9 @@ fn of_others(n: u32) -> Vec<u8> {
         octets[2..6].copy_from_slice(&station.to_be_bytes());
         packet(station, service, &octets)
     };
-    match n % 4 {
+    match n % 3 {
         0 => send(Service::Cam, golden::ITS, "C2"),
-        1 => send(Service::Denm, golden::ITS, "D1"),
-        2 => send(Service::Vam, golden::VAM, "V11"),
+        1 => send(Service::Vam, golden::VAM, "V11"),
         _ => send(Service::Cpm, golden::ITS, "P2"),
     }
 }

@@ -158,15 +158,8 @@ fn messages_of_other_stations_and_whole_packets_survive_decoding_and_encoding() 
     for (file, name, kind, standard) in [
         (golden::ITS, "C4", "cam", "TS 103 900 v2.3.1"),
         (golden::ITS, "P2", "cpm", "TS 103 324 v2.1.1"),
-        (
-            golden::ITS,
-            "D1",
-            "denm",
-            "EN 302 637-3 v1.3.1 and TS 103 831",
-        ),
         (golden::VAM, "V11", "vam", "TS 103 300-3 v2.3.1"),
         (golden::PACKETS, "G1", "cam", "EN 302 637-2 v1.4.1"),
-        (golden::PACKETS, "G2", "denm", "EN 302 637-3 v1.3.1"),
     ] {
         let digits = golden::vector(file, name);
         let decoded = run(&["codec", "decode", "--hex", digits]);
@@ -175,7 +168,6 @@ fn messages_of_other_stations_and_whole_packets_survive_decoding_and_encoding() 
         assert!(value["message"][kind].is_object(), "{value}");
         assert!(value["standard"].as_str().unwrap().starts_with(standard));
         assert_eq!(value["packet"].is_object(), name.starts_with('G'));
-        assert_eq!(value["event"].is_object(), kind == "denm");
         let encoded = run_with(&["codec", "encode"], &decoded.stdout);
         assert_eq!(stdout(&encoded).trim(), digits, "{}", stderr(&encoded));
     }
@@ -204,17 +196,4 @@ fn a_batch_has_a_line_for_each_line_and_names_those_that_are_bad() {
     assert_code(&encoded, 2);
     let good = run_with(&["codec", "decode", "--batch"], one.as_bytes());
     assert_code(&good, 0);
-}
-
-#[test]
-fn what_has_a_default_need_not_be_given() {
-    let digits = golden::vector(golden::ITS, "D1");
-    let decoded = run(&["codec", "decode", "--hex", digits]);
-    let mut value = json(&decoded);
-    let management = &mut value["message"]["denm"]["denm"]["management"];
-    let management = management.as_object_mut().unwrap();
-    let given = management.remove("validityDuration");
-    assert_eq!(given, Some(600.into()));
-    let encoded = run_with(&["codec", "encode"], value.to_string().as_bytes());
-    assert_eq!(stdout(&encoded).trim(), digits, "{}", stderr(&encoded));
 }

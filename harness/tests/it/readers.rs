@@ -332,20 +332,6 @@ fn a_station_that_does_not_know_ram_sees_a_robot_that_sends_cam() {
 }
 
 #[test]
-fn a_denm_is_a_line_that_names_its_cause_and_place() {
-    let packet = hex::decode(golden::vector(golden::PACKETS, "G2")).unwrap();
-    let seen = Sniffer::new(Identifiers::default()).see(&packet, 5_000, 694_694_401_000);
-    assert_eq!(
-        seen.to_string(),
-        "    0.000  DENM  123456789   111 B  collisionRisk (vulnerableRoadUser), \
-         48.765432 9.123457, event 1 of station 123456789, for 600 s, geo-broadcast"
-    );
-    let json = serde_json::to_value(&seen).unwrap();
-    assert_eq!(json["event"]["cause"]["name"], "collisionRisk");
-    assert_eq!(json["event"]["number"], 1);
-}
-
-#[test]
 fn a_packet_that_is_not_decoded_has_the_name_of_its_message_or_a_reason() {
     let packet = hex::decode(golden::vector(golden::PACKETS, "G2")).unwrap();
     let mut sniffer = Sniffer::new(Identifiers::default());

@@ -15,8 +15,8 @@ use std::path::{Path, PathBuf};
 use crate::support::blessed;
 
 /// In the order of their imports.
-const MODULES: [&str; 9] = [
-    "CDD", "Common", "VAM", "RAM", "RMCM", "CAM", "CPM", "CDD211", "DENM",
+const MODULES: [&str; 8] = [
+    "CDD", "Common", "VAM", "RAM", "RMCM", "CAM", "CPM", "CDD211",
 ];
 
 fn module_paths() -> Vec<PathBuf> {

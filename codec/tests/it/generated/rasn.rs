@@ -66,8 +66,6 @@ fn with_serde_view(item: &str) -> String {
         ("BitString)", "bits"),
         ("Integer)", "integer"),
         ("OctetString)", "octets"),
-        ("Ia5String)", "ia5"),
-        ("NumericString)", "numeric"),
     ];
     for (inner, view) in views {
         if let Some((start, end)) = item.split_once(&format!("(pub {inner}")) {

@@ -62,14 +62,6 @@ impl Imagination {
         usize::try_from(self.within(min as i128, max as i128)).unwrap()
     }
 
-    /// A text of some of these characters.
-    fn text(&mut self, constraints: &Constraints, characters: &[char]) -> String {
-        let size = self.size(constraints);
-        (0..size)
-            .map(|_| characters[self.below(characters.len())])
-            .collect()
-    }
-
     #[expect(clippy::unused_self, reason = "as methods of the trait")]
     fn unused<T>(&self) -> Result<T> {
         Err(DecodeError::custom(
@@ -125,29 +117,6 @@ impl rasn::Decoder for Imagination {
     fn decode_bit_string(&mut self, _: Tag, constraints: &Constraints) -> Result<types::BitString> {
         let size = self.size(constraints);
         Ok((0..size).map(|_| self.flip()).collect())
-    }
-
-    fn decode_ia5_string(&mut self, _: Tag, constraints: &Constraints) -> Result<types::Ia5String> {
-        // DEL belongs to it as well, which pycrate 0.8.1 does not know.
-        let text = self.text(constraints, &['\0', ' ', '0', 'A', 'z', '~']);
-        Ok(types::Ia5String::from_iso646_bytes(text.as_bytes()).unwrap())
-    }
-
-    fn decode_numeric_string(
-        &mut self,
-        _: Tag,
-        constraints: &Constraints,
-    ) -> Result<types::NumericString> {
-        let text = self.text(constraints, &[' ', '0', '1', '5', '9']);
-        Ok(types::NumericString::from_bytes(text.as_bytes()).unwrap())
-    }
-
-    fn decode_utf8_string(
-        &mut self,
-        _: Tag,
-        constraints: &Constraints,
-    ) -> Result<types::Utf8String> {
-        Ok(self.text(constraints, &['a', 'Z', 'é', '語', '🚧']))
     }
 
     fn decode_sequence<const RC: usize, const EC: usize, D, DF, F>(
@@ -229,6 +198,9 @@ impl rasn::Decoder for Imagination {
     unused! {
         decode_any() -> types::Any;
         decode_object_identifier() -> types::ObjectIdentifier;
+        decode_ia5_string(&Constraints) -> types::Ia5String;
+        decode_numeric_string(&Constraints) -> types::NumericString;
+        decode_utf8_string(&Constraints) -> types::Utf8String;
         decode_visible_string(&Constraints) -> types::VisibleString;
         decode_general_string(&Constraints) -> types::GeneralString;
         decode_graphic_string(&Constraints) -> types::GraphicString;

@@ -87,6 +87,10 @@ pub(super) fn hear(
     arrived: Arrived<'_>,
 ) {
     let (service, octets) = (indication.service, indication.message);
+    if service == Service::Denm {
+        let why = "an event changes nothing that a robot does";
+        return turn.dropped(Cause::NoUse(service), &why, arrived.octets);
+    }
     let (ego, now_ms) = (turn.ego(), turn.moment().now_ms);
     let neighbours = &mut turn.around.neighbours;
     match neighbours.observe(me.station(), indication, &ego, now_ms) {
@@ -95,10 +99,6 @@ pub(super) fn hear(
                 turn.ignored(Cause::NotCanonical);
             }
             let message = received.message;
-            // An event is nobody for the map, and changes nothing that the robot does.
-            if let Some(event) = message.event() {
-                return turn.dropped(Cause::NoUse(service), &event, arrived.octets);
-            }
             let from = StationId(message.header().station_id.0);
             turn.understood(service, from, Arrived { octets, ..arrived });
         }

@@ -16,7 +16,6 @@ pub const fn service_of(message: &ItsMessage) -> Option<Service> {
         ItsMessage::Ram(_) => Service::Ram,
         ItsMessage::Rmcm(_) => Service::Rmcm,
         ItsMessage::Cam(_) => Service::Cam,
-        ItsMessage::Denm(_) => Service::Denm,
         ItsMessage::Vam(_) | ItsMessage::Vam211(_) => Service::Vam,
         ItsMessage::Cpm(_) => Service::Cpm,
         _ => return None,

@@ -15,7 +15,7 @@ from . import _crossguard
 
 
 def decode(octets: bytes, *, dictionary: str = "2.4.1") -> dict[str, Any]:
-    """What octets say: a RAM, RMCM, CAM, DENM, VAM or CPM, or a GeoNetworking packet with one.
+    """What octets say: a RAM, RMCM, CAM, VAM or CPM, or a GeoNetworking packet with one.
 
     `dictionary` is the version of the common data dictionary that VAM and CPM are built on, `2.4.1` or
     `2.1.1`: no header tells. The signature of a packet is not verified.
