@@ -32,7 +32,8 @@ use crate::error::{DecodeError, EncodeError, FieldPath};
 
 pub use generated::{
     crossguard_cam as cam, crossguard_cdd as cdd, crossguard_cdd211 as cdd211,
-    crossguard_common as common, crossguard_cpm as cpm, crossguard_ram as ram, crossguard_rmcm as rmcm, crossguard_vam as vam,
+    crossguard_common as common, crossguard_cpm as cpm, crossguard_ram as ram,
+    crossguard_rmcm as rmcm, crossguard_vam as vam,
 };
 
 /// A decoded value, and whether its encoding was the canonical one.

@@ -1,5 +1,6 @@
 //! The core and the reference, rasn, agree on every type of RAM and RMCM: on the octets of every value, and
-//! on which octets are a value. Where the core is stricter is listed at the end, each with its test.
+//! on which octets are a value. The laws of the core hold for the same values and octets. Where the core is stricter is listed at
+//! the end, each with its test.
 
 use std::fmt::Debug;
 
@@ -7,8 +8,23 @@ use crate::support::core::{Random, mutate, octets_of};
 use crate::support::{arbitrary, from_bits, to_bits};
 use crossguard_codec::asn1;
 use crossguard_codec::asn1::cdd as reference;
-use crossguard_codec::core::{Fault, Source, Uper, cdd, decode};
+use crossguard_codec::core::{Fault, Source, Uper, cdd, decode, laws};
 use proptest::prelude::*;
+
+/// More octets than any type has.
+const N: usize = 1_024;
+
+/// The laws of a value, which Kani proves of containers.
+fn laws_of_a_value<T: Uper>(random: &mut Random) {
+    let value = T::arbitrary(random);
+    laws::encode_then_decode_is_identity::<T, N>(&value);
+    laws::length_is_within_maximum::<T, N>(&value);
+    let length = octets_of(&value).len();
+    laws::truncated_is_an_error::<T, N>(&value, random.index(1, length));
+    for bit in 0..8 {
+        laws::padding_is_zero::<T, N>(&value, bit);
+    }
+}
 
 /// The octets of a value of the core are a value of the reference, with the same octets: its decoder
 /// encodes again and compares.
@@ -27,6 +43,8 @@ where
     T: Uper + Debug,
     R: rasn::Encode + rasn::Decode + Debug,
 {
+    laws::decode_is_total::<T>(octets);
+    laws::decode_then_encode_is_identity::<T, N>(octets);
     match (decode::<T>(octets), asn1::decode::<R>(octets)) {
         (Ok((value, extended)), Ok(reference)) => {
             assert_eq!(octets_of(&value), asn1::encode(&reference.value).unwrap());
@@ -65,7 +83,7 @@ fn additions(random: &mut Random) -> String {
 /// The octets of a value whose outermost extension bit is set, with additions behind it.
 fn extended<T: Uper>(random: &mut Random) -> Vec<u8> {
     let value = T::arbitrary(random);
-    let mut buffer = [0; 1_024];
+    let mut buffer = [0; N];
     let length = value
         .encode(crossguard_codec::core::Writer::new(&mut buffer))
         .position();
@@ -79,6 +97,7 @@ where
     R: rasn::Encode + rasn::Decode + Debug,
 {
     let random = &mut Random(seed);
+    laws_of_a_value::<T>(random);
     agree_on_a_value::<T, R>(random);
     let of_core = octets_of(&T::arbitrary(random));
     agree_on_octets::<T, R>(&mutate(of_core, random));
@@ -113,7 +132,7 @@ macro_rules! agreement {
     };
 }
 
-const CASES: u32 = 64;
+const CASES: u32 = 128;
 
 mod every_type {
     use super::{CASES, ProptestConfig, agree, proptest};

@@ -2,7 +2,6 @@
 
 mod allocations;
 mod broken_vectors;
-mod core_laws;
 mod differential;
 mod extensions;
 mod foreign;
