@@ -14,15 +14,13 @@
 //! - [`Headers::decode`] accepts what [`Headers::encode`] gives, whatever the reserved bits are: they are sent as zero and
 //!   ignored. The payload length is that of what follows. All integers are big-endian.
 //! - [`Stack`] makes whole packets of messages and messages of packets, without input and output. It
-//!   is an end point: it forwards nothing.
+//!   is an end point: it forwards nothing, and takes no geo-broadcast, since no message that it takes is sent by one.
 //! - [`ethernet`] frames a packet for a link that is no UDP socket.
 //!
 //! Without heap, but for what a security envelope takes.
 
-mod area;
 mod codec;
 mod discarded;
-mod duplicates;
 mod ego;
 mod envelope;
 mod error;
@@ -40,12 +38,11 @@ use serde::{Deserialize, Serialize};
 
 pub use codec::Encoded;
 pub use discarded::{Discarded, EnvelopeError};
-pub use duplicates::{Duplicates, NUMBERS_MAX, SOURCES_MAX};
 pub use ego::EgoPosition;
 pub use envelope::Envelope;
 pub use error::{GeonetError, HeaderField};
 pub use opened::{Admitted, Opened, Permits, Signer};
-pub use request::{Destination, Request};
+pub use request::Request;
 #[cfg(feature = "security")]
 pub use secured::{Demand, Secured, origin, station_of};
 pub use stack::{Indication, SendError, Stack};

@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geonet::{Destination, Lifetime, Request, TrafficClass};
+use crate::geonet::{Lifetime, Request, TrafficClass};
 use crate::identifiers::Identifiers;
 use crate::named;
 
@@ -97,7 +97,6 @@ impl Service {
             its_aid: self.its_aid(identifiers),
             traffic_class: TrafficClass::of_profile(profile),
             lifetime: Lifetime::of_milliseconds(1_000),
-            destination: Destination::Neighbours,
         }
     }
 }

@@ -37,15 +37,9 @@ pub enum Discarded {
         /// The ITS-AID in its envelope.
         its_aid: u32,
     },
-    /// The own station is not in its destination area, or does not know where it is.
-    #[error("its destination area is elsewhere")]
-    Elsewhere,
-    /// It has been received before.
-    #[error("packet {sequence_number} of its source has been received before")]
-    Duplicate {
-        /// Its number.
-        sequence_number: u16,
-    },
+    /// It is a geo-broadcast: no message that is taken here is sent so.
+    #[error("a geo-broadcast, by which no message is sent that is taken here")]
+    GeoBroadcast,
 }
 
 impl Discarded {
@@ -62,8 +56,7 @@ impl Discarded {
             Self::Namesake => "another station with the own station id",
             Self::UnknownPort(_) => "unknown port",
             Self::WrongPermission { .. } => "wrong permission for port",
-            Self::Elsewhere => "destination area elsewhere",
-            Self::Duplicate { .. } => "duplicate",
+            Self::GeoBroadcast => "geo-broadcast",
         }
     }
 }

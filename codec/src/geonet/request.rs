@@ -1,6 +1,6 @@
-//! How a message is to be sent.
+//! How a message is to be sent: by single-hop broadcast, to everybody who hears it.
 
-use super::{Area, Lifetime, TrafficClass};
+use super::{Lifetime, TrafficClass};
 
 /// How a message is to be sent.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -15,20 +15,4 @@ pub struct Request {
     pub traffic_class: TrafficClass,
     /// How long the packet may live.
     pub lifetime: Lifetime,
-    /// Its destination.
-    pub destination: Destination,
-}
-
-/// Destination of a message.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Destination {
-    /// Everybody who hears it: single-hop broadcast.
-    Neighbours,
-    /// Everybody in an area: geo-broadcast.
-    Area {
-        /// The area.
-        area: Area,
-        /// Over how many hops, at least 1; `itsGnDefaultHopLimit` is 10.
-        hop_limit: u8,
-    },
 }

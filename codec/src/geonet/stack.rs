@@ -2,16 +2,16 @@
 //!
 //! ```text
 //!   message, port, ego position ──► headers ──► envelope ──► packet
-//!   packet ──► basic header ──► headers ──► service ──► area ──► signature ──► duplicates ──► message, source
-//!                   └────────────┴────────────┴──────────┴──────────┴─────────────┴──► Discarded
+//!   packet ──► basic header ──► headers ──► service ──► signature ──► message, source
+//!                   └────────────┴────────────┴────────────┴──► Discarded
 //! ```
 
 use crossguard_protocol::StationId;
 
 use super::{
-    Address, Admitted, BASIC_LEN, BasicHeader, Destination, Discarded, Duplicates, EgoPosition,
-    Envelope, EnvelopeError, GeonetError, HEADERS_LEN_MAX, Headers, LongPositionVector, NextHeader,
-    PACKET_LEN_MAX, Permits, Request, Signer, Transport,
+    Address, Admitted, BASIC_LEN, BasicHeader, Discarded, EgoPosition, Envelope, EnvelopeError,
+    GeonetError, HEADERS_LEN_MAX, Headers, LongPositionVector, NextHeader, PACKET_LEN_MAX, Permits,
+    Request, Signer, Transport,
 };
 use crate::identifiers::Identifiers;
 use crate::service::Service;
@@ -71,8 +71,6 @@ pub struct Stack {
     identifiers: Identifiers,
     address: Address,
     envelope: Envelope,
-    next_sequence_number: u16,
-    duplicates: Duplicates,
     sent: Sent,
 }
 
@@ -112,8 +110,6 @@ impl Stack {
             identifiers,
             address,
             envelope,
-            next_sequence_number: 0,
-            duplicates: Duplicates::default(),
             sent: Sent {
                 hashes: [0; SENT],
                 next: 0,
@@ -145,11 +141,9 @@ impl Stack {
         &mut self.envelope
     }
 
-    /// Goes by another address from now on, after a change of pseudonym. Geo-broadcasts are numbered
-    /// from `sequence_number` on, which should be random.
-    pub const fn change_address(&mut self, address: Address, sequence_number: u16) {
+    /// Goes by another address from now on, after a change of pseudonym.
+    pub const fn change_address(&mut self, address: Address) {
         self.address = address;
-        self.next_sequence_number = sequence_number;
     }
 
     /// Puts a message into a packet at the front of `packet`, and tells how long it is.
@@ -218,27 +212,15 @@ impl Stack {
         Ok(packet[..length].to_vec())
     }
 
-    fn headers(&mut self, ego: &EgoPosition, request: &Request) -> Headers {
-        let (transport, hop_limit) = match request.destination {
-            Destination::Neighbours => (Transport::SingleHop { media: [0; 4] }, 1),
-            Destination::Area { area, hop_limit } => {
-                let sequence_number = self.next_sequence_number;
-                self.next_sequence_number = sequence_number.wrapping_add(1);
-                let transport = Transport::GeoBroadcast {
-                    sequence_number,
-                    area,
-                };
-                (transport, hop_limit)
-            }
-        };
+    fn headers(&self, ego: &EgoPosition, request: &Request) -> Headers {
         Headers {
             lifetime: request.lifetime,
-            remaining_hop_limit: hop_limit,
-            maximum_hop_limit: hop_limit,
+            remaining_hop_limit: 1,
+            maximum_hop_limit: 1,
             traffic_class: request.traffic_class,
             is_mobile: true,
             source: ego.vector(self.address),
-            transport,
+            transport: Transport::SingleHop { media: [0; 4] },
             port: request.port,
             port_info: request.port_info,
         }
@@ -273,7 +255,6 @@ impl Stack {
         let take_apart = |plain, its_aid| -> Result<Admitted<'a>, Discarded> {
             let (headers, message) = Headers::decode_behind(basic, plain)?;
             let service = admit(&identifiers, own, &headers, its_aid)?;
-            check_area(ego, &headers)?;
             Ok(Admitted {
                 headers,
                 service,
@@ -296,8 +277,6 @@ impl Stack {
             service,
             message,
         } = admitted;
-        // Remembered last: what nobody vouches for must not stand in the way of the packet with this number.
-        self.check_duplicate(ego, &headers)?;
         Ok(Indication {
             service,
             message,
@@ -306,21 +285,6 @@ impl Stack {
             signer: opened.map(|opened| opened.signer),
             permits: opened.map_or(Permits::EVERYTHING, |opened| opened.permits),
         })
-    }
-
-    /// Whether a packet is new, as far as its kind has numbers.
-    fn check_duplicate(&mut self, ego: &EgoPosition, headers: &Headers) -> Result<(), Discarded> {
-        let Transport::GeoBroadcast {
-            sequence_number, ..
-        } = headers.transport
-        else {
-            return Ok(());
-        };
-        let (address, now_ms) = (headers.source.address, ego.timestamp_its);
-        if self.duplicates.check(address, sequence_number, now_ms) {
-            return Err(Discarded::Duplicate { sequence_number });
-        }
-        Ok(())
     }
 }
 
@@ -335,27 +299,15 @@ fn admit(
     if source.address == own {
         return Err(Discarded::OwnPacket);
     }
+    if let Transport::GeoBroadcast { .. } = headers.transport {
+        return Err(Discarded::GeoBroadcast);
+    }
     let service = Service::at_port(identifiers, port).ok_or(Discarded::UnknownPort(port))?;
     match its_aid {
         Some(its_aid) if its_aid != service.its_aid(identifiers) => {
             Err(Discarded::WrongPermission { port, its_aid })
         }
         _ => Ok(service),
-    }
-}
-
-/// Whether the own station is where a packet is for.
-fn check_area(ego: &EgoPosition, headers: &Headers) -> Result<(), Discarded> {
-    let Transport::GeoBroadcast { area, .. } = headers.transport else {
-        return Ok(());
-    };
-    let is_here = ego
-        .coordinates
-        .is_some_and(|(latitude, longitude)| area.contains(latitude, longitude));
-    if is_here {
-        Ok(())
-    } else {
-        Err(Discarded::Elsewhere)
     }
 }
 

@@ -112,8 +112,7 @@ impl<P: StateMachine> Exchange<P> {
             Event::CommandManeuver { follower, task } => {
                 self.command(host, follower, task, TaskParameters::default())
             }
-            // Only geo-broadcasts are numbered, and robots send none.
-            Event::IdentityChanged(station, next) => self.change_identity(host, station, (next, 0)),
+            Event::IdentityChanged(station, next) => self.change_identity(host, station, next),
             event => self.step(host, Input::Local(event), None),
         }
     }
@@ -140,18 +139,18 @@ impl<P: StateMachine> Exchange<P> {
     }
 
     /// The robot goes by another station id and address. Its session and offer numbers begin at `next`, or go on
-    /// without one, and geo-broadcasts are numbered from `sequence_number` on.
+    /// without one.
     pub fn change_identity<H: Host>(
         &mut self,
         host: &mut H,
         station: StationId,
-        (next, sequence_number): (Option<UniqueNumber>, u16),
+        next: Option<UniqueNumber>,
     ) -> Outputs {
         let changed = Input::Local(Event::IdentityChanged(station, next));
         let outputs = self.step(host, changed, None);
         if outputs.ignored().is_none() {
             let address = Address::of_station(station.0, self.identifiers.robot_station_type);
-            self.stack.change_address(address, sequence_number);
+            self.stack.change_address(address);
         }
         outputs
     }

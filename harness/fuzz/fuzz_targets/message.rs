@@ -18,6 +18,5 @@ fuzz_target!(|octets: &[u8]| {
         let encoded = received.message.encode(&identifiers).unwrap();
         assert!(encoded == octets || received.extended > 0 || !received.is_canonical);
         let _ = received.message.road_users(694_694_401_000);
-        let _ = received.message.event().map(|event| event.to_string());
     }
 });

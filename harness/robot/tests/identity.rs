@@ -67,7 +67,7 @@ impl Liar {
     /// A packet with this message, from the address of a station.
     fn say(&mut self, now_ms: u64, service: Service, from: StationId, message: &[u8]) -> Vec<u8> {
         let address = Address::of_station(from.0, identifiers().robot_station_type);
-        self.0.change_address(address, 0);
+        self.0.change_address(address);
         let ego = EgoPosition {
             timestamp_its: EPOCH_ITS + now_ms,
             ..EgoPosition::default()

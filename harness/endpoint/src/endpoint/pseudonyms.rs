@@ -56,8 +56,7 @@ impl Pseudonyms {
         let (identifiers, robot) = (*exchange.identifiers(), exchange.robot().clone());
         let envelope = exchange.stack_mut().envelope_mut();
         if let Some(taken) = self.take(envelope, &identifiers, &ego, &robot, lock_ms) {
-            let numbers = (Some(taken.next), taken.sequence_number);
-            exchange.change_identity(turn, taken.station, numbers);
+            exchange.change_identity(turn, taken.station, Some(taken.next));
             turn.renew_clusters(taken.clusters);
             self.fall_silent(taken.station, now_ms);
         }

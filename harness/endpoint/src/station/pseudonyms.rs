@@ -17,7 +17,7 @@
 use std::collections::BTreeMap;
 
 use crossguard_codec::geonet::{EgoPosition, Envelope};
-use crossguard_codec::security::{HashedId8, keyed_digest, random_octets};
+use crossguard_codec::security::{keyed_digest, random_octets};
 use crossguard_codec::{Identifiers, Service};
 use crossguard_protocol::{Robot, StationId, UniqueNumber};
 
@@ -95,8 +95,6 @@ pub(crate) struct Taken {
     pub(crate) station: StationId,
     /// Where its session and offer numbers begin.
     pub(crate) next: UniqueNumber,
-    /// The number of its first geo-broadcast.
-    pub(crate) sequence_number: u16,
     /// What the ids of its clusters follow from.
     pub(crate) clusters: u64,
 }
@@ -144,8 +142,7 @@ impl Pseudonyms {
         let longer = period_ms.and_then(|period_ms| {
             secured.renew_pseudonym(ego, true, lock_ms.saturating_add(period_ms))
         });
-        let pseudonym =
-            longer.or_else(|| secured.renew_pseudonym(ego, period_ms.is_some(), lock_ms))?;
+        longer.or_else(|| secured.renew_pseudonym(ego, period_ms.is_some(), lock_ms))?;
         let before = robot.station();
         let boot = self.secret.boot(before, robot.boot());
         self.numbers.insert(before, robot.next_number());
@@ -153,7 +150,6 @@ impl Pseudonyms {
         Some(Taken {
             station,
             next: self.next(station, boot),
-            sequence_number: sequence_number(pseudonym),
             clusters: self.secret.clusters(station, boot),
         })
     }
@@ -206,12 +202,6 @@ impl Pseudonyms {
     pub(crate) fn epoch(&self, station: StationId, boot: u16) -> u16 {
         self.secret.epoch(station, boot)
     }
-}
-
-/// The number of the first geo-broadcast under a pseudonym.
-const fn sequence_number(pseudonym: HashedId8) -> u16 {
-    let [.., a, b] = pseudonym.0;
-    u16::from_be_bytes([a, b])
 }
 
 #[cfg(test)]
