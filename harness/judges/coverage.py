@@ -3,33 +3,40 @@
 Usage: python3 coverage.py TRACES... < results of `crossguard simulate obs --json`
        python3 coverage.py NET.xml FCD.xml... < results of the same with --net and --fcd
 
-Every cell of the results has to agree within 0.1 percentage points with what is computed here from the
-trace file with the same number of people, the share of the covered time at intersections as well. Robots stand where the results' parameters say. The paper's
-robots, that is: one per intersection, which stand. On a net they stand at its intersections or are where --robots-at had
-them. Confidence intervals, and the verdicts on coverage, are computed anew as well.
+Every cell of the results has to agree within 0.00001 percentage points with what is computed here from the
+trace file with the same number of people, the share of the covered time at intersections as well. Robots stand where the results' parameters say: at
+the corners of the grid's intersections, on a net at its intersections, or where --robots-at had them. With dispatch_interval_s they go from there to
+where dispatch.py sends them. Robots on patrol are not judged. Confidence intervals, and the verdicts on coverage, are computed anew as well.
 """
 
 import json
 import sys
 
+from dispatch import dispatched
 from intervals import above, below, every, interval, less, within
-from traces import by_people, intersections, recorded, robots, scheduled, ways
+from traces import by_people, corners, intersections, recorded, scheduled, ways
 
-TOLERANCE = 0.1
+TOLERANCE = 0.00001
 # Section III-B of the paper.
 PEOPLE, LARGE, SMALL = (20, 50, 100), 15, 10
 
 
-def coverage(run, grid, at, radius):
+def coverage(run, parameters, cell):
     """Percent of the samples of all people that are within the radius of a robot; and of these, of those
     within 20 m of an intersection along both streets."""
+    grid, radius, places = parameters["grid"], cell["radius_m"], corners(parameters)
+    steps = [list(enumerate(there)) for there in zip(*ways(run))]
+    if "dispatch_interval_s" in parameters:
+        at = list(dispatched(parameters, cell, steps, places))
+    else:
+        at = [places[: cell["robots"]]] * len(steps)
     nodes = [index * grid["segment_m"] for index in range(grid["nodes_per_side"])]
     near = lambda metres: any(abs(metres - node) <= 20 for node in nodes)
     seen = seen_there = samples = 0
-    for way in ways(run):
-        for x, y in way:
+    for robots, people in zip(at, steps):
+        for _, (x, y) in people:
             samples += 1
-            if any((x - a) ** 2 + (y - b) ** 2 <= radius**2 for a, b in at):
+            if any((x - a) ** 2 + (y - b) ** 2 <= radius**2 for a, b in robots):
                 seen += 1
                 seen_there += near(x) and near(y)
     return 100 * seen / samples, 100 * seen_there / max(seen, 1)
@@ -38,9 +45,19 @@ def coverage(run, grid, at, radius):
 def on_a_net(parameters, cell, net, people):
     """Percent of the samples of a recording that are within the radius of a robot."""
     nodes, by_file = intersections(net), parameters.get("robots_at")
-    step_s, seen = parameters["sample_ms"] / 1000, 0
+    step_s, seen, sent = parameters["sample_ms"] / 1000, 0, []
+    if by_file:
+        nodes = [it["at"][0][1] for it in by_file]
+    if "dispatch_interval_s" in parameters:
+        # Who it is matters only where some people are hidden or have no device.
+        steps = [[] for _ in range(people[-1][0] + 1)]
+        for step, x, y in people:
+            steps[step].append((0, (x, y)))
+        sent = list(dispatched(parameters, cell, steps, nodes))
     for step, x, y in people:
-        if by_file:
+        if sent:
+            at = sent[step]
+        elif by_file:
             at = [scheduled(it["at"], step * step_s) for it in by_file[: cell["robots"]]]
         else:
             at = nodes[: cell["robots"]]
@@ -90,14 +107,14 @@ def main():
     for statement, outcome in verdicts(results["cells"]).items():
         if stated[statement] != outcome:
             sys.exit(f"{statement} is {stated[statement]}, but {outcome} by coverage.py")
-    site, worst, compared = results["parameters"]["robot_site"], 0, 0
+    worst, compared = 0, 0
     files = by_people(sys.argv[1:])
     for cell in results["cells"]:
         if cell["robots"] == 0:
             continue
         file = files[cell["pedestrians"]]
-        at = robots(file["grid"], site, cell["robots"])
-        runs = [coverage(run, file["grid"], at, cell["radius_m"]) for run in file["runs"]]
+        runs = [it for it in file["runs"] if it["seed"] in cell["seeds"]]
+        runs = [coverage(run, results["parameters"], cell) for run in runs]
         compared += 1
         for name, shares in zip(("obs_percent", "covered_at_intersections_percent"), zip(*runs)):
             found, expected = cell[name]["mean"], sum(shares) / len(shares)

@@ -41,6 +41,18 @@ def robots(grid, site, count):
     return [(x + east, y + north) for x, y in nodes[:count]]
 
 
+CLOCKWISE = ("south-west", "north-west", "north-east", "south-east")
+
+
+def corners(parameters):
+    """Where robots can be on a grid: at each intersection its first corner, then the opposite one, then those between."""
+    grid, site = parameters["grid"], parameters["robot_site"]
+    turns = (0, 2, 1, 3)[: parameters["robots_per_intersection"]]
+    sites = [CLOCKWISE[(CLOCKWISE.index(site) + it) % 4] if site in CLOCKWISE else site for it in turns]
+    by_site = [robots(grid, it, grid["nodes_per_side"] ** 2) for it in sites]
+    return [place for node in zip(*by_site) for place in node]
+
+
 def elements(path):
     """The elements of a file of SUMO, plain or packed."""
     with (gzip.open if path.endswith(".gz") else open)(path, "rb") as file:

@@ -89,6 +89,18 @@ impl Behaviour {
         }
     }
 
+    /// How many of so many people carry a device: the first ones.
+    #[must_use]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "a share of a few thousand"
+    )]
+    pub fn devices(&self, people: usize) -> usize {
+        (self.v2x_share * people as f64).round() as usize
+    }
+
     /// Whether no robot ever perceives this person, the `number`th from 0. The share is spread evenly.
     #[must_use]
     pub fn is_unseen(&self, number: u32) -> bool {

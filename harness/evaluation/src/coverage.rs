@@ -85,10 +85,28 @@ pub fn greedy(runs: &[Run], candidates: &[Point], radius_m: f64) -> Vec<(usize, 
         .flat_map(|run| &run.pedestrians)
         .flat_map(|track| track.samples().iter().map(|motion| motion.position_m))
         .collect();
-    let mut unseen = places.clone();
+    let (all, mut seen) = (places.len().max(1), 0);
+    let order = most_seen(places, candidates, radius_m, candidates.len()).into_iter();
+    let covered = order.map(|(index, gain)| {
+        seen += gain;
+        #[expect(clippy::cast_precision_loss, reason = "a few million")]
+        let covered = seen as f64 / all as f64;
+        (index, covered)
+    });
+    covered.collect()
+}
+
+/// At most so many of `candidates`, in the order in which each sees the most of these people that none before it sees, with how
+/// many these are. Of equals the first one is taken.
+pub(super) fn most_seen(
+    mut unseen: Vec<Point>,
+    candidates: &[Point],
+    radius_m: f64,
+    most: usize,
+) -> Vec<(usize, usize)> {
     let mut left: Vec<usize> = (0..candidates.len()).collect();
     let mut order = Vec::new();
-    while !left.is_empty() {
+    while !left.is_empty() && order.len() < most {
         let sees = |index: usize, place: &Point| distance_m(candidates[index], *place) <= radius_m;
         let gain = |index: usize| unseen.iter().filter(|place| sees(index, place)).count();
         let gains: Vec<usize> = left.iter().map(|&index| gain(index)).collect();
@@ -96,9 +114,7 @@ pub fn greedy(runs: &[Run], candidates: &[Point], radius_m: f64) -> Vec<(usize, 
         let best = gains.iter().position(|&it| it == most).unwrap_or(0);
         let index = left.remove(best);
         unseen.retain(|place| !sees(index, place));
-        #[expect(clippy::cast_precision_loss, reason = "a few million")]
-        let covered = 1.0 - unseen.len() as f64 / places.len().max(1) as f64;
-        order.push((index, covered));
+        order.push((index, gains[best]));
     }
     order
 }

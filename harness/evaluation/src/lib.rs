@@ -23,6 +23,7 @@ mod cam;
 pub mod coverage;
 mod crew;
 mod device;
+mod dispatch;
 pub mod fcd;
 pub mod grid;
 pub mod matrix;

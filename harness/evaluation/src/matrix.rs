@@ -84,7 +84,12 @@ pub struct CbrCell {
 
 /// Coverage in every cell, as long as `goes_on` says so; cells that were not reached are left out.
 #[must_use]
-pub fn obs(traces: &[Traces], axes: &Axes, goes_on: impl Fn() -> bool) -> Vec<ObsCell> {
+pub fn obs(
+    traces: &[Traces],
+    axes: &Axes,
+    behaviour: &Behaviour,
+    goes_on: impl Fn() -> bool,
+) -> Vec<ObsCell> {
     let mut cells = Vec::new();
     for traces in traces {
         for &robots in &axes.robots {
@@ -94,9 +99,9 @@ pub fn obs(traces: &[Traces], axes: &Axes, goes_on: impl Fn() -> bool) -> Vec<Ob
                 }
                 let (streets, sample_ms) = (&traces.streets, traces.sample_ms);
                 let runs = traces.runs.iter().take(axes.seeds).map(|run| {
-                    let ways =
-                        axes.stationing
-                            .robots(streets, robots, run.duration_ms(), sample_ms);
+                    let ways = axes
+                        .stationing
+                        .robots(traces, run, robots, radius_m, behaviour);
                     let found = places(run, streets, &ways, radius_m, sample_ms);
                     (100.0 * coverage(run, &ways, radius_m), found)
                 });
@@ -290,13 +295,12 @@ fn measure(
 ) -> Result<Done, RobotError> {
     let file = &traces[job.traces];
     let run = &file.runs[job.run];
-    let duration_ms = run.duration_ms();
     let robots = axes
         .stationing
-        .robots(&file.streets, job.robots, duration_ms, file.sample_ms);
+        .robots(file, run, job.robots, job.radius_m, behaviour);
     let mut behaviour = behaviour.clone();
     behaviour.clustering.radius_m = job.radius_m;
-    let (measured, silences) = simulate(run, duration_ms, &robots, &behaviour, sizes)?;
+    let (measured, silences) = simulate(run, run.duration_ms(), &robots, &behaviour, sizes)?;
     Ok(Done {
         measured,
         silences,

@@ -106,6 +106,27 @@ impl Schedule {
         Ok(robots)
     }
 
+    /// The robot with this number, from 0, which is at these places at these times.
+    pub(super) fn new(number: usize, at: Vec<(f64, Point)>) -> Self {
+        let robot = (number + 1).to_string();
+        Self { robot, at }
+    }
+
+    /// From now on it walks to this place instead of where it was to be: east or west first, then north or south.
+    pub(super) fn walk(&mut self, now_s: f64, to: Point, speed_mps: f64) {
+        let from = self.place_at(now_s);
+        self.at.retain(|(at_s, _)| *at_s < now_s);
+        self.at.push((now_s, from));
+        let (mut at_s, mut at) = (now_s, from);
+        for place in [[to[0], from[1]], to] {
+            at_s += distance_m(at, place) / speed_mps;
+            at = place;
+            if self.at.last().is_some_and(|last| last.0 < at_s) {
+                self.at.push((at_s, at));
+            }
+        }
+    }
+
     /// Whether it moves.
     #[must_use]
     pub fn moves(&self) -> bool {
@@ -114,7 +135,9 @@ impl Schedule {
             .any(|(_, place)| distance_m(*place, self.at[0].1) > 0.0)
     }
 
-    fn place_at(&self, time_s: f64) -> Point {
+    /// Where it is at a time in seconds from the beginning of the run.
+    #[must_use]
+    pub fn place_at(&self, time_s: f64) -> Point {
         let next = self.at.partition_point(|(at_s, _)| *at_s <= time_s);
         let before = self.at[next.saturating_sub(1)];
         let Some(after) = self.at.get(next).filter(|_| next > 0) else {

@@ -238,13 +238,7 @@ impl<'a> Simulation<'a> {
         behaviour: &'a Behaviour,
         sizes: &'a Sizes,
     ) -> Self {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            clippy::cast_precision_loss,
-            reason = "a share of a few thousand"
-        )]
-        let devices = (behaviour.v2x_share * run.pedestrians.len() as f64).round() as usize;
+        let devices = behaviour.devices(run.pedestrians.len());
         let vehicles = run.vehicles.iter().map(|track| Role::Vehicle {
             track,
             cadence: Cadence::default(),

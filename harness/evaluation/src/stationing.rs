@@ -3,10 +3,12 @@
 use crossguard_endpoint::ras::motion::Point;
 use serde::Serialize;
 
-use super::grid::{Grid, Site};
+use super::behaviour::Behaviour;
+use super::dispatch::Dispatch;
+use super::grid::Site;
 use super::net::Streets;
 use super::schedule::Schedule;
-use super::trace::Track;
+use super::trace::{Run, Traces, Track};
 
 /// The corners of an intersection clockwise, as a robot walks around it.
 const CLOCKWISE: [Site; 4] = [
@@ -24,8 +26,12 @@ pub struct Stationing {
     /// How many robots are at an intersection before the next one gets any, 1..4. The second is at the
     /// opposite corner of the first, the others at those between.
     pub robots_per_intersection: usize,
-    /// How fast robots walk around their intersection, over its corners, in m/s; `None` if they stand.
+    /// How fast robots walk, in m/s: around their intersection over its corners, or where they are dispatched to; `None` if they
+    /// stand.
     pub patrol_mps: Option<f64>,
+    /// How often robots that walk are dispatched to where people are, in seconds; `None` if they are not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dispatch_interval_s: Option<u64>,
     /// Where each robot is by a file, instead of at intersections.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub robots_at: Option<Vec<Schedule>>,
@@ -39,6 +45,7 @@ impl Stationing {
             robot_site: site,
             robots_per_intersection: 1,
             patrol_mps: None,
+            dispatch_interval_s: None,
             robots_at: None,
         }
     }
@@ -52,6 +59,7 @@ impl Stationing {
             Some(robots) => robots.len(),
             None => streets.nodes().len() * self.robots_per_intersection,
         };
+        let patrols = self.patrol_mps.is_some() && self.dispatch_interval_s.is_none();
         if !(1..=CLOCKWISE.len()).contains(&self.robots_per_intersection) {
             return Err(StationingError::PerIntersection(
                 self.robots_per_intersection,
@@ -62,9 +70,7 @@ impl Stationing {
         {
             return Err(StationingError::Patrol(patrol_mps));
         }
-        if self.robot_site == Site::Center
-            && (self.robots_per_intersection > 1 || self.patrol_mps.is_some())
-        {
+        if self.robot_site == Site::Center && (self.robots_per_intersection > 1 || patrols) {
             return Err(StationingError::NoCorner);
         }
         if most > room {
@@ -73,24 +79,52 @@ impl Stationing {
         Ok(())
     }
 
-    /// Where `count` robots are in a run: the first ones at the middle intersection, the others at those
-    /// around it. Robots that walk have a sample every `sample_ms` for `duration_ms`. On a net, whose sidewalks are not
-    /// known, they stand in the middle of intersections. By a file, the first ones of it are there.
+    /// Where `count` robots are in a run of these traces, with this perception radius.
     #[must_use]
     pub fn robots(
         &self,
-        streets: &Streets,
+        traces: &Traces,
+        run: &Run,
         count: usize,
-        duration_ms: u64,
-        sample_ms: u64,
+        radius_m: f64,
+        behaviour: &Behaviour,
     ) -> Vec<Track> {
+        let (streets, sample_ms) = (&traces.streets, traces.sample_ms);
+        let schedules = match (self.dispatch_interval_s, self.patrol_mps) {
+            (Some(interval_s), Some(speed_mps)) => {
+                let all = self.schedules(streets, usize::MAX, 0);
+                let places: Vec<Point> = all.iter().map(|it| it.place_at(0.0)).collect();
+                let dispatch = Dispatch {
+                    run,
+                    sample_ms,
+                    behaviour,
+                    radius_m,
+                    places: &places,
+                    interval_s,
+                    speed_mps,
+                };
+                dispatch.schedules(count)
+            }
+            _ => self.schedules(streets, count, run.duration_ms()),
+        };
+        let schedules = schedules.iter();
+        schedules
+            .map(|it| it.track(run.duration_ms(), sample_ms))
+            .collect()
+    }
+
+    /// Where `count` robots are, whatever people do, or where dispatched ones begin: the first ones at the middle intersection, the
+    /// others at those around it. On a net, whose sidewalks are not known, they stand in the middle of intersections. By a file,
+    /// the first ones of it are there.
+    #[must_use]
+    pub fn schedules(&self, streets: &Streets, count: usize, duration_ms: u64) -> Vec<Schedule> {
         if let Some(robots) = &self.robots_at {
-            let robots = robots.iter().take(count);
-            return robots.map(|it| it.track(duration_ms, sample_ms)).collect();
+            return robots.iter().take(count).cloned().collect();
         }
+        let standing = |(number, place)| Schedule::new(number, vec![(0.0, place)]);
         let Streets::Grid(grid) = streets else {
             let nodes = streets.nodes().into_iter().take(count);
-            return nodes.map(Track::standing).collect();
+            return nodes.enumerate().map(standing).collect();
         };
         let first = CLOCKWISE.iter().position(|it| *it == self.robot_site);
         let nodes = grid.nodes().into_iter();
@@ -98,42 +132,29 @@ impl Stationing {
             let per_intersection = 0..self.robots_per_intersection;
             per_intersection.map(move |number| (node, [0, 2, 1, 3][number % 4]))
         });
-        let robots = posts.take(count).map(|(node, turns)| {
-            let Some(first) = first else {
-                return Track::standing(grid.robot_at(node, self.robot_site));
-            };
-            let corner = (first + turns) % CLOCKWISE.len();
-            match self.patrol_mps {
-                None => Track::standing(grid.robot_at(node, CLOCKWISE[corner])),
-                Some(speed_mps) => {
-                    let place = |sample: u64| {
-                        #[expect(clippy::cast_precision_loss, reason = "a few minutes")]
-                        let walked_m = speed_mps * (sample * sample_ms) as f64 / 1_000.0;
-                        around(grid, node, corner, walked_m)
-                    };
-                    let samples = 0..=duration_ms / sample_ms;
-                    Track::new(sample_ms, &samples.map(place).collect::<Vec<_>>())
-                }
-            }
-        });
+        let robots = posts
+            .take(count)
+            .enumerate()
+            .map(|(number, (node, turns))| {
+                let Some(first) = first else {
+                    return standing((number, grid.robot_at(node, self.robot_site)));
+                };
+                let at = |sides: u32| {
+                    let corner = (first + turns + sides as usize) % CLOCKWISE.len();
+                    grid.robot_at(node, CLOCKWISE[corner])
+                };
+                let Some(speed_mps) = self.patrol_mps else {
+                    return standing((number, at(0)));
+                };
+                let side_s = 2.0 * grid.corner_m() / speed_mps;
+                let corners = (0..).map(|sides| (f64::from(sides) * side_s, at(sides)));
+                #[expect(clippy::cast_precision_loss, reason = "a few hours")]
+                let is_before = |at_s: f64| at_s < duration_ms as f64 / 1_000.0 + side_s;
+                let corners = corners.take_while(|it| is_before(it.0));
+                Schedule::new(number, corners.collect())
+            });
         robots.collect()
     }
-}
-
-/// Where somebody is who walked so far clockwise around an intersection, from one of its corners.
-fn around(grid: &Grid, node: Point, corner: usize, walked_m: f64) -> Point {
-    let side_m = 2.0 * grid.corner_m();
-    let walked_m = walked_m.rem_euclid(4.0 * side_m);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0 to 4"
-    )]
-    let sides = (walked_m / side_m) as usize;
-    let at = |sides: usize| grid.robot_at(node, CLOCKWISE[(corner + sides) % CLOCKWISE.len()]);
-    let (from, to) = (at(sides), at(sides + 1));
-    let share = (walked_m / side_m).fract();
-    [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * share)
 }
 
 /// Why robots cannot be so.
@@ -175,9 +196,9 @@ mod tests {
     #[test]
     fn one_robot_stands_in_the_middle_of_the_grid_and_nine_everywhere() {
         let stationing = Stationing::at(Preset::Kerb.site());
-        let one = stationing.robots(&grid(), 1, 1_000, 500);
-        assert!(distance_m(one[0].place_at(7), [92.1, 92.1]) < 1e-9);
-        assert_eq!(stationing.robots(&grid(), 9, 1_000, 500).len(), 9);
+        let one = stationing.schedules(&grid(), 1, 1_000);
+        assert!(distance_m(one[0].place_at(3.5), [92.1, 92.1]) < 1e-9);
+        assert_eq!(stationing.schedules(&grid(), 9, 1_000).len(), 9);
         assert_eq!(stationing.check(&grid(), 9), Ok(()));
         let room = StationingError::Room { most: 10, room: 9 };
         assert_eq!(stationing.check(&grid(), 10), Err(room));
@@ -189,8 +210,8 @@ mod tests {
             robots_per_intersection: 2,
             ..Stationing::at(Site::SouthEast)
         };
-        let robots = stationing.robots(&grid(), 3, 1_000, 500);
-        let places: Vec<_> = robots.iter().map(|robot| robot.place_at(0)).collect();
+        let robots = stationing.schedules(&grid(), 3, 1_000);
+        let places: Vec<_> = robots.iter().map(|robot| robot.place_at(0.0)).collect();
         assert!(distance_m(places[0], [107.9, 92.1]) < 1e-9);
         assert!(distance_m(places[1], [92.1, 107.9]) < 1e-9);
         assert!(distance_m(places[0], places[2]) > 90.0);
@@ -203,21 +224,16 @@ mod tests {
             patrol_mps: Some(1.0),
             ..Stationing::at(Site::SouthWest)
         };
-        let robot = stationing.robots(&grid(), 1, 63_200, 100).remove(0);
+        let robot = stationing.schedules(&grid(), 1, 63_200).remove(0);
         for (second, corner) in [
             (0.0, [92.1, 92.1]),
             (15.8, [92.1, 107.9]),
             (63.2, [92.1, 92.1]),
         ] {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "seconds"
-            )]
-            let place = robot.place_at((second * 10.0) as usize);
+            let place = robot.place_at(second);
             assert!(distance_m(place, corner) < 1e-6, "{second}: {place:?}");
         }
-        let walking = robot.motion(5_000_000);
+        let walking = robot.track(63_200, 100).motion(5_000_000);
         assert!((walking.speed_mps - 1.0).abs() < 1e-6 && walking.heading_deg.abs() < 1e-6);
     }
 
@@ -228,5 +244,12 @@ mod tests {
             ..Stationing::at(Site::Center)
         };
         assert_eq!(stationing.check(&grid(), 2), Err(StationingError::NoCorner));
+        // But one to another intersection.
+        let dispatched = Stationing {
+            patrol_mps: Some(1.0),
+            dispatch_interval_s: Some(20),
+            ..Stationing::at(Site::Center)
+        };
+        assert_eq!(dispatched.check(&grid(), 2), Ok(()));
     }
 }

@@ -94,7 +94,12 @@ fn a_net_and_floating_car_data_give_the_figures_of_the_grid() {
         ..at_corners.clone()
     };
     let coverage = |traces: &Traces, axes: &Axes| {
-        let cells = obs(std::slice::from_ref(traces), axes, || true);
+        let cells = obs(
+            std::slice::from_ref(traces),
+            axes,
+            &Behaviour::default(),
+            || true,
+        );
         cells
             .into_iter()
             .map(|it| it.obs_percent)

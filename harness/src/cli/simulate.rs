@@ -115,8 +115,11 @@ fn obs(arguments: &Obs) -> Result<(), Failure> {
     let axes = chosen.axes()?;
     let traces = chosen.traces(&axes, arguments.output.json)?;
     let go_on = || !interrupted.load(Ordering::Relaxed);
-    let cells = matrix::obs(&traces, &axes, go_on);
-    let parameters = Assumptions::of(&axes, &traces, None);
+    let cells = matrix::obs(&traces, &axes, &chosen.behaviour, go_on);
+    // Dispatched robots hear devices.
+    let is_dispatched = axes.stationing.dispatch_interval_s.is_some();
+    let behaviour = is_dispatched.then(|| chosen.behaviour.clone());
+    let parameters = Assumptions::of(&axes, &traces, behaviour);
     let measured = Measured {
         chosen: &chosen,
         axes: &axes,
@@ -249,9 +252,12 @@ fn place(arguments: &Rank) -> Result<(), Failure> {
     let axes = chosen.axes()?;
     for traces in chosen.traces(&axes, arguments.json)? {
         let nodes = traces.streets.nodes();
-        let stationing = Stationing::at(axes.stationing.robot_site);
-        let robots = stationing.robots(&traces.streets, nodes.len(), 0, traces.sample_ms);
-        let places: Vec<_> = robots.iter().map(|it| it.place_at(0)).collect();
+        let stationing = Stationing {
+            robots_at: None,
+            ..axes.stationing.clone()
+        };
+        let robots = stationing.schedules(&traces.streets, usize::MAX, 0);
+        let places: Vec<_> = robots.iter().map(|it| it.place_at(0.0)).collect();
         for &radius_m in &axes.radii_m {
             let runs: Vec<Run> = traces.runs.iter().take(axes.seeds).cloned().collect();
             let mut before = 0.0;
@@ -261,7 +267,7 @@ fn place(arguments: &Rank) -> Result<(), Failure> {
                 before = covered;
                 Ranked {
                     rank: rank + 1,
-                    node_m: nodes[index],
+                    node_m: nodes[index / stationing.robots_per_intersection],
                     robot_m: places[index],
                     obs_percent: 100.0 * covered,
                     gained_percent: gained,
@@ -293,9 +299,9 @@ fn print_ranking(ranking: &Intersections) -> Result<(), Failure> {
         ranking.pedestrians, ranking.radius_m
     ))?;
     for it in &ranking.ranking {
-        let [x, y] = it.node_m;
+        let ([x, y], [east, north]) = (it.node_m, it.robot_m);
         print(format_args!(
-            "{:>4}. intersection ({x:.0}, {y:.0}) m: +{:.2} %, {:.2} % together",
+            "{:>4}. intersection ({x:.0}, {y:.0}) m, robot at ({east:.1}, {north:.1}) m: +{:.2} %, {:.2} % together",
             it.rank, it.gained_percent, it.obs_percent
         ))?;
     }

@@ -34,7 +34,21 @@ fn coverage_is_what_python_computes_from_the_same_traces() {
         assert_eq!(code, Some(0), "{said}");
         assert!(said.starts_with("12 cells agree"), "{said}");
     }
-    // A judge that finds everything right is none.
+    // Robots that are dispatched go where the judge sends them, by the people that they know of at that time.
+    let dispatch =
+        "--set robots_per_intersection=4 --set patrol_mps=1 --set dispatch_interval_s=20";
+    let cells = "--pedestrians 20 --radius 15 --robots 1,9 --seeds 2";
+    let fewer = "--set behaviour.v2x_share=0.3 --set behaviour.unseen_share=0.2";
+    let mut sent = [dispatch, &format!("{dispatch} {fewer}")]
+        .map(|others| stdout(&simulate(&format!("obs --json {cells} {others}"))));
+    for results in &sent {
+        let (code, said) = judge("kerb", results.as_bytes()).unwrap();
+        assert_eq!((code, &said[..13]), (Some(0), "2 cells agree"), "{said}");
+    }
+    // A judge that finds everything right is none: robots that hear nobody go elsewhere.
+    sent[0] = sent[0].replace("\"v2x_share\": 1.0", "\"v2x_share\": 0.0");
+    let (code, said) = judge("kerb", sent[0].as_bytes()).unwrap();
+    assert_eq!(code, Some(1), "{said}");
     let wrong = stdout(&simulate("obs --json --site center --pedestrians 20"));
     let wrong = wrong.replace("\"center\"", "\"south-west\"");
     let (code, said) = judge("kerb", wrong.as_bytes()).unwrap();

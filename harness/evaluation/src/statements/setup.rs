@@ -97,7 +97,7 @@ fn intersections(setting: Setting<'_>, robots: usize) -> Vec<[usize; 2]> {
     if axes.stationing.check(streets, robots).is_err() {
         return Vec::new();
     }
-    let robots = axes.stationing.robots(streets, robots, 0, 100);
+    let robots = axes.stationing.schedules(streets, robots, 0);
     let nearest = |metres: f64| {
         #[expect(
             clippy::cast_possible_truncation,
@@ -109,7 +109,7 @@ fn intersections(setting: Setting<'_>, robots: usize) -> Vec<[usize; 2]> {
     };
     robots
         .iter()
-        .map(|robot| robot.place_at(0).map(nearest))
+        .map(|robot| robot.place_at(0.0).map(nearest))
         .collect()
 }
 

@@ -46,6 +46,7 @@ pub(super) struct Parameters {
     robot_site: Option<Site>,
     robots_per_intersection: Option<usize>,
     patrol_mps: Option<f64>,
+    dispatch_interval_s: Option<u64>,
     vehicles: Option<usize>,
     duration_s: Option<u32>,
     grid: GridTable,
@@ -62,7 +63,8 @@ struct GridTable {
 }
 
 /// Names of which the first wants the second.
-const NEEDS: [(&str, &str); 6] = [
+const NEEDS: [(&str, &str); 7] = [
+    ("dispatch_interval_s", "patrol_mps"),
     ("net", "fcd"),
     ("fcd", "net"),
     ("vehicles", "sumo"),
@@ -71,7 +73,7 @@ const NEEDS: [(&str, &str); 6] = [
     ("grid", "sumo"),
 ];
 
-/// Names of which the first has none of the others beside it.
+/// Names of which the first has none of the others beside it. Dispatched robots walk anywhere.
 const ALONE: [(&str, &[&str]); 3] = [
     (
         "net",
@@ -116,8 +118,11 @@ impl Parameters {
                 return Err(Failure::Input(format!("{name} needs {other} as well")));
             }
         }
+        let is_dispatched = all.contains_key("dispatch_interval_s");
         for (name, others) in ALONE {
-            let other = others.iter().find(|it| all.contains_key(**it));
+            let fits = |it: &str| is_dispatched && it == "patrol_mps";
+            let is_other = |it: &&&str| all.contains_key(**it) && !fits(it);
+            let other = others.iter().find(is_other);
             if let Some(other) = other.filter(|_| all.contains_key(name)) {
                 let why = format!("{name} and {other} exclude each other: leave one out");
                 return Err(Failure::Input(why));
@@ -150,6 +155,7 @@ impl Parameters {
         within("seeds", &self.seeds, 1..=100_000)?;
         within("vehicles", &self.vehicles, 0..=10_000)?;
         within("duration_s", &self.duration_s, 10..=3_600)?;
+        within("dispatch_interval_s", &self.dispatch_interval_s, 1..=3_600)?;
         for (name, share) in [
             ("behaviour.v2x_share", behaviour.v2x_share),
             ("behaviour.unseen_share", behaviour.unseen_share),
@@ -300,6 +306,7 @@ impl Parameters {
         let stationing = Stationing {
             robots_per_intersection: self.robots_per_intersection.unwrap_or(1),
             patrol_mps: self.patrol_mps,
+            dispatch_interval_s: self.dispatch_interval_s,
             robots_at: robots_at.transpose()?,
             ..Stationing::at(self.site())
         };
