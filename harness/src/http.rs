@@ -8,12 +8,15 @@
 
 use std::borrow::Cow;
 use std::io::{ErrorKind, Read, Write};
-use std::net::{IpAddr, SocketAddr, TcpListener, TcpStream};
+use std::net::{IpAddr, Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// How long a client may take to ask, and to take the answer.
 const PATIENCE: Duration = Duration::from_secs(2);
+
+/// How fast a client sends the body of a POST at least, in octets per second, after [`PATIENCE`].
+const OCTETS_PER_S_MIN: usize = 1 << 20;
 
 /// The longest request that is read, in octets.
 const REQUEST_MAX: usize = 8_192;
@@ -28,7 +31,7 @@ pub(crate) struct Request<'a> {
     /// What stands after the question mark.
     pub(crate) query: &'a str,
     /// What is sent along with POST; nothing with GET.
-    pub(crate) body: &'a str,
+    pub(crate) body: &'a [u8],
 }
 
 /// What it gets.
@@ -42,14 +45,14 @@ pub(crate) struct Answer {
 }
 
 /// Serves at `address` until the process ends. The address that is served, where the port that was given is 0.
-/// Up to `body_max` octets are read of the body of a POST; where it is 0, POST is refused.
+/// Up to `body_max` of the path octets are read of the body of a POST; where it is 0, POST is refused.
 ///
 /// # Errors
 /// When nothing can be served there.
 pub(crate) fn serve(
     address: SocketAddr,
     name: &'static str,
-    body_max: usize,
+    body_max: fn(&str) -> usize,
     answer: impl Fn(&Request) -> Answer + Send + Sync + 'static,
 ) -> std::io::Result<SocketAddr> {
     let listener = TcpListener::bind(address)?;
@@ -73,7 +76,7 @@ pub(crate) fn serve(
 fn attend<F>(
     client: TcpStream,
     name: &'static str,
-    body_max: usize,
+    body_max: fn(&str) -> usize,
     address: SocketAddr,
     answer: &Arc<F>,
     clients: &Arc<()>,
@@ -96,7 +99,7 @@ where
 
 fn converse(
     mut client: &TcpStream,
-    body_max: usize,
+    body_max: fn(&str) -> usize,
     address: SocketAddr,
     answer: impl Fn(&Request) -> Answer,
 ) -> std::io::Result<()> {
@@ -108,6 +111,7 @@ fn converse(
     let method = words.next();
     let target = words.next().unwrap_or_default();
     let (path, query) = target.split_once('?').unwrap_or((target, ""));
+    let body_max = body_max(path);
     let field = |wanted: &str| {
         lines.clone().find_map(|line| {
             let (name, value) = line.split_once(':')?;
@@ -131,18 +135,18 @@ fn converse(
             "",
             "127.0.0.1, localhost and the address that is served are answered to\n",
         ),
-        (Some("GET" | "HEAD"), _) => ask(""),
+        (Some("GET" | "HEAD"), _) => ask(&[]),
         (Some("POST"), _) if field("origin").is_some_and(|it| !same_origin(it)) => {
             refusal("403 Forbidden", "", "a page of another origin asks\n")
         }
         (Some("POST"), Some(length)) if body_max > 0 && length <= body_max => {
-            let body = body(client, begun, length, until)?;
-            ask(&String::from_utf8_lossy(&body))
+            let until = until + Duration::from_secs(length.div_ceil(OCTETS_PER_S_MIN) as u64);
+            ask(&body(client, begun, length, until)?)
         }
         (Some("POST"), _) if body_max > 0 => refusal(
             "413 Content Too Large",
             "",
-            format!("{body_max} octets are possible\n"),
+            format!("{body_max} octets are possible; the command takes longer files: crossguard studio\n"),
         ),
         _ if body_max > 0 => refusal(
             NOT_ALLOWED,
@@ -157,7 +161,14 @@ fn converse(
         client,
         "HTTP/1.1 {status}\r\nContent-Type: {content_type}\r\nContent-Length: {length}\r\n{headers}\
          Connection: close\r\n\r\n{body}"
-    )
+    )?;
+    // A client that is refused while it sends gets the answer only if the rest is read.
+    client.shutdown(Shutdown::Write)?;
+    let mut rest = Vec::new();
+    while read_more(client, &mut rest, until)? {
+        rest.clear();
+    }
+    Ok(())
 }
 
 const NOT_ALLOWED: &str = "405 Method Not Allowed";
@@ -234,7 +245,7 @@ fn read_more(
     octets: &mut Vec<u8>,
     until: Instant,
 ) -> std::io::Result<bool> {
-    let mut part = [0; 1_024];
+    let mut part = [0; 8_192];
     let left = until.saturating_duration_since(Instant::now());
     if left.is_zero() {
         return Err(ErrorKind::TimedOut.into());

@@ -35,7 +35,8 @@ impl Shared {
 /// # Errors
 /// When nothing can be served there.
 pub fn serve(address: SocketAddr, tally: Shared) -> std::io::Result<SocketAddr> {
-    http::serve(address, "metrics", 0, move |request| {
+    let no_post = |_: &str| 0;
+    http::serve(address, "metrics", no_post, move |request| {
         // A query says nothing that matters.
         let (status, body) = match request.path {
             "/metrics" | "/" => ("200 OK", tally.with(|tally| text(tally))),

@@ -8,7 +8,7 @@ mod live;
 mod play;
 mod shell;
 
-pub use after::{Studied, saved};
+pub use after::{Studied, Study, saved};
 pub use explore::GivenRun;
 pub use live::Followed;
 pub use shell::{publish, serve};
@@ -20,6 +20,8 @@ use shell::View;
 pub struct Studio {
     /// A run after it happened.
     pub run: Option<Studied>,
+    /// What reads logs that somebody opens on the page; without it none are taken.
+    pub study: Option<Box<Study>>,
     /// Logs of robots that run.
     pub live: Option<Followed>,
     /// Runs through scenarios, from files.
@@ -33,7 +35,7 @@ impl Studio {
             Box::new(live::Live::new(self.live)),
             Box::new(play::Play),
             Box::new(explore::Explore::new(self.given)),
-            Box::new(after::After::new(self.run)),
+            Box::new(after::After::new(self.run, self.study)),
         ]
     }
 }

@@ -1,6 +1,5 @@
 //! `crossguard report`, and what it shares with `crossguard studio`.
 
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use crossguard_judge::playback::{Playback, written_us};
@@ -51,8 +50,8 @@ pub(super) fn names(logs: &[PathBuf]) -> Vec<String> {
 }
 
 /// Reads logs with these names and judges them, both at once. They are opened several times.
-pub(super) fn study(
-    open: impl Fn() -> Result<Vec<Log<'static>>, Failure> + Sync,
+pub(super) fn study<'a>(
+    open: impl Fn() -> Result<Vec<Log<'a>>, Failure> + Sync,
     names: Vec<String>,
     street: Option<SiteFile>,
 ) -> Result<Studied, Failure> {
@@ -74,9 +73,22 @@ pub(super) fn study(
     })
 }
 
+/// Reads and judges logs, each a name and its octets.
+pub(super) fn study_octets(
+    logs: &[(String, &[u8])],
+    street: Option<SiteFile>,
+) -> Result<Studied, Failure> {
+    let log = |(name, octets): &(String, _)| Log {
+        name: name.clone(),
+        lines: Box::new(*octets),
+    };
+    let names = logs.iter().map(|(name, _)| name.clone()).collect();
+    study(|| Ok(logs.iter().map(log).collect()), names, street)
+}
+
 /// When the record that does not fit was written.
-fn when(
-    open: impl Fn() -> Result<Vec<Log<'static>>, Failure>,
+fn when<'a>(
+    open: impl Fn() -> Result<Vec<Log<'a>>, Failure>,
     names: &[String],
     validated: &Result<Validated, Invalid>,
 ) -> Option<u64> {
@@ -98,13 +110,8 @@ pub(super) fn write_page(
     is_json: bool,
 ) -> Result<(), Failure> {
     let name = "the log of this run".to_owned();
-    let open = || {
-        let lines = Box::new(Cursor::new(log.to_vec()));
-        let name = name.clone();
-        Ok(vec![Log { name, lines }])
-    };
     // What it says of the log is what the command says of it, too.
-    let studied = study(open, vec![name.clone()], Some(street.clone()))?;
+    let studied = study_octets(&[(name, log)], Some(street.clone()))?;
     write(path, &studied)?;
     if is_json {
         return Ok(());

@@ -4,9 +4,11 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use crossguard_robot::site_file::SiteFile;
+
 use super::interrupts::interrupts_that;
-use super::{Failure, complain, open_logs, print};
-use crate::studio::{self, Followed, GivenRun, Studio};
+use super::{Failure, complain, open_logs, print, report};
+use crate::studio::{self, Followed, GivenRun, Studied, Studio};
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
@@ -15,7 +17,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "LOG")]
     logs: Vec<PathBuf>,
     /// The site, for kerbs and lanes on the map: a file, or `street` for the street of the demonstrations.
-    #[arg(long, value_name = "FILE|street", requires = "logs")]
+    #[arg(long, value_name = "FILE|street")]
     site: Option<PathBuf>,
     /// Follow the logs while robots write them, on the page Live; a log may come later.
     #[arg(long, requires = "logs")]
@@ -44,7 +46,8 @@ Examples:
   crossguard studio --follow crossing.jsonl --site street    while `crossguard demo --log crossing.jsonl` runs
   crossguard check my.toml --charts found; crossguard studio --replay found/my-I2.json
 
-Without files, the pages Play and Explore are there: the protocol to play with, and scenarios step by step.
+Without files, the pages Play and Explore are there: the protocol to play with, and scenarios step by step. The page After \
+opens logs that are dropped on it, too.
 
 The page needs no network. It is served until Ctrl-C ends it. Logs that are not valid are shown, too: the verdict stands \
 at its place in time. A log that cannot be read to its end is shown as far as it goes.
@@ -62,17 +65,27 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let has_logs = !arguments.logs.is_empty();
     let is_run = has_logs && !arguments.follow;
+    let street = super::site::named(arguments.site.as_deref())?;
     let study = || {
-        let street = super::site::named(arguments.site.as_deref())?;
-        let logs = &arguments.logs;
-        super::report::study(|| open_logs(logs), super::report::names(logs), street)
+        let (logs, street) = (&arguments.logs, street.clone());
+        report::study(|| open_logs(logs), report::names(logs), street)
     };
     let run = is_run.then(study).transpose()?;
-    let live = arguments.follow.then(|| followed(arguments)).transpose()?;
+    let live = || followed(arguments, street.clone());
+    let live = arguments.follow.then(live).transpose()?;
+    // Another machine may look, and changes nothing.
+    let is_own = arguments.address.is_loopback();
+    let study =
+        is_own.then(|| Box::new(move |logs: &[(String, &[u8])]| opened(logs, street.clone())) as _);
     let wanted = SocketAddr::new(arguments.address, arguments.port);
     let given = arguments.replay.iter().map(|path| given(path));
     let given = given.collect::<Result<_, _>>()?;
-    let shown = Studio { run, live, given };
+    let shown = Studio {
+        run,
+        study,
+        live,
+        given,
+    };
     let served = studio::serve(wanted, shown).map_err(|error| {
         Failure::Input(format!(
             "{wanted}: {error}; --port N takes another port, --port 0 any that is free"
@@ -104,6 +117,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
+/// Reads logs that somebody opens on the page.
+fn opened(logs: &[(String, &[u8])], street: Option<SiteFile>) -> Result<Studied, String> {
+    report::study_octets(logs, street).map_err(|failure| match failure {
+        Failure::Input(cause) => cause,
+        _ => "the logs cannot be read".to_owned(),
+    })
+}
+
 /// Reads a run, with the text of its scenario: pages read no files.
 fn given(path: &Path) -> Result<GivenRun, Failure> {
     let run = super::check::read_replay(path)?;
@@ -112,7 +133,7 @@ fn given(path: &Path) -> Result<GivenRun, Failure> {
 }
 
 /// The logs that are followed. They need not be there yet; their folders do.
-fn followed(arguments: &Arguments) -> Result<Followed, Failure> {
+fn followed(arguments: &Arguments, street: Option<SiteFile>) -> Result<Followed, Failure> {
     for path in &arguments.logs {
         let folder = path.parent().filter(|folder| *folder != Path::new(""));
         if folder.is_some_and(|folder| !folder.is_dir()) {
@@ -124,6 +145,6 @@ fn followed(arguments: &Arguments) -> Result<Followed, Failure> {
     }
     Ok(Followed {
         logs: arguments.logs.clone(),
-        street: super::site::named(arguments.site.as_deref())?,
+        street,
     })
 }

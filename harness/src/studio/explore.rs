@@ -59,14 +59,14 @@ impl View for Explore {
         &["given", "scenarios", "properties", "paper"]
     }
 
-    fn ask(&self, what: &str, _query: &str, body: &str) -> Result<String, Refusal> {
+    fn ask(&self, what: &str, _query: &str, body: &[u8]) -> Result<String, Refusal> {
         match what {
             "given" => json(&self.given),
             "paper" => Ok(self
                 .paper
                 .get_or_init(|| serde_json::to_string(&paper::runs()).unwrap_or_default())
                 .clone()),
-            _ => walk::ask(what, body),
+            _ => walk::ask(what, &String::from_utf8_lossy(body)),
         }
     }
 }

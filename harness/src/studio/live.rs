@@ -83,7 +83,7 @@ impl View for Live {
         self.0.is_none().then_some(wants)
     }
 
-    fn ask(&self, what: &str, _query: &str, _body: &str) -> Result<String, Refusal> {
+    fn ask(&self, what: &str, _query: &str, _body: &[u8]) -> Result<String, Refusal> {
         let Some(state) = &self.0 else {
             let cause = "this studio follows no log: crossguard studio --follow LOG...";
             return Err(Refusal::Wrong(cause.to_owned()));

@@ -34,7 +34,7 @@ impl View for Play {
         &["scenarios", "properties"]
     }
 
-    fn ask(&self, what: &str, _query: &str, body: &str) -> Result<String, Refusal> {
-        walk::ask(what, body)
+    fn ask(&self, what: &str, _query: &str, body: &[u8]) -> Result<String, Refusal> {
+        walk::ask(what, &String::from_utf8_lossy(body))
     }
 }

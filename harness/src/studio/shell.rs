@@ -22,6 +22,9 @@ const HEADERS: &str = "Content-Security-Policy: default-src 'none'; script-src '
 /// The most octets that a page may send with one question.
 const QUESTION_MAX: usize = 1 << 20;
 
+/// The most octets of logs that a page may send.
+const LOGS_MAX: usize = 1 << 26;
+
 const TEXT: &str = "text/plain; charset=utf-8";
 const HTML: &str = "text/html; charset=utf-8";
 
@@ -82,7 +85,7 @@ pub(super) trait View: Send + Sync {
         &[]
     }
     /// The answer, in JSON, to `/NAME/api/WHAT?QUERY`, with the body of a POST.
-    fn ask(&self, what: &str, query: &str, body: &str) -> Result<String, Refusal>;
+    fn ask(&self, what: &str, query: &str, body: &[u8]) -> Result<String, Refusal>;
 }
 
 /// A link past the header, for who goes by keys.
@@ -112,7 +115,11 @@ pub(super) fn value<'a>(query: &'a str, name: &str) -> Option<&'a str> {
 /// When nothing can be served there.
 pub fn serve(address: SocketAddr, studio: Studio) -> std::io::Result<SocketAddr> {
     let views = studio.views();
-    http::serve(address, "studio", QUESTION_MAX, move |request| {
+    let body_max = |path: &str| match path {
+        "/after/api/logs" => LOGS_MAX,
+        _ => QUESTION_MAX,
+    };
+    http::serve(address, "studio", body_max, move |request| {
         respond(request, &views)
     })
 }
@@ -231,7 +238,7 @@ pub fn publish(folder: &Path, studio: Studio) -> std::io::Result<()> {
             write(format!("{name}/{file}"), text)?;
         }
         for what in view.fixed() {
-            let answer = view.ask(what, "", "");
+            let answer = view.ask(what, "", &[]);
             let answer =
                 answer.map_err(|cause| std::io::Error::other(format!("{what}: {cause:?}")))?;
             write(format!("{name}/api/{what}"), &answer)?;

@@ -32,8 +32,13 @@ impl Studio {
 
     /// What it answers to a request, by its own name or another one.
     fn ask(&self, request: &str, host: &str, rest: &str) -> String {
+        self.send(request, host, rest, &[])
+    }
+
+    fn send(&self, request: &str, host: &str, rest: &str, body: &[u8]) -> String {
         let mut client = TcpStream::connect(&self.address).unwrap();
         write!(client, "{request} HTTP/1.1\r\nHost: {host}\r\n{rest}\r\n").unwrap();
+        client.write_all(body).unwrap();
         let mut answer = String::new();
         client.read_to_string(&mut answer).unwrap();
         answer
@@ -99,6 +104,118 @@ fn without_logs_it_says_what_can_be_looked_at_and_each_view_is_a_folder() {
         assert!(answer.starts_with("HTTP/1.1 308 "), "{answer}");
         assert!(answer.contains(&format!("\r\nLocation: /{view}/\r\n")));
     }
+}
+
+/// Sends these files as the page does; the code of the answer, and the answer.
+fn open_logs(studio: &Studio, files: &[&Path], more: &str) -> (String, String) {
+    let files = files
+        .iter()
+        .map(|path| (path, std::fs::read(path).unwrap()));
+    let (heads, texts): (Vec<_>, Vec<_>) =
+        files.map(|(path, text)| ((path, text.len()), text)).unzip();
+    let body = [
+        &serde_json::to_vec(&heads).unwrap()[..],
+        b"\n",
+        &texts.concat(),
+    ]
+    .concat();
+    let rest = format!("Content-Length: {}\r\n{more}", body.len());
+    let answer = studio.send("POST /after/api/logs", &studio.address, &rest, &body);
+    parts(&answer)
+}
+
+fn parts(answer: &str) -> (String, String) {
+    let (head, body) = answer.split_once("\r\n\r\n").unwrap();
+    let code = head.split(' ').nth(1).unwrap();
+    (code.to_owned(), body.to_owned())
+}
+
+#[test]
+fn logs_that_the_page_sends_are_shown_as_files_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    let all = log_of(3, 2);
+    let lines = || all.split_inclusive(|octet| *octet == b'\n');
+    let robot = |line: &[u8]| {
+        let record: serde_json::Value = serde_json::from_slice(line).unwrap();
+        record["robot"].as_str().unwrap().to_owned()
+    };
+    let first = robot(lines().next().unwrap());
+    let (one, other): (Vec<_>, Vec<_>) = lines().partition(|line| robot(line) == first);
+    let [one, other] = [one, other].map(|lines| lines.concat());
+    assert!(one.len() > 10_000 && other.len() > 10_000);
+    let torn = [&one[..], b"{\"atUs\": 1, \"robot\": \"\xc3\n", &one].concat();
+    let a = file("a.jsonl", &one);
+    let b = file("b.jsonl", &other);
+    let torn = file("torn.jsonl", &torn);
+    let ended = file("ended.jsonl", &one[..one.len() - 9]);
+    for files in [&[&*a, &b][..], &[&torn], &[&b, &ended]] {
+        let studio = Studio::of(&[]);
+        let (code, opened) = open_logs(&studio, files, "");
+        assert_eq!(code, "200", "{opened}");
+        let given = Studio::of(files);
+        let given = parts(&given.ask("GET /after/api/opening", &given.address, "")).1;
+        assert!(opened == given, "{opened}\nas files: {given}");
+    }
+
+    let studio = Studio::of(&[&a]);
+    let evil = "Origin: http://evil.example\r\n";
+    let cut = file("cut.jsonl", &one[..99]);
+    let no_log = file("README.md", b"# Look at it\n");
+    let empty = file("empty.jsonl", b"");
+    let many = vec![&*b; 65];
+    for (files, more, code, cause) in [
+        (
+            &[&*b, &cut][..],
+            "",
+            "400",
+            "cut.jsonl, line 1: is not a record",
+        ),
+        (&[&no_log], "", "400", "README.md, line 1: is not a record"),
+        (&[&empty], "", "400", "there is nothing in this log"),
+        (&[], "", "400", "wanted are 1 to 64 logs"),
+        (&many, "", "400", "wanted are 1 to 64 logs"),
+        (&[&b], evil, "403", "another origin"),
+    ] {
+        let answer = open_logs(&studio, files, more);
+        assert!(answer.0 == code && answer.1.contains(cause), "{answer:?}");
+    }
+    let [short, large] = [
+        ("Content-Length: 12\r\n", "[[\"a\",4]]\n{}"),
+        ("Content-Length: 67108865\r\n", ""),
+    ]
+    .map(|(rest, body)| {
+        let own = &*studio.address;
+        parts(&studio.send("POST /after/api/logs", own, rest, body.as_bytes()))
+    });
+    assert!(
+        short.0 == "400" && short.1.contains("wanted are"),
+        "{short:?}"
+    );
+    assert!(
+        large.0 == "413" && large.1.contains("67108864"),
+        "{large:?}"
+    );
+    // None of these has changed the page; other logs do, and a page of the logs before is told so.
+    let moment = |run| {
+        let request = format!("GET /after/api/moment?at=1&run={run}");
+        parts(&studio.ask(&request, &studio.address, ""))
+    };
+    assert_eq!(moment(0).0, "200");
+    assert_eq!(open_logs(&studio, &[&b, &b], "").0, "200");
+    assert_eq!((moment(0).0, moment(1).0), ("400".into(), "200".into()));
+    moment(0).1.must_have(&["other logs were opened"]);
+
+    let reached = Studio::of(&["--address", "0.0.0.0"].map(Path::new));
+    let (code, cause) = open_logs(&reached, &[&b], "");
+    assert!(
+        code == "400" && cause.contains("without --address"),
+        "{cause}"
+    );
 }
 
 #[test]

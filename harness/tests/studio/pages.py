@@ -175,6 +175,63 @@ def after(studio, folder):
     at.assert_clean()
 
 
+# Drops files, each a name and its text, on the page.
+DROP = """files => {
+    const dataTransfer = new DataTransfer();
+    for (const [name, text] of files) dataTransfer.items.add(new File([text], name));
+    for (const kind of ["dragover", "drop"]) {
+        const event = new DragEvent(kind, { dataTransfer, bubbles: true, cancelable: true });
+        if (document.getElementById("main").dispatchEvent(event)) throw new Error(`the browser takes ${kind}`);
+    } }"""
+
+
+def opened(studio, folder):
+    """Logs that are dropped on After, or picked by keys, are shown as those that the studio is given."""
+    lines = demo(folder).read_text().splitlines(keepends=True)
+    of = lambda robot: "".join(it for it in lines if json.loads(it)["robot"] == robot)
+    ari, go2, large = (folder / name for name in ("ari.jsonl", "go2.jsonl", "large.jsonl"))
+    ari.write_text(of("ARI"))
+    go2.write_text(of("Go2"))
+    with large.open("wb") as file:
+        file.truncate((1 << 26) + 1)
+    at = studio("--site", "street")
+    page = at.page
+    page.goto(at.server + "after/")
+    expect(page.locator("#troubles")).to_contain_text("open logs here")
+    at.errors.clear()  # There is no run yet: the browser reports the answer as an error.
+    at.assert_reached_by_tab(18, "logs")
+    page.focus("#logs")
+    with page.expect_file_chooser() as chooser:
+        page.keyboard.press("Enter")
+    chooser.value.set_files([ari, go2])
+    expect(page.locator("#what")).to_have_text(re.compile(r"^ari\.jsonl, go2\.jsonl · .* · ARI, Go2$"))
+    expect(page.locator("#chip")).to_have_text("✓ Valid")
+    page.wait_for_selector("html[data-ready=true]", state="attached")
+    page.keyboard.press("End")
+    expect(page.locator("#map .body")).to_have_count(2)
+    at.assert_fits()
+    at.assert_clean()
+    # What is no log leaves the page as it is.
+    page.evaluate(DROP, [["<b>notes.txt", HOSTILE]])
+    expect(page.locator("#troubles")).to_contain_text("<b>notes.txt, line 1: is not a record")
+    page.set_input_files("#logs", large)
+    expect(page.locator("#troubles")).to_contain_text("67108864 octets are possible")
+    expect(page.locator("#troubles p")).to_have_count(1)
+    expect(page.locator("#what")).to_have_text(re.compile("^ari"))
+    # A log that is cut is shown as far as it goes; another page of the logs before is told.
+    other = at.browser.new_page()
+    other.goto(at.server + "after/")
+    other.wait_for_selector("html[data-ready=true]", state="attached")
+    page.evaluate(DROP, [["cut.jsonl", go2.read_text() + '{"atUs": 1, "robot": "cut\n{}\n']])
+    expect(page.locator("#what")).to_have_text(re.compile("^cut.* · Go2$"))
+    expect(page.locator("#troubles")).to_contain_text("is not a record")
+    expect(page.locator("#chip")).to_have_text("✗ Not valid")
+    other.keyboard.press("End")
+    expect(other.locator("#troubles")).to_have_text("other logs were opened since: load this page anew")
+    other.close()
+    assert page.evaluate("window.harmed === undefined && document.images.length === 0")
+
+
 def report(studio, folder):
     """The page After as a file: it shows the same and asks nobody."""
     log = demo(folder, "--report", folder / "page.html")
@@ -518,7 +575,7 @@ def main():
     passed = failed = 0
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
-        for test in (after, report, hostile_log, play, guide, published, explore, live):
+        for test in (after, opened, report, hostile_log, play, guide, published, explore, live):
             with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as closing:
                 def studio(*arguments):
                     at = Studio(browser, *arguments)

@@ -14,6 +14,38 @@ function trouble(...texts) {
   id("troubles").replaceChildren(...texts.map((text) => html("p", { class: "trouble" }, text)));
 }
 
+// A server that is gone gives no answer; one that is there says why not.
+const causeOf = (error) => error instanceof TypeError ? `The server does not answer (${error.message}). Was it ended? Start crossguard studio again, and load this page anew.` : error.message;
+
+// Shows the run of these files, as if the studio had been started with them.
+async function openLogs(files) {
+  if (!files.length) return;
+  id("main").ariaBusy = "true";
+  try {
+    await source.send([...files]);
+    history.replaceState(null, "", "./");
+    location.reload();
+  } catch (error) {
+    id("not-opened")?.remove();
+    id("troubles").prepend(html("p", { class: "trouble", id: "not-opened" }, `The logs are not shown: ${causeOf(error)}`));
+  } finally {
+    id("main").ariaBusy = null;
+  }
+}
+
+function takeLogs() {
+  const picker = id("logs");
+  if (!picker) return;
+  picker.addEventListener("change", () => openLogs([...picker.files]).then(() => { picker.value = ""; }));
+  for (const kind of ["dragover", "drop"]) {
+    document.addEventListener(kind, (event) => {
+      if (!event.dataTransfer.types.includes("Files")) return;
+      event.preventDefault();
+      if (kind === "drop") openLogs([...event.dataTransfer.files]);
+    });
+  }
+}
+
 // The newest time that was asked for is shown; those in between are left out when the server is slower.
 function shower(draw) {
   let busy = false, next = null;
@@ -30,7 +62,7 @@ function shower(draw) {
       } while (wanted);
       return moment;
     } catch (error) {
-      trouble(`The server does not answer (${error.message}). Was it ended? Start crossguard studio again, and load this page anew.`);
+      trouble(causeOf(error));
       return null;
     } finally {
       busy = false;
@@ -52,6 +84,7 @@ function head(opening) {
 }
 
 async function start() {
+  takeLogs();
   const opening = await source.opening();
   head(opening);
   const seek = (at) => player.seek(at);
@@ -68,7 +101,7 @@ async function start() {
     const [from, to] = player.span;
     if (span !== player.span) { span = player.span; timeline.redraw(); }
     timeline.draw();
-    return show({ at, from, to, repeats: id("repeats").checked });
+    return show({ run: opening.run, at, from, to, repeats: id("repeats").checked });
   });
   const timeline = new Timeline(opening, player);
   id("times").append(...panels.times(opening.overview));
