@@ -146,7 +146,9 @@ fn converse(
         (Some("POST"), _) if body_max > 0 => refusal(
             "413 Content Too Large",
             "",
-            format!("{body_max} octets are possible; the command takes longer files: crossguard studio\n"),
+            format!(
+                "{body_max} octets are possible; the command takes longer files: crossguard studio\n"
+            ),
         ),
         _ if body_max > 0 => refusal(
             NOT_ALLOWED,

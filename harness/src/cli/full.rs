@@ -12,7 +12,7 @@ pub(super) enum Command {
     /// Make a folder with a site, a plan, two robots and people, to run as it is and to change.
     New(new::Arguments),
     /// Run one robot as one process, or all of a folder; events are typed or piped in.
-    Run(run::Arguments),
+    Run(Box<run::Arguments>),
     /// Work out how likely a crossing goes well when messages get lost, and how long it takes.
     Odds(Box<odds::Arguments>),
     /// Run many simulated robots in virtual time under drawn faults, and judge every step.

@@ -48,7 +48,7 @@ use output::{Lines, Outputs};
 use typed::TYPED;
 
 use super::interrupts::interrupts;
-use super::ranges::{any, group};
+use super::ranges::{any, group, station};
 use super::{Failure, destinations, print};
 
 /// What a robot says when a duty begins.
@@ -120,6 +120,9 @@ pub(super) struct Arguments {
     watch: super::watch::WatchArguments,
     #[command(flatten)]
     wording: super::Wording,
+    /// What a station is called; `run --all` says it of all its robots.
+    #[arg(long, value_name = "STATION=NAME", value_parser = named, hide = true)]
+    named: Vec<(StationId, String)>,
     /// Print the log to standard output, and nothing else.
     #[arg(long)]
     json: bool,
@@ -271,7 +274,12 @@ fn can_be_run(config: &Path, file: &RobotFile) -> String {
     format!("{config}: {name}, station {station}, can be run with this configuration")
 }
 
-/// What stations are called: by the plan, and this robot by its own name.
+fn named(text: &str) -> Result<(StationId, String), String> {
+    let (id, name) = text.split_once('=').ok_or("2=Go2 is wanted")?;
+    Ok((station(id)?, name.to_owned()))
+}
+
+/// What stations are called: by `--named` and the plan, and this robot by its own name.
 fn names(arguments: &Arguments, file: &RobotFile, station: StationId) -> Names {
     if arguments.wording.verbose {
         return Names::short();
@@ -279,7 +287,11 @@ fn names(arguments: &Arguments, file: &RobotFile, station: StationId) -> Names {
     let roles = file.plan_file.iter().flat_map(|plan| &plan.roles);
     let named = roles.filter(|role| !role.any);
     let named = named.filter_map(|role| Some((role.station?, role.robot.clone()?)));
-    named.chain([(station, file.name.clone())]).collect()
+    let given = arguments.named.iter().cloned();
+    given
+        .chain(named)
+        .chain([(station, file.name.clone())])
+        .collect()
 }
 
 /// How long a failure may go unanswered with these settings.

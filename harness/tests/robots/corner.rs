@@ -22,7 +22,9 @@ fn a_new_corner_fits_runs_as_it_is_and_says_which_robot_is_gone() {
     }
     let all = ["run", "--all", &corner];
     let mut robots = crossguard(&all);
-    robots.stdin(Stdio::piped()).stdout(Stdio::null());
+    let told = folder.path().join("told");
+    let lines = std::fs::File::create(&told).unwrap();
+    robots.stdin(Stdio::piped()).stdout(lines);
     let mut robots = Killed(robots.spawn().unwrap());
     wait_until_in(format!("{corner}/ARI.jsonl"), "corridorOpened");
     // The same robots once more have no ports, and leave the first ones alone.
@@ -30,6 +32,9 @@ fn a_new_corner_fits_runs_as_it_is_and_says_which_robot_is_gone() {
     assert_code(&again, 1);
     stderr(&again).must_have(&["ARI is gone: exit status: 2", "Go2 is gone: exit status: 2"]);
     quit(&mut robots.0);
+    // Go2 has no plan that names others.
+    let told = std::fs::read_to_string(told).unwrap();
+    told.must_have(&["Go2: joined ARI's crossing 1"]);
     let logs = run(&[
         "validate",
         &format!("{corner}/ARI.jsonl"),

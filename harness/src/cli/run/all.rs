@@ -43,11 +43,12 @@ fn robot_files(folder: &Path) -> Result<Vec<(PathBuf, RobotFile)>, Failure> {
     Ok(robots)
 }
 
-/// Starts a robot, with its log beside its file. One with a crossing zone sees the people of `people.jsonl`, if there are some.
-fn start(path: &Path, file: &RobotFile) -> Result<OfFolder, Failure> {
+/// Starts a robot, with its log beside its file and the names of all. One with a crossing zone sees the people of `people.jsonl`, if there are some.
+fn start(path: &Path, file: &RobotFile, named: &[String]) -> Result<OfFolder, Failure> {
     let mut command = Command::new(std::env::current_exe()?);
     command.arg("run").arg("--config").arg(path);
     command
+        .args(named)
         .args(["--status", "never", "--log"])
         .arg(path.with_extension("jsonl"));
     let people = path.with_file_name("people.jsonl");
@@ -87,7 +88,9 @@ impl OfFolder {
 pub(super) fn run(folder: &Path) -> Result<(), Failure> {
     let interrupted = interrupts();
     let files = robot_files(folder)?;
-    let started = files.iter().map(|(path, file)| start(path, file));
+    let named = |file: &RobotFile| format!("--named={}={}", file.station, file.name);
+    let named: Vec<_> = files.iter().map(|(_, file)| named(file)).collect();
+    let started = files.iter().map(|(path, file)| start(path, file, &named));
     let mut robots = started.collect::<Result<Vec<_>, _>>()?;
     let (lines, mut is_ending, mut failed) = (typed::lines(), false, false);
     while robots.iter().any(|robot| !robot.has_ended) {
