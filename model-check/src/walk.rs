@@ -6,7 +6,7 @@
 mod ask;
 mod by_itself;
 
-use crossguard_protocol::{Availability, Role, State, StationId};
+use crossguard_protocol::{Availability, FallbackPolicy, Role, State, StationId};
 use serde::{Deserialize, Serialize};
 
 use crate::chart::{chart, chart_step, names, said};
@@ -83,6 +83,8 @@ pub struct RobotFrame {
     pub body: BodyFrame,
     /// Whether its body guards who is on the road, or would: in its place, beside a person, or in a fallback that stays.
     pub guards: bool,
+    /// Whether it guards by going with people: on its way, or back to the kerb.
+    pub escorts: bool,
     /// What its body does, with the maneuver.
     pub body_words: String,
     /// Whether its sign shows go.
@@ -220,6 +222,11 @@ impl RobotFrame {
                 Body::Ended(..) => BodyFrame::Ended,
             },
             guards,
+            escorts: guards
+                && matches!(
+                    node.actuation.body,
+                    Body::UnderWay(_) | Body::FallingBack(_, FallbackPolicy::EscortToKerb)
+                ),
             body_words: names.tell(node.actuation.body),
             shows_go: node.actuation.corridor_open,
             is_down: robot.is_none(),

@@ -149,12 +149,19 @@ fn the_search_finds_a_shortest_way_and_the_walk_gets_there() {
     assert!(is_there(walk.frames.last().unwrap()));
     assert!(!walk.frames[..steps.len()].iter().any(is_there));
 
-    let found = search(scenario("crossing"), Goal::PersonOnRoad, 100_000);
-    let walk = Walk::along(scenario("crossing"), &found.steps.unwrap());
-    let frame = walk.frames.last().unwrap();
-    assert_eq!(frame.person, PersonFrame::OnRoad(Some(0)));
-    assert!(frame.robots[0].shows_go);
-    assert!(frame.met.contains(&"W1"), "{:?}", frame.met);
+    // A blockade guards from its place, and an escort by going with the person.
+    for (name, escorts) in [("crossing", false), ("pair", true)] {
+        let found = search(scenario(name), Goal::PersonOnRoad, 100_000);
+        let walk = Walk::along(scenario(name), &found.steps.unwrap());
+        let frame = walk.frames.last().unwrap();
+        assert_eq!(frame.person, PersonFrame::OnRoad(Some(0)));
+        assert!(frame.robots[0].shows_go);
+        assert_eq!(
+            (frame.robots[1].guards, frame.robots[1].escorts),
+            (true, escorts)
+        );
+        assert!(frame.met.contains(&"W1"), "{:?}", frame.met);
+    }
 }
 
 #[test]

@@ -34,13 +34,11 @@ export function street(names, frame) {
   const [top, bottom] = [46, 134];
   const stripes = Array.from({ length: 6 }, (_, place) => svg("rect", { x: 290, y: top + 6 + place * 14, width: 60, height: 7, class: "stripe" }));
   const spots = { parked: [70, 165], underWay: [180, 112], inPosition: [235, 90], beside: [366, 86], fallingBack: [180, 150], ended: [70, 24] };
-  // Who escorts the person on the road is beside them.
-  const isBeside = (robot) => where.kind === "onRoad" && robot.guards && /^(under way \(move|falls back .*escort)/.test(robot.bodyWords);
   const used = {};
   const bodies = frame.robots.map((robot, lane) => {
     // A guard is at the crossing: beside the person, in its place, or in a fallback that stays. A leader that fails stays at its sign.
     const atSign = robot.role === "leader" || robot.role === "requester" || robot.showsGo || (robot.isDown && where.at === lane);
-    const kind = isBeside(robot) ? "beside" : robot.guards ? "inPosition" : atSign && robot.body === "parked" ? "sign" : robot.body;
+    const kind = where.kind === "onRoad" && robot.escorts ? "beside" : robot.guards ? "inPosition" : atSign && robot.body === "parked" ? "sign" : robot.body;
     const row = used[kind] = (used[kind] ?? 0) + 1;
     const [x, y] = kind === "sign" ? [385 + (row - 1) * 90, 158] : [spots[kind][0] + (row - 1) * 62, spots[kind][1]];
     return svg("g", {},
