@@ -79,7 +79,7 @@ mod numbered;
 pub mod odds;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod paper;
-mod parallel;
+pub mod parallel;
 pub mod properties;
 pub mod replay;
 pub mod report;

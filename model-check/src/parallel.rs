@@ -1,8 +1,48 @@
-//! Work on slices by several threads, with results in the order of the slice.
+//! Work by several threads.
 
 use std::num::NonZeroUsize;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::thread;
+
+/// Does the jobs `0..jobs` on this thread and others, `threads` in all and at least one. `take` receives the number and the result of
+/// each job, one at a time, in the order in which they end, and returns whether to go on. If not, no further job begins; `take` still
+/// receives the jobs that run.
+///
+/// # Panics
+/// When `run` or `take` panics.
+pub fn in_parallel<R>(
+    threads: usize,
+    jobs: usize,
+    run: impl Fn(usize) -> R + Sync,
+    take: impl FnMut(usize, R) -> bool + Send,
+) {
+    let (next, is_over) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let take = Mutex::new(take);
+    let work = || {
+        while !is_over.load(Ordering::Relaxed) {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            if number >= jobs {
+                return;
+            }
+            let result = run(number);
+            let mut take = take.lock().unwrap_or_else(PoisonError::into_inner);
+            if !take(number, result) {
+                is_over.store(true, Ordering::Relaxed);
+            }
+        }
+    };
+    thread::scope(|scope| {
+        let others = (1..threads.min(jobs)).map(|_| scope.spawn(work));
+        let others: Vec<_> = others.collect();
+        work();
+        for other in others {
+            if let Err(cause) = other.join() {
+                std::panic::resume_unwind(cause);
+            }
+        }
+    });
+}
 
 /// What `work` makes of each run of `size` items, in order. Which thread does what shows nowhere.
 ///
@@ -15,34 +55,13 @@ pub(crate) fn map_chunks<T: Sync, R: Send>(
     work: impl Fn(&[T]) -> R + Sync,
 ) -> Vec<R> {
     let chunks: Vec<&[T]> = items.chunks(size).collect();
-    let workers = threads.get().min(chunks.len());
-    if workers <= 1 {
-        return chunks.into_iter().map(work).collect();
-    }
-    let next = AtomicUsize::new(0);
-    let take = || {
-        let mut done = Vec::new();
-        loop {
-            let place = next.fetch_add(1, Ordering::Relaxed);
-            let Some(chunk) = chunks.get(place) else {
-                return done;
-            };
-            done.push((place, work(chunk)));
-        }
-    };
-    let mut done = thread::scope(|scope| {
-        let others: Vec<_> = (1..workers).map(|_| scope.spawn(take)).collect();
-        let mut done = take();
-        for other in others {
-            match other.join() {
-                Ok(more) => done.extend(more),
-                Err(cause) => std::panic::resume_unwind(cause),
-            }
-        }
-        done
+    let mut results: Vec<Option<R>> = chunks.iter().map(|_| None).collect();
+    let run = |number: usize| work(chunks[number]);
+    in_parallel(threads.get(), chunks.len(), run, |number, result| {
+        results[number] = Some(result);
+        true
     });
-    done.sort_unstable_by_key(|&(place, _)| place);
-    done.into_iter().map(|(_, result)| result).collect()
+    results.into_iter().flatten().collect()
 }
 
 #[cfg(test)]
@@ -59,5 +78,23 @@ mod tests {
             assert_eq!(found, sums);
         }
         assert!(map_chunks(NonZeroUsize::MIN, &[0_u8; 0], 10, <[u8]>::len).is_empty());
+    }
+
+    #[test]
+    fn nothing_begins_after_the_end() {
+        for threads in 1..=5 {
+            let mut taken = Vec::new();
+            in_parallel(
+                threads,
+                1_000,
+                |number| 2 * number,
+                |number, twice| {
+                    taken.push((number, twice));
+                    taken.len() < 10
+                },
+            );
+            assert!((10..10 + threads).contains(&taken.len()), "{taken:?}");
+            assert!(taken.iter().all(|(number, twice)| 2 * number == *twice));
+        }
     }
 }

@@ -1,8 +1,6 @@
 //! The whole matrix: robots, people, radii and seeds, over all cores.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
-
+use crossguard_model_check::parallel::in_parallel;
 use serde::Serialize;
 
 use super::behaviour::Behaviour;
@@ -186,9 +184,14 @@ pub fn cbr(
     done: impl Fn(usize, usize) -> bool + Sync,
 ) -> Result<CbrResults, RobotError> {
     let jobs = jobs(traces, axes);
-    let run = |job: &Job| measure(traces, axes, behaviour, sizes, job);
-    let results = in_parallel(axes.threads, &jobs, run, |measured, count| {
-        measured.is_ok() && done(count, jobs.len())
+    let mut results: Vec<_> = jobs.iter().map(|_| None).collect();
+    let run = |number: usize| measure(traces, axes, behaviour, sizes, &jobs[number]);
+    let mut count = 0;
+    in_parallel(axes.threads, jobs.len(), run, |number, measured| {
+        count += 1;
+        let goes_on = measured.is_ok() && done(count, jobs.len());
+        results[number] = Some(measured);
+        goes_on
     });
     let results: Vec<Option<Done>> = results
         .into_iter()
@@ -202,39 +205,6 @@ pub fn cbr(
         cells: cells(traces, axes, find),
         silences: silences(traces, &jobs, &results),
     })
-}
-
-/// Does jobs on so many threads. After each, a thread asks with its result and how many are done whether to go on. A job that
-/// was not done has no result.
-pub fn in_parallel<J: Sync, R: Send>(
-    threads: usize,
-    jobs: &[J],
-    run: impl Fn(&J) -> R + Sync,
-    goes_on: impl Fn(&R, usize) -> bool + Sync,
-) -> Vec<Option<R>> {
-    let results: Vec<Option<R>> = jobs.iter().map(|_| None).collect();
-    let results = Mutex::new(results);
-    let (next, finished) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let work = || {
-        // A job that is taken is the thread's own.
-        loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            let Some(job) = jobs.get(number) else { return };
-            let result = run(job);
-            let count = finished.fetch_add(1, Ordering::Relaxed) + 1;
-            let is_over = !goes_on(&result, count);
-            results.lock().unwrap_or_else(PoisonError::into_inner)[number] = Some(result);
-            if is_over {
-                return;
-            }
-        }
-    };
-    std::thread::scope(|scope| {
-        for _ in 0..threads.clamp(1, jobs.len().max(1)) {
-            scope.spawn(work);
-        }
-    });
-    results.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn silences(traces: &[Traces], jobs: &[Job], results: &[Option<Done>]) -> Vec<SilenceInRun> {

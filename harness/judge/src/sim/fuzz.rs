@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use crossguard_model_check::node::{Protocol, Rules};
+use crossguard_model_check::parallel::in_parallel;
 use crossguard_robot::plan::Plan;
 use crossguard_robot::transport::Faults;
 use serde::Serialize;
@@ -157,34 +156,15 @@ impl Fuzz<'_> {
         rules: &'static dyn Rules,
         progress: &(dyn Fn(&Totals) -> bool + Sync),
     ) -> Totals {
-        let next = AtomicU64::new(0);
-        let enough = AtomicBool::new(false);
-        let totals = Mutex::new(Totals::default());
-        let work = || {
-            while !enough.load(Ordering::Relaxed) {
-                let number = next.fetch_add(1, Ordering::Relaxed);
-                if number >= self.seeds {
-                    return;
-                }
-                let seed = self.first.wrapping_add(number);
-                let outcome = self.one(seed, rules);
-                let mut totals = totals
-                    .lock()
-                    .unwrap_or_else(std::sync::PoisonError::into_inner);
-                totals.add(seed, &outcome);
-                if !progress(&totals) || totals.failures.len() >= self.failures_max {
-                    enough.store(true, Ordering::Relaxed);
-                }
-            }
-        };
-        std::thread::scope(|scope| {
-            for _ in 0..self.threads.max(1) {
-                scope.spawn(work);
-            }
+        let mut totals = Totals::default();
+        let seeds = usize::try_from(self.seeds).unwrap_or(usize::MAX);
+        let seed = |number: usize| self.first.wrapping_add(number as u64);
+        let run = |number| self.one(seed(number), rules);
+        in_parallel(self.threads, seeds, run, |number, outcome| {
+            totals.add(seed(number), &outcome);
+            progress(&totals) && totals.failures.len() < self.failures_max
         });
         totals
-            .into_inner()
-            .unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 
     /// One run; a panic in it is a finding as well.

@@ -6,7 +6,6 @@ use std::sync::atomic::Ordering;
 
 use crossguard_endpoint::ras::motion::distance_m;
 use crossguard_evaluation::fcd::{self, Recording};
-use crossguard_evaluation::matrix::in_parallel;
 use crossguard_evaluation::messages::DATA_RATE_MBPS;
 use crossguard_evaluation::messages::{
     Signed, Sizes, air_time_us, frame_octets, packet_air_time_us,
@@ -15,6 +14,7 @@ use crossguard_evaluation::shipped;
 use crossguard_evaluation::statistics::Estimate;
 use crossguard_evaluation::trace::Track;
 use crossguard_judge::sim::{Arrival, Demand, Habits, Measured, Swarm};
+use crossguard_model_check::parallel::in_parallel;
 use serde::Serialize;
 use toml::Table;
 
@@ -166,11 +166,14 @@ pub(super) fn run(arguments: &Crossing) -> Result<(), Failure> {
     let bar = output::progress(arguments.output.json, "runs");
     bar.set_length(jobs.len() as u64);
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let run = |(robots, of): &(usize, &Comers)| {
+    let run = |number: usize| {
+        let (robots, of) = jobs[number];
         let demand = Demand::draw(of.seed, &of.people, &of.vehicles, habits);
-        Measured::of(&Swarm::at_place(of.seed, *robots, demand))
+        Measured::of(&Swarm::at_place(of.seed, robots, demand))
     };
-    let done = in_parallel(threads, &jobs, run, |_, _| {
+    let mut done = vec![None; jobs.len()];
+    in_parallel(threads, jobs.len(), run, |number, measured| {
+        done[number] = Some(measured);
         bar.inc(1);
         !interrupted.load(Ordering::Relaxed)
     });
