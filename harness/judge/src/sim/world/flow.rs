@@ -16,7 +16,6 @@ use crossguard_protocol::SessionId;
 use crossguard_robot::site::Place;
 use rand::Rng;
 
-use super::people::OnRoad;
 use super::sensors::CARS;
 use super::truth::TOLERANCE_M;
 use super::walkers::{COMES_FROM, GOES_TO, WAITS_AT, Walker, walk};
@@ -195,18 +194,12 @@ impl World<'_> {
             let arrival = draw.arrival;
             let at = |north| side(arrival.comes_back, Place::new(draw.east_m, north));
             let from = at((ROAD_M / 2.0 - arrival.away_m).min(WAITS_AT));
-            let mut way = vec![(self.now_us, from)];
-            walk(&mut way, at(WAITS_AT), arrival.speed_mps);
-            self.flow.log.people[number].since_us = way[1].0;
-            self.walkers.push(Walker {
-                id: u32::try_from(number).unwrap_or(u32::MAX),
-                since_us: way[1].0,
-                patient_until_us: way[1].0 + draw.patience_us,
-                is_after_healing: false,
-                waits: true,
-                session: None,
-                way,
-            });
+            let id = u32::try_from(number).unwrap_or(u32::MAX);
+            let ends = [from, at(WAITS_AT)];
+            let mut walker = Walker::comes(id, self.now_us, ends, arrival.speed_mps);
+            walker.patient_until_us = walker.since_us + draw.patience_us;
+            self.flow.log.people[number].since_us = walker.since_us;
+            self.walkers.push(walker);
         }
     }
 
@@ -215,18 +208,15 @@ impl World<'_> {
         self.walkers.retain(|it| !it.is_gone(now_us));
         for number in 0..self.walkers.len() {
             let walker = &self.walkers[number];
-            if !walker.waits || walker.since_us > now_us {
+            if !walker.stands(now_us) {
                 continue;
             }
             let draw = demand.people[walker.id as usize];
             let goes_alone = self.goes_alone(demand, walker, &draw);
             if walker.patient_until_us <= now_us {
                 self.flow.log.people[walker.id as usize].end(now_us, End::GaveUp);
-                let walker = &mut self.walkers[number];
-                walker.waits = false;
-                walker.way = vec![(now_us, walker.place(now_us))];
                 let away = side(draw.arrival.comes_back, Place::new(draw.east_m, COMES_FROM));
-                walk(&mut walker.way, away, draw.arrival.speed_mps);
+                self.walkers[number].goes_away(now_us, away, draw.arrival.speed_mps);
             } else if let Some(&leader) = self.road.signs_at(0).first() {
                 // A third of a second to look and to step off.
                 if self.draws.random_bool(0.3)
@@ -263,21 +253,16 @@ impl World<'_> {
         let now_us = self.now_us;
         let walker = &mut self.walkers[number];
         let at = |north| side(draw.arrival.comes_back, Place::new(draw.east_m, north));
-        walker.way = vec![(now_us, walker.place(now_us))];
-        walk(&mut walker.way, at(ROAD_M + 0.1), draw.arrival.speed_mps);
-        walk(&mut walker.way, at(GOES_TO), draw.arrival.speed_mps);
-        (walker.waits, walker.session) = (false, session);
+        let mut way = vec![(now_us, walker.place(now_us))];
+        walk(&mut way, at(ROAD_M + 0.1), draw.arrival.speed_mps);
+        walk(&mut way, at(GOES_TO), draw.arrival.speed_mps);
+        walker.sets_out(way, session);
         let log = &mut self.flow.log.people[walker.id as usize];
         let is_guided = session.is_some();
         log.end(now_us, if is_guided { End::AtSign } else { End::ByGap });
         log.way.clone_from(&walker.way);
         if let Some(session) = session {
-            self.people.push(OnRoad {
-                session,
-                corner: 0,
-                across_us: self.walkers[number].way[1].0,
-                is_after_healing: false,
-            });
+            self.is_on_road(number, session);
         }
     }
 
@@ -325,7 +310,7 @@ impl World<'_> {
         });
         let waiting = self.walkers.iter().filter(|it| {
             let draw = &demand.people[it.id as usize];
-            it.waits && it.since_us <= self.now_us && self.goes_alone(demand, it, draw)
+            it.stands(self.now_us) && self.goes_alone(demand, it, draw)
         });
         let robots = self.seats.iter().filter_map(|seat| seat.machine.as_ref());
         Ahead {

@@ -43,6 +43,38 @@ pub(super) struct Walker {
 }
 
 impl Walker {
+    /// Somebody who comes from a place to the kerb, at a speed in m/s, and waits there for as long as it takes.
+    pub(super) fn comes(id: u32, now_us: u64, [from, to]: [Place; 2], speed_mps: f64) -> Self {
+        let mut way = vec![(now_us, from)];
+        walk(&mut way, to, speed_mps);
+        Self {
+            id,
+            since_us: way[1].0,
+            patient_until_us: u64::MAX,
+            is_after_healing: false,
+            waits: true,
+            session: None,
+            way,
+        }
+    }
+
+    /// Whether they stand at the kerb and wait.
+    pub(super) fn stands(&self, now_us: u64) -> bool {
+        self.waits && self.since_us <= now_us
+    }
+
+    /// Waits no longer, and goes away to a place.
+    pub(super) fn goes_away(&mut self, now_us: u64, to: Place, speed_mps: f64) {
+        self.way = vec![(now_us, self.place(now_us))];
+        self.waits = false;
+        walk(&mut self.way, to, speed_mps);
+    }
+
+    /// Waits no longer, and steps on the road: at the sign of a session, or without one.
+    pub(super) fn sets_out(&mut self, way: Vec<(u64, Place)>, session: Option<SessionId>) {
+        (self.way, self.waits, self.session) = (way, false, session);
+    }
+
     /// Where they are.
     pub(super) fn place(&self, now_us: u64) -> Place {
         let next = self.way.iter().position(|(at_us, _)| *at_us > now_us);
@@ -154,18 +186,10 @@ impl World<'_> {
         for _ in 0..come.min(WAITING_MAX.saturating_sub(waiting)) {
             self.walkers_came += 1;
             let east = self.draws.random_range(-0.5..2.5);
-            let mut walker = Walker {
-                id: self.walkers_came,
-                since_us: 0,
-                patient_until_us: u64::MAX,
-                is_after_healing: self.is_healed,
-                waits: true,
-                session: None,
-                way: vec![(now_us, Place::new(east, COMES_FROM))],
-            };
             let speed_mps = scale * self.draws.random_range(0.8..1.8);
-            walk(&mut walker.way, Place::new(east, WAITS_AT), speed_mps);
-            walker.since_us = walker.way[1].0;
+            let ends = [COMES_FROM, WAITS_AT].map(|north| Place::new(east, north));
+            let mut walker = Walker::comes(self.walkers_came, now_us, ends, speed_mps);
+            walker.is_after_healing = self.is_healed;
             if !self.is_healed && self.draws.random_bool(0.15) {
                 let waits_us = self.draws.random_range(SECOND_US..20 * SECOND_US);
                 walker.patient_until_us = walker.since_us + waits_us;
@@ -181,13 +205,16 @@ impl World<'_> {
         self.walkers.retain(|it| !it.is_gone(now_us));
         for number in 0..self.walkers.len() {
             let walker = &self.walkers[number];
-            if !walker.waits || walker.since_us > now_us {
+            if !walker.stands(now_us) {
                 continue;
             }
             // In the end nobody waits for what does not come.
             let is_at_end = self.is_healed && self.progress.as_ref().is_none_or(|it| it.is_done);
             if walker.patient_until_us <= now_us || is_at_end && self.draws.random_bool(0.02) {
-                self.goes_away(number);
+                let to = Place::new(walker.place(now_us).east, COMES_FROM);
+                let walker = &mut self.walkers[number];
+                walker.goes_away(now_us, to, 1.0);
+                self.waits[usize::from(walker.is_after_healing)].left += 1;
                 continue;
             }
             let signs = self.road.signs_at(0);
@@ -206,32 +233,27 @@ impl World<'_> {
         Ok(())
     }
 
-    fn goes_away(&mut self, number: usize) {
-        let walker = &mut self.walkers[number];
-        let Place { east, .. } = walker.place(self.now_us);
-        walker.way = vec![(self.now_us, walker.place(self.now_us))];
-        walker.waits = false;
-        walk(&mut walker.way, Place::new(east, COMES_FROM), 1.0);
-        self.waits[usize::from(walker.is_after_healing)].left += 1;
-    }
-
     /// Somebody steps on the road.
     fn sets_out(&mut self, number: usize, session: SessionId) {
         let (now_us, draw) = (self.now_us, self.seats[0].draw);
         let most_us = longest_us(draw.config.settings());
         let walker = &mut self.walkers[number];
         let from = walker.place(now_us);
-        walker.way = cross(&mut self.draws, from, now_us, draw.time_scale, most_us);
-        (walker.waits, walker.session) = (false, Some(session));
+        let way = cross(&mut self.draws, from, now_us, draw.time_scale, most_us);
+        walker.sets_out(way, Some(session));
         let waited_ms = (now_us - walker.since_us) / 1_000;
         let waits = &mut self.waits[usize::from(walker.is_after_healing)];
         (waits.waited_ms).push(u32::try_from(waited_ms).unwrap_or(u32::MAX));
-        // The last leg leads from a kerb on.
-        let across_us = walker.way[walker.way.len() - 2].0;
+        self.is_on_road(number, session);
+    }
+
+    /// Somebody is on the road, at the sign of a session, until the last leg of their way, which leads from a kerb on.
+    pub(super) fn is_on_road(&mut self, number: usize, session: SessionId) {
+        let way = &self.walkers[number].way;
         self.people.push(OnRoad {
             session,
             corner: 0,
-            across_us,
+            across_us: way[way.len() - 2].0,
             is_after_healing: self.is_healed,
         });
     }
