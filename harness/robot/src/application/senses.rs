@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crossguard_codec::{Identity, Kind, Position, TaskParameters};
 use crossguard_crossing::{
-    BodyReport, Coverage, Frame, Input, Point, Pose, RoadUser, Sighting, Vehicle,
+    BodyReport, Coverage, Frame, Input, Point, Pose, RoadUser, Sighting, Vehicle, Way,
 };
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::station::{LocalDynamicMap, Neighbour};
@@ -228,8 +228,8 @@ impl Application {
     }
 
     fn hear_vehicle(&mut self, known: &Neighbour) {
-        let (user, position) = (&known.user, &known.user.position);
-        let Some(at) = self.at_point(position) else {
+        let user = &known.user;
+        let Some(at) = self.at_point(&user.position) else {
             return;
         };
         let way = match (user.speed, user.heading) {
@@ -241,23 +241,15 @@ impl Application {
             (Some(speed), None) => self.towards_crossing(at, speed),
             (None, _) => return,
         };
+        let velocity = velocity(way);
+        let seen = heard(known, at, RoadUser::Vehicle, Some(velocity));
+        self.observe_one(HEARD, seen);
         let vehicle = Vehicle {
             key: key(user.identity),
             at,
-            error_cm: error_cm(position),
-            velocity: velocity(way),
+            error_cm: seen.error_cm,
+            velocity,
         };
-        self.observe_one(
-            HEARD,
-            Sighting {
-                id: Some(vehicle.key),
-                at,
-                error_cm: vehicle.error_cm,
-                velocity: Some(vehicle.velocity),
-                what: RoadUser::Vehicle,
-                confidence: 100,
-            },
-        );
         self.step(Input::Vehicle(vehicle, Millis::ZERO));
     }
 
@@ -275,14 +267,7 @@ impl Application {
         let Some(at) = self.at_point(&known.user.position) else {
             return;
         };
-        let seen = Sighting {
-            id: Some(key(known.user.identity)),
-            at,
-            error_cm: error_cm(&known.user.position),
-            velocity: None,
-            what: RoadUser::Pedestrian,
-            confidence: 100,
-        };
+        let seen = heard(known, at, RoadUser::Pedestrian, None);
         self.step(Input::Heard(seen, Millis::ZERO));
     }
 
@@ -346,6 +331,18 @@ impl Application {
         observed
             .filter(|(_, conduct)| *conduct == Conduct::OnRoad)
             .count()
+    }
+}
+
+/// A road user whose own message says where it is.
+fn heard(known: &Neighbour, at: Point, what: RoadUser, velocity: Option<Way>) -> Sighting {
+    Sighting {
+        id: Some(key(known.user.identity)),
+        at,
+        error_cm: error_cm(&known.user.position),
+        velocity,
+        what,
+        confidence: 100,
     }
 }
 
