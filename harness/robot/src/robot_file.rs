@@ -208,6 +208,13 @@ pub struct RobotFileError {
     pub cause: Impossibility,
 }
 
+impl RobotFileError {
+    fn at(path: &Path, cause: impl Into<Impossibility>) -> Self {
+        let (path, cause) = (path.to_owned(), cause.into());
+        Self { path, cause }
+    }
+}
+
 /// What is wrong with a configuration.
 #[derive(Debug, thiserror::Error)]
 pub enum Impossibility {
@@ -315,18 +322,22 @@ impl RobotFile {
     /// # Errors
     /// The first thing that is wrong.
     pub fn read_with(path: &Path, besides: Besides<'_>) -> Result<Self, RobotFileError> {
-        Self::checked(path, besides).map_err(|cause| RobotFileError {
-            path: path.to_owned(),
-            cause,
-        })
+        let text = files::text(path, files::TEXT_MAX);
+        let text = text.map_err(|cause| RobotFileError::at(path, cause))?;
+        Self::parse(path, &text, besides)
     }
 
-    fn checked(path: &Path, besides: Besides<'_>) -> Result<Self, Impossibility> {
-        let text = files::text(path, files::TEXT_MAX)?;
-        let mut file: RobotTable = toml::from_str(&text).map_err(Box::new)?;
+    /// The same, from the text of the file.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn parse(path: &Path, text: &str, besides: Besides<'_>) -> Result<Self, RobotFileError> {
+        let file = toml::from_str::<RobotTable>(text).map_err(Box::new);
+        let mut file = file.map_err(|cause| RobotFileError::at(path, cause))?;
         let folder = path.parent().unwrap_or(Path::new("."));
         file.name_files(folder, besides);
-        file.check(folder)
+        let checked = file.check(folder);
+        checked.map_err(|cause| RobotFileError::at(path, cause))
     }
 
     /// A simulated body at its place; `seed` is that of its gait.

@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use std::sync::atomic::Ordering;
 
 use crossguard_robot::files;
-use crossguard_robot::robot_file::RobotFile;
+use crossguard_robot::robot_file::{Besides, RobotFile};
 
 use super::super::interrupts::interrupts;
 use super::super::{Failure, complain};
@@ -30,7 +30,8 @@ fn robot_files(folder: &Path) -> Result<Vec<(PathBuf, RobotFile)>, Failure> {
         let text = files::text(&path, files::TEXT_MAX).map_err(Failure::at(&path))?;
         let table: toml::Table = text.parse().map_err(Failure::at(&path))?;
         if table.contains_key("station") {
-            let file = RobotFile::read(&path).map_err(Failure::input)?;
+            let file =
+                RobotFile::parse(&path, &text, Besides::default()).map_err(Failure::input)?;
             robots.push((path, file));
         }
     }
