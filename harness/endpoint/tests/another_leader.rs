@@ -1,18 +1,19 @@
 //! A leader that goes behind at the same place and does not yield may not hear this robot: that is told, once for its session.
 
-use crossguard_codec::geonet::{EgoPosition, Stack};
-use crossguard_codec::{Identifiers, RobotState, Service, encode, ram_from};
+use crossguard_codec::Identifiers;
+use crossguard_codec::geonet::Stack;
 use crossguard_endpoint::cause::Cause;
-use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crossguard_endpoint::{Effect, Endpoint, Stimulus};
 use crossguard_protocol::{
-    Availability, Config, Confirmation, Coordination, Event, Heartbeat, HelpRequest, Millis,
-    OfferNumber, Place, Ram, Robot, Role, SessionNumber, StationId, TaskSet, TaskType,
-    UniqueNumber, Urgency,
+    Confirmation, Coordination, Heartbeat, Millis, OfferNumber, Place, Role, SessionNumber,
+    StationId, TaskSet, TaskType, UniqueNumber, Urgency,
 };
+
+use crate::support::{detected, endpoint, handle, hear, ram};
 
 const NUMBER: UniqueNumber = UniqueNumber { boot: 1, count: 0 };
 const PLACE: Place = Place(7);
-const TASKS: TaskSet = TaskSet::of(&[TaskType::BLOCK]);
+const TASK: TaskType = TaskType::BLOCK;
 
 /// The leader of this test, and its clock.
 struct Street {
@@ -22,21 +23,15 @@ struct Street {
 
 impl Street {
     fn idle() -> Self {
-        let robot = Robot::new(StationId(1), 1);
         Self {
-            leader: Endpoint::new(robot, Config::default(), Identifiers::default(), 0),
+            leader: endpoint(StationId(1)),
             now_ms: 100,
         }
     }
 
     fn detect(&mut self) {
-        let request = HelpRequest {
-            urgency: Urgency::Medium,
-            followers: 1,
-            tasks: TASKS,
-            place: PLACE,
-        };
-        self.handle(Stimulus::Event(Event::PedestrianDetected(request)));
+        let detected = Stimulus::Event(detected(TASK, PLACE));
+        handle(&mut self.leader, self.now_ms, detected);
     }
 
     /// An offer of help to it.
@@ -44,38 +39,19 @@ impl Street {
         Coordination::OfferHelp {
             session: self.leader.robot().session().unwrap(),
             offer: OfferNumber(NUMBER),
-            capabilities: TASKS,
+            capabilities: TaskSet::of(&[TASK]),
             echo: Heartbeat(0),
             t_safety: Millis(2_000),
         }
     }
 
-    fn handle(&mut self, stimulus: Stimulus<'_>) -> Vec<Effect> {
-        let moment = Moment::after(694_694_401_000, self.now_ms);
-        self.leader.handle(moment, &RobotState::default(), stimulus)
-    }
-
     /// 100 ms later a station says that. What is dropped of it.
     fn hear(&mut self, from: &mut (StationId, Stack), coordination: Coordination) -> Vec<String> {
         self.now_ms += 100;
-        self.handle(Stimulus::Time);
+        handle(&mut self.leader, self.now_ms, Stimulus::Time);
         let (station, stack) = from;
-        let ram = Ram {
-            station: *station,
-            coordination,
-            farewell: None,
-            on_duty: false,
-        };
-        let (ids, state) = (Identifiers::default(), RobotState::default());
-        let ram = ram_from(&ids, &state, &ram, Availability::Available, 0, false).unwrap();
-        let message = encode(&ids, &ram).unwrap();
-        let packet = stack
-            .packet(&EgoPosition::default(), Service::Ram, &message)
-            .unwrap();
-        let effects = self.handle(Stimulus::Datagram {
-            packet: &packet,
-            arrived_ms: self.now_ms,
-        });
+        let packet = ram(stack, *station, coordination);
+        let effects = hear(&mut self.leader, self.now_ms, &packet);
         let dropped = effects.into_iter().filter_map(|effect| match effect {
             Effect::Dropped { cause, detail, .. } => Some(format!("{cause}: {detail}")),
             _ => None,

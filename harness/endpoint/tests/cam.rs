@@ -1,18 +1,18 @@
 //! CAM of a robot, as another robot hears them: its RAM comes first.
 
-use crossguard_codec::{Identifiers, Identity, Kind, Position, RobotState, Service};
+use crossguard_codec::{Identity, Kind, Position, RobotState, Service};
 use crossguard_endpoint::ras::surroundings::Awareness;
-use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{Config, Robot, Settings, StationId};
+use crossguard_endpoint::{Effect, Endpoint, Stimulus};
+use crossguard_protocol::StationId;
+
+use crate::support::moment;
 
 fn endpoint(station: u32, cam: bool) -> Endpoint {
-    let config = Config::new(Settings::default()).unwrap();
-    let robot = Robot::new(StationId(station), 1);
     let awareness = Awareness {
         cam,
         ..Awareness::default()
     };
-    Endpoint::new(robot, config, Identifiers::default(), 0).with_awareness(awareness)
+    crate::support::endpoint(StationId(station)).with_awareness(awareness)
 }
 
 fn state() -> RobotState {
@@ -20,10 +20,6 @@ fn state() -> RobotState {
         position: Position::at(49.0, 8.4),
         ..RobotState::default()
     }
-}
-
-const fn moment(now_ms: u64) -> Moment {
-    Moment::after(694_694_400_000, now_ms)
 }
 
 /// What the endpoint sends within this many seconds when nothing happens.

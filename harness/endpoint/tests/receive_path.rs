@@ -2,11 +2,13 @@
 //! fuzz target `receive` in `harness/fuzz`.
 
 use crossguard_codec::geonet::{EgoPosition, Stack};
-use crossguard_codec::{Identifiers, RobotState, Service, golden};
-use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{Config, Robot, StationId};
+use crossguard_codec::{Identifiers, Service, golden};
+use crossguard_endpoint::{Effect, Stimulus};
+use crossguard_protocol::{Place, StationId, TaskType};
 use rand::{Rng, RngCore, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+
+use crate::support::{detected, endpoint, handle, hear, sent};
 
 /// How many packets are tried.
 const PACKETS: u64 = 20_000;
@@ -33,34 +35,10 @@ fn packets() -> Vec<Vec<u8>> {
 /// Messages of a robot that asks for help.
 fn of_a_robot() -> Vec<Vec<u8>> {
     let mut robot = endpoint(StationId(9));
-    let event = crossguard_protocol::Event::PedestrianDetected(crossguard_protocol::HelpRequest {
-        urgency: crossguard_protocol::Urgency::High,
-        followers: 1,
-        tasks: crossguard_protocol::TaskSet(1),
-        place: crossguard_protocol::Place::UNKNOWN,
-    });
-    let state = RobotState::default();
-    let effects = robot.handle(moment(200), &state, Stimulus::Event(event));
-    effects
-        .into_iter()
-        .filter_map(|effect| match effect {
-            Effect::Transmit { packet, .. } => Some(packet),
-            _ => None,
-        })
-        .collect()
-}
-
-fn endpoint(station: StationId) -> Endpoint {
-    Endpoint::new(
-        Robot::new(station, 1),
-        Config::default(),
-        Identifiers::default(),
-        0,
-    )
-}
-
-fn moment(now_ms: u64) -> Moment {
-    Moment::after(694_694_401_000, now_ms)
+    let event = detected(TaskType::INITIAL_POS, Place::UNKNOWN);
+    let effects = handle(&mut robot, 200, Stimulus::Event(event));
+    let sent = sent(&effects, None).into_iter();
+    sent.map(|(packet, _)| packet.to_vec()).collect()
 }
 
 #[test]
@@ -70,7 +48,6 @@ fn any_packet_is_taken_or_dropped_under_a_cause() {
     seeds.extend(of_a_robot());
     assert!(seeds.len() > 100);
     let mut endpoint = endpoint(StationId(1));
-    let state = RobotState::default();
     let (mut taken, mut dropped) = (0, 0);
     for n in 0..PACKETS {
         let seed = noise.random_range(0..seeds.len());
@@ -90,11 +67,7 @@ fn any_packet_is_taken_or_dropped_under_a_cause() {
                 noise.fill_bytes(&mut packet[from..]);
             }
         }
-        let datagram = Stimulus::Datagram {
-            packet: &packet,
-            arrived_ms: moment(n).now_ms,
-        };
-        let effects = endpoint.handle(moment(n), &state, datagram);
+        let effects = hear(&mut endpoint, n, &packet);
         let drops = effects
             .iter()
             .filter(|effect| matches!(effect, Effect::Dropped { .. }))

@@ -2,14 +2,13 @@
 
 use crossguard_codec::geonet::{EgoPosition, Stack};
 use crossguard_codec::{
-    Identifiers, Position, RobotState, Service, TaskParameters, encode, rmcm_from_commands,
+    Identifiers, Position, Service, TaskParameters, encode, rmcm_from_commands,
 };
 use crossguard_endpoint::cause::Cause;
-use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{
-    Command, Config, Event, HelpRequest, Phase, Place, RequestId, Robot, SessionId, StationId,
-    TaskSet, TaskType, Urgency,
-};
+use crossguard_endpoint::{Act, Effect, Endpoint, Stimulus};
+use crossguard_protocol::{Command, Phase, Place, RequestId, SessionId, StationId, TaskType};
+
+use crate::support::{detected, endpoint, handle, hear, sent};
 
 const LEADER: StationId = StationId(1);
 const FOLLOWER: StationId = StationId(2);
@@ -22,39 +21,16 @@ fn at(speed: f64) -> TaskParameters {
     }
 }
 
-/// What an endpoint does with a stimulus.
-fn handle(endpoint: &mut Endpoint, now_ms: u64, stimulus: Stimulus<'_>) -> Vec<Effect> {
-    let moment = Moment::after(694_694_401_000, now_ms);
-    endpoint.handle(moment, &RobotState::default(), stimulus)
-}
-
-fn hear(endpoint: &mut Endpoint, now_ms: u64, packet: &[u8]) -> Vec<Effect> {
-    let arrived_ms = now_ms;
-    handle(endpoint, now_ms, Stimulus::Datagram { packet, arrived_ms })
-}
-
 fn packets(effects: &[Effect]) -> Vec<Vec<u8>> {
-    let packet = |effect: &Effect| match effect {
-        Effect::Transmit { packet, .. } => Some(packet.clone()),
-        _ => None,
-    };
-    effects.iter().filter_map(packet).collect()
+    let sent = sent(effects, None).into_iter();
+    sent.map(|(packet, _)| packet.to_vec()).collect()
 }
 
 /// A follower that carries a command out, the command, and when that is.
 fn follower_with_a_command() -> (Endpoint, Command, u64) {
-    let mut robots = [LEADER, FOLLOWER].map(|station| {
-        let robot = Robot::new(station, 1);
-        Endpoint::new(robot, Config::default(), Identifiers::default(), 0)
-    });
-    let request = HelpRequest {
-        urgency: Urgency::High,
-        followers: 1,
-        tasks: TaskSet::of(&[TASK]),
-        place: Place::UNKNOWN,
-    };
+    let mut robots = [LEADER, FOLLOWER].map(endpoint);
     let mut on_air = vec![Vec::new(), Vec::new()];
-    let detected = Stimulus::Event(Event::PedestrianDetected(request));
+    let detected = Stimulus::Event(detected(TASK, Place::UNKNOWN));
     on_air[0] = packets(&handle(&mut robots[0], 0, detected));
     for now_ms in (100..20_000).step_by(100) {
         let mut sent = vec![Vec::new(), Vec::new()];
@@ -105,21 +81,12 @@ fn point_7_another_target_under_the_same_request_id_is_refused() {
         let message = encode(&ids, &rmcm.unwrap()).unwrap();
         let packet = leader.packet(&EgoPosition::default(), Service::Rmcm, &message);
         let effects = hear(&mut follower, now_ms, &packet.unwrap());
-        let answers = effects.iter().filter(|effect| {
-            matches!(
-                effect,
-                Effect::Transmit {
-                    kind: Service::Rmcm,
-                    ..
-                }
-            )
-        });
         let starts = |effect: &Effect| matches!(effect, Effect::Act(Act::Start(..)));
         let refused = Cause::Contradictory("another command under its requestID");
         let is_refused =
             |effect: &Effect| matches!(effect, Effect::Dropped { cause, .. } if *cause == refused);
         (
-            answers.count(),
+            sent(&effects, Some(Service::Rmcm)).len(),
             effects.iter().any(starts),
             effects.iter().any(is_refused),
         )

@@ -3,30 +3,24 @@
 
 use crossguard_codec::core::ram::{HelpStatus, RAM};
 use crossguard_codec::{ControlMode, Identifiers, Position, RobotState, Service, decode, state_of};
-use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{
-    Availability, Config, Event, HelpRequest, Place, Robot, StationId, TaskSet, TaskType,
-    Unavailability, Urgency,
-};
+use crossguard_endpoint::{Endpoint, Stimulus};
+use crossguard_protocol::{Availability, Event, Place, StationId, TaskType, Unavailability};
+
+use crate::support::{endpoint, moment, sent};
+
+const DETECTED: Event = crate::support::detected(TaskType::MOVE, Place(7));
 
 /// The RAM that are sent when this happens.
 fn rams(endpoint: &mut Endpoint, now_ms: u64, event: Event) -> Vec<RAM> {
-    let moment = Moment::after(694_694_400_000, now_ms);
     let state = RobotState {
         position: Position::at(48.7, 9.1),
         control_mode: ControlMode::Autonomous,
         ..RobotState::default()
     };
-    let effects = endpoint.handle(moment, &state, Stimulus::Event(event));
-    let sent = effects.iter().filter_map(|effect| match effect {
-        Effect::Transmit {
-            kind: Service::Ram,
-            octets,
-            ..
-        } => decode::<RAM>(&Identifiers::default(), octets).ok(),
-        _ => None,
-    });
-    sent.map(|ram| ram.message).collect()
+    let effects = endpoint.handle(moment(now_ms), &state, Stimulus::Event(event));
+    let sent = sent(&effects, Some(Service::Ram)).into_iter();
+    let read = sent.map(|(_, octets)| decode::<RAM>(&Identifiers::default(), octets).unwrap());
+    read.map(|ram| ram.message).collect()
 }
 
 /// The control modes in the RAM that are sent when this happens.
@@ -35,35 +29,23 @@ fn modes(endpoint: &mut Endpoint, now_ms: u64, event: Event) -> Vec<ControlMode>
     rams.iter().map(|ram| state_of(ram).control_mode).collect()
 }
 
-fn detected() -> Event {
-    Event::PedestrianDetected(HelpRequest {
-        urgency: Urgency::Medium,
-        followers: 1,
-        tasks: TaskSet::of(&[TaskType::MOVE]),
-        place: Place(7),
-    })
-}
-
 #[test]
 fn the_ram_of_a_step_has_the_help_status_after_the_step() {
-    let robot = Robot::new(StationId(1), 1);
-    let mut endpoint = Endpoint::new(robot, Config::default(), Identifiers::default(), 0);
+    let mut endpoint = endpoint(StationId(1));
     let mut said = |now_ms, event| {
         let rams = rams(&mut endpoint, now_ms, event);
         let status = |ram: &RAM| ram.ram.ram_parameters.robot_status_container.help_status;
         rams.iter().map(status).collect::<Vec<_>>()
     };
-    let asked = said(10, detected());
+    let asked = said(10, DETECTED);
     assert_eq!(asked.last(), Some(&HelpStatus::NeedHelp), "{asked:?}");
     assert_eq!(said(20, Event::LeaveRequested), [HelpStatus::None]);
 }
 
 #[test]
 fn a_robot_that_becomes_unavailable_says_at_once_who_steers_it() {
-    let robot = Robot::new(StationId(1), 1);
-    let mut endpoint = Endpoint::new(robot, Config::default(), Identifiers::default(), 0);
-    let detected = detected();
-    let first = modes(&mut endpoint, 10, detected);
+    let mut endpoint = endpoint(StationId(1));
+    let first = modes(&mut endpoint, 10, DETECTED);
     assert_eq!(first.last(), Some(&ControlMode::Autonomous));
     let stop = Availability::Unavailable(Unavailability::EmergencyStop);
     let stopped = modes(&mut endpoint, 20, Event::AvailabilityChanged(stop));
@@ -77,6 +59,6 @@ fn a_robot_that_becomes_unavailable_says_at_once_who_steers_it() {
     // The application's word counts again as soon as it is available.
     let back = Event::AvailabilityChanged(Availability::Available);
     modes(&mut endpoint, 30, back);
-    let again = modes(&mut endpoint, 2_000, detected);
+    let again = modes(&mut endpoint, 2_000, DETECTED);
     assert_eq!(again.last(), Some(&ControlMode::Autonomous), "{again:?}");
 }

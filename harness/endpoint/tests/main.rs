@@ -1,0 +1,10 @@
+//! The tests of the endpoint, in one program: what they share is compiled and linked once.
+
+mod another_leader;
+mod cam;
+mod made_up_sessions;
+mod receive_path;
+mod same_request;
+mod state_after_the_step;
+mod support;
+mod way_of_a_ram;
