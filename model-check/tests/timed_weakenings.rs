@@ -9,6 +9,7 @@ use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::sequence::{ChartPlace, ChartStep};
 use crossguard_model_check::timed::TimedModel;
 use crossguard_protocol::*;
+use crossguard_testkit::rules::*;
 
 const HANG: &str = include_str!("../scenarios/timed-hang.toml");
 
@@ -79,11 +80,11 @@ weakenings! {
     #[test]
     fn a_follower_that_waits_less_than_it_promised_is_noticed_where_no_lease_shows_it(pair(&[("t_lease = 90", "t_lease = 60"), NO_FOLLOWER_FAILS, NOBODY_CRASHES]), RenewsContactBy::new(Millis(170)), [I19]);
     #[test]
-    fn a_leader_that_does_not_tell_of_a_lost_lease_leaves_its_application_unaware(sound_pair(), DoesNotTell(|notice| matches!(notice, Notice::LeaseExpired(_))), [W6]);
+    fn a_leader_that_does_not_tell_of_a_lost_lease_leaves_its_application_unaware(sound_pair(), TELLS_OF_NO_LOST_GUARD, [W6]);
     #[test]
-    fn a_leader_that_does_not_tell_of_a_failed_maneuver_leaves_its_application_unaware(with_a_long_lease(), DoesNotTell(|notice| matches!(notice, Notice::ManeuverFailed(..))), [W6]);
+    fn a_leader_that_does_not_tell_of_a_failed_maneuver_leaves_its_application_unaware(with_a_long_lease(), TELLS_OF_NO_FAILURE, [W6]);
     #[test]
-    fn a_request_that_ends_untold_lets_a_pedestrian_wait_for_ever(shipped("timed-wait"), DoesNotTell(|notice| matches!(notice, Notice::SessionEnded(..))), [W8]);
+    fn a_request_that_ends_untold_lets_a_pedestrian_wait_for_ever(shipped("timed-wait"), TELLS_OF_NO_END, [W8]);
     #[test]
     fn a_leader_that_yields_late_shows_go_beside_another_for_too_long(shipped("timed-rivals"), YieldsLate, [W3]);
     // The follower falls back later still.
@@ -205,22 +206,6 @@ fn a_corridor_that_is_not_closed_ends_by_itself_in_time() {
     assert_eq!(report.verdict("I11-premise"), Some(CheckVerdict::Reachable));
 }
 
-crossguard_testkit::weakenings! {
-    /// A robot that hears a RAM sends one.
-    AnswersEveryRam(robot, config, input) {
-        let outputs = robot.step(config, input);
-        let is_led = matches!(robot.phase(), Phase::Leading(_) | Phase::Following(_));
-        match input {
-            Input::Ram { .. } if is_led => {
-                let effects = outputs.iter().copied();
-                let effects = effects.filter(|output| !matches!(output, Output::Ignored(_)));
-                effects.chain([Output::SendRam]).collect()
-            }
-            _ => outputs,
-        }
-    }
-}
-
 /// A follower renews its contact on news by this much, in place of `t_safety` in full. Joining starts with all
 /// of it.
 struct RenewsContactBy(Config);
@@ -247,19 +232,9 @@ impl Rules for RenewsContactBy {
     }
 }
 
-/// A robot does not tell its application this.
-struct DoesNotTell(fn(Notice) -> bool);
-
-impl Rules for DoesNotTell {
-    fn step(&self, robot: &mut Robot, config: &Config, input: Input) -> Outputs {
-        let outputs = robot.step(config, input);
-        let is_told = |output: &Output| match *output {
-            Output::Notify(notice) => !(self.0)(notice),
-            _ => true,
-        };
-        outputs.iter().copied().filter(is_told).collect()
-    }
-}
+/// A leader's application is not told that a maneuver has failed.
+const TELLS_OF_NO_FAILURE: Drops =
+    Drops(|output| matches!(output, Output::Notify(Notice::ManeuverFailed(..))));
 
 crossguard_testkit::weakenings! {
     /// A leader listens to no other leader as long as its own leases are long.
@@ -272,8 +247,7 @@ crossguard_testkit::weakenings! {
             && matches!(robot.phase(), Phase::Leading(_))
             && robot.timers().iter().any(is_long)
         {
-            let ignored = Output::Ignored(Ignored::LowerPrecedence);
-            return [ignored].into_iter().collect();
+            return only(Output::Ignored(Ignored::LowerPrecedence));
         }
         robot.step(config, input)
     }

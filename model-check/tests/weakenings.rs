@@ -208,9 +208,7 @@ impl Rules for WaitsForEver {
             && (self.who)(robot.phase())
             && (self.timer)(&timer)
         {
-            return [Output::Ignored(Ignored::TimerNotArmed)]
-                .into_iter()
-                .collect();
+            return only(Output::Ignored(Ignored::TimerNotArmed));
         }
         robot.step(config, input)
     }
@@ -229,21 +227,6 @@ const NEVER_REPEATS: WaitsForEver = WaitsForEver {
 };
 
 crossguard_testkit::weakenings! {
-    /// A requester does not listen to others, and does not give up.
-    InsistsOnItsRequest(robot, config, input) {
-        let is_deaf = match input {
-            Input::Ram { ram, .. } => matches!(ram.coordination, Coordination::NeedHelp { .. }),
-            Input::Expired(Timer::Help | Timer::IdentityLock) => true,
-            _ => false,
-        };
-        if is_deaf && matches!(robot.phase(), Phase::Requesting(_)) {
-            return [Output::Ignored(Ignored::LowerPrecedence)]
-                .into_iter()
-                .collect();
-        }
-        robot.step(config, input)
-    }
-
     /// A command that is repeated while it is executed is started once more.
     StartsRepeatedWhileRunning(robot, config, input) {
         let running = match robot.phase() {
@@ -286,9 +269,7 @@ crossguard_testkit::weakenings! {
         if let (Phase::Leading(leading), Input::Expired(_)) = (robot.phase(), input)
             && leading.members.iter().all(|m| m.outstanding.is_none())
         {
-            return [Output::Ignored(Ignored::TimerNotArmed)]
-                .into_iter()
-                .collect();
+            return only(Output::Ignored(Ignored::TimerNotArmed));
         }
         robot.step(config, input)
     }
@@ -303,33 +284,18 @@ crossguard_testkit::weakenings! {
             _ => false,
         };
         if has_failed && matches!(input, Input::Local(Event::ManeuverFailed(_))) {
-            let mut state = serde_json::to_value(&*robot).unwrap();
-            state["phase"]["following"]["job"]["progress"] =
-                serde_json::to_value(Progress::Failed(Failure::ExecutionLimit)).unwrap();
-            *robot = serde_json::from_value(state).unwrap();
+            let failed = Progress::Failed(Failure::ExecutionLimit);
+            with_state(robot, |state| {
+                state["phase"]["following"]["job"]["progress"] = serde_json::to_value(failed).unwrap();
+            });
         }
         outputs
     }
 }
 
-/// Removed from the protocol, three of the checks that an open corridor needs went unnoticed once.
 #[test]
 fn each_check_of_an_open_corridor_is_missed() {
-    use CorridorClosure::{FollowerMissing, NotEngaged};
-    use Disengagement as D;
-    let checks: [fn(CorridorClosure) -> bool; 7] = [
-        |why| why == FollowerMissing,
-        |why| matches!(why, NotEngaged(_, D::NoLease)),
-        |why| matches!(why, NotEngaged(_, D::CommandOutstanding)),
-        |why| matches!(why, NotEngaged(_, D::NotExecuting)),
-        |why| matches!(why, NotEngaged(_, D::NotGuarding)),
-        |why| matches!(why, NotEngaged(_, D::NotInPosition)),
-        |why| {
-            let is_over = |why| matches!(why, D::Completed | D::Failed(_) | D::SafeIdle);
-            matches!(why, NotEngaged(_, why) if is_over(why))
-        },
-    ];
-    for (i, check) in checks.into_iter().enumerate() {
+    for (i, check) in CHECKS_OF_AN_OPEN_CORRIDOR.into_iter().enumerate() {
         // With two tasks, one of which does not guard.
         let scenario = if i == 0 { "trio-corridor" } else { "blocker" };
         assert_breaks(scenario, Overlooks(check), &[I11]);

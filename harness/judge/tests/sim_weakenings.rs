@@ -57,17 +57,6 @@ impl Rules for ShowsGoForLonger {
     }
 }
 
-/// A leader's application is not told of a lost guard.
-const TELLS_OF_NO_LOST_GUARD: Drops = Drops(|output| {
-    let is_lost =
-        |notice: Notice| matches!(notice, Notice::LeaseExpired(_) | Notice::FollowerGone(..));
-    matches!(output, Output::Notify(notice) if is_lost(*notice))
-});
-
-/// An application is not told that its session has ended, and why.
-const TELLS_OF_NO_END: Drops =
-    Drops(|output| matches!(output, Output::Notify(Notice::SessionEnded(..))));
-
 /// The first broken property that is found is one of these.
 const FOUND_FIRST: &[(&dyn Rules, &[&str])] = &[
     (&ConfirmsByStationAlone, &["I2", "I4", "I15"]),

@@ -2,9 +2,9 @@
 
 use crossguard_model_check::node::Rules;
 use crossguard_protocol::{
-    Command, Config, Confirmation, Coordination, Corridor, CorridorClosure, Ending, Event,
-    FallbackPolicy, Farewell, Ignored, Input, Maneuver, ManeuverId, Millis, Notice, Order, Output,
-    Outputs, Phase, Progress, Ram, Report, Rmcm, Robot, Role, SessionId, Settings, Timer,
+    Command, Config, Confirmation, Coordination, Corridor, CorridorClosure, Disengagement, Ending,
+    Event, FallbackPolicy, Farewell, Ignored, Input, Maneuver, ManeuverId, Millis, Notice, Order,
+    Output, Outputs, Phase, Progress, Ram, Report, Rmcm, Robot, Role, SessionId, Settings, Timer,
 };
 use serde_json::Value;
 
@@ -44,6 +44,17 @@ pub const NEVER_STOPS: Drops = Drops(|output| matches!(output, Output::StopManeu
 
 /// The identity is not locked.
 pub const NEVER_LOCKS_ITS_IDENTITY: Drops = Drops(|output| matches!(output, Output::LockIdentity));
+
+/// A leader's application is not told of a lost guard.
+pub const TELLS_OF_NO_LOST_GUARD: Drops = Drops(|output| {
+    let is_lost =
+        |notice: Notice| matches!(notice, Notice::LeaseExpired(_) | Notice::FollowerGone(..));
+    matches!(output, Output::Notify(notice) if is_lost(*notice))
+});
+
+/// An application is not told that its session has ended, and why.
+pub const TELLS_OF_NO_END: Drops =
+    Drops(|output| matches!(output, Output::Notify(Notice::SessionEnded(..))));
 
 weakenings! {
     /// When one follower is gone, another one's lease goes too.
@@ -194,9 +205,8 @@ weakenings! {
         if let (Phase::Following(following), Input::Local(Event::IdentityChanged(..))) =
             (robot.phase(), input)
         {
-            let mut state = serde_json::to_value(&*robot).unwrap();
-            state["station"] = serde_json::to_value(following.session.leader).unwrap();
-            *robot = serde_json::from_value(state).unwrap();
+            let leader = serde_json::to_value(following.session.leader).unwrap();
+            with_state(robot, |state| state["station"] = leader);
             return Outputs::default();
         }
         robot.step(config, input)
@@ -239,6 +249,32 @@ weakenings! {
             output => output,
         };
         outputs.iter().map(stop).collect()
+    }
+
+    /// A requester does not listen to others, and does not give up.
+    pub InsistsOnItsRequest(robot, config, input) {
+        let is_deaf = match input {
+            Input::Ram { ram, .. } => matches!(ram.coordination, Coordination::NeedHelp { .. }),
+            Input::Expired(Timer::Help | Timer::IdentityLock) => true,
+            _ => false,
+        };
+        if is_deaf && matches!(robot.phase(), Phase::Requesting(_)) {
+            return only(Output::Ignored(Ignored::LowerPrecedence));
+        }
+        robot.step(config, input)
+    }
+
+    /// A robot in a session sends a RAM for each that it hears.
+    pub AnswersEveryRam(robot, config, input) {
+        let outputs = robot.step(config, input);
+        let is_led = matches!(robot.phase(), Phase::Leading(_) | Phase::Following(_));
+        if !is_led || !matches!(input, Input::Ram { .. }) {
+            return outputs;
+        }
+        let effects = outputs.iter().copied();
+        let effects =
+            effects.filter(|output| !matches!(output, Output::Ignored(_) | Output::SendRam));
+        effects.chain([Output::SendRam]).collect()
     }
 
     /// A leader does not listen to other leaders.
@@ -417,7 +453,7 @@ fn start_of(command: &Command) -> Output {
 }
 
 /// No output but this one.
-fn only(output: Output) -> Outputs {
+pub fn only(output: Output) -> Outputs {
     [output].into_iter().collect()
 }
 
@@ -447,6 +483,26 @@ pub fn with_state(robot: &mut Robot, change: impl FnOnce(&mut Value)) {
     let is_read = serde_json::to_value(&*robot).unwrap() == state;
     assert!(is_read, "there is no such field in {state}");
 }
+
+/// Each check that stands before an open corridor, alone. Removed from the protocol, three of them went unnoticed once.
+pub const CHECKS_OF_AN_OPEN_CORRIDOR: [fn(CorridorClosure) -> bool; 7] = {
+    use CorridorClosure::{FollowerMissing, NotEngaged};
+    use Disengagement as D;
+    [
+        |why| why == FollowerMissing,
+        |why| matches!(why, NotEngaged(_, D::NoLease)),
+        |why| matches!(why, NotEngaged(_, D::CommandOutstanding)),
+        |why| matches!(why, NotEngaged(_, D::NotExecuting)),
+        |why| matches!(why, NotEngaged(_, D::NotGuarding)),
+        |why| matches!(why, NotEngaged(_, D::NotInPosition)),
+        |why| {
+            matches!(
+                why,
+                NotEngaged(_, D::Completed | D::Failed(_) | D::SafeIdle)
+            )
+        },
+    ]
+};
 
 /// A leader overlooks some of what stands in the way of an open corridor.
 pub struct Overlooks(pub fn(CorridorClosure) -> bool);

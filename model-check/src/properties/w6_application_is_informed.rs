@@ -16,7 +16,7 @@ property! {
             ],
             ends_run: false,
         }),
-        "DoesNotTell";
+        "TELLS_OF_NO_LOST_GUARD";
 }
 
 fn holds(step: &TimedStepView) -> bool {

@@ -7,7 +7,7 @@ property! {
     timed L "within the bound a noticed pedestrian sees go, or the application is informed why not",
         Some("a pedestrian sees go; and an application is informed why not"),
         Rule::Timed(TimedRule { holds, premise: &[TimedPremise::Step(sees_go), TimedPremise::Step(is_informed)], ends_run: true }),
-        "DoesNotTell";
+        "TELLS_OF_NO_END";
 }
 
 fn holds(step: &TimedStepView) -> bool {
