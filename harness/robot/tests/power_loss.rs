@@ -21,10 +21,17 @@ fn a_counter_that_was_cut_off_at_any_byte_is_refused_and_never_smaller() {
         assert!(error.to_string().contains(way_out), "{error}");
         assert_eq!(fs::read_to_string(&path).unwrap(), whole[..length]);
     }
-    // What a disk may hold in place of what was never written.
-    for garbage in [&[0; 30][..], b"crossguard boot counter 12\0\0\0\n"] {
+    // What a disk may hold in place of what was never written, and files of something else.
+    for garbage in [
+        &[0; 30][..],
+        b"crossguard boot counter 12\0\0\0\n",
+        b"17",
+        b"crossguard boot counter x",
+        &[0xff, 0xfe],
+    ] {
         fs::write(&path, garbage).unwrap();
         assert!(matches!(boot::take(&path), Err(BootError::Corrupt { .. })));
+        assert_eq!(fs::read(&path).unwrap(), garbage);
     }
 }
 

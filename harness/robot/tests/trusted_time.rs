@@ -71,8 +71,9 @@ impl Clocked {
         self.tell(now_ms, Stimulus::Datagram { packet, arrived_ms });
     }
 
-    fn dropped(&self, cause: &str) -> usize {
-        self.dropped.get(cause).copied().unwrap_or(0)
+    /// Asserts that it dropped one packet alone for this cause.
+    fn assert_dropped(&self, cause: &str) {
+        assert_eq!(self.dropped.get(cause), Some(&1), "{:?}", self.dropped);
     }
 
     fn mark(&self) -> Time64 {
@@ -104,12 +105,7 @@ fn a_clock_that_is_put_back_by_four_seconds_makes_no_packet_fresh_again() {
     assert_eq!(receiver.heard, 5);
     receiver.ahead_ms = -4_000;
     receiver.hear(5_100, &old);
-    assert_eq!(
-        receiver.dropped("time not trusted"),
-        1,
-        "{:?}",
-        receiver.dropped
-    );
+    receiver.assert_dropped("time not trusted");
     let doubt = receiver.robot.trusted_time().unwrap().doubt();
     assert_eq!(doubt, Some(Doubt::Behind(3_900_000)));
     assert_eq!(receiver.heard, 5);
@@ -134,12 +130,7 @@ fn what_was_captured_before_a_restart_is_refused_after_it() {
     // The sender's clock is as far ahead as it may be: by that of the receiver, the packet is of after the restart.
     let mut receiver = Clocked::start(&pki, 1_100, 0, Some(known));
     receiver.hear(1_100, &captured);
-    assert_eq!(
-        receiver.dropped("before the start"),
-        1,
-        "{:?}",
-        receiver.dropped
-    );
+    receiver.assert_dropped("before the start");
     assert_eq!(receiver.heard, 0);
     let newer = ram(&mut sender, 2_100);
     receiver.hear(2_100, &newer);
@@ -156,12 +147,7 @@ fn a_clock_that_was_put_back_while_the_robot_was_off_is_not_trusted() {
     let known = receiver.mark();
     let mut receiver = Clocked::start(&pki, 6_000, -4_000, Some(known));
     receiver.hear(8_000, &captured);
-    assert_eq!(
-        receiver.dropped("time not trusted"),
-        1,
-        "{:?}",
-        receiver.dropped
-    );
+    receiver.assert_dropped("time not trusted");
     receiver.ahead_ms = 0;
     let newer = ram(&mut sender, 8_100);
     receiver.hear(8_100, &newer);
