@@ -54,10 +54,7 @@ fn premise(view: &View) -> bool {
 fn closes_in_time(step: &TimedStepView) -> bool {
     let after = step.after;
     match after.watch {
-        StopWatch::FollowerFailed(place, ticks) => {
-            let limit = after.setup.limits.corridor_closed;
-            !(after.shows_go_at(place) && after.is_over(ticks, limit))
-        }
+        StopWatch::FollowerFailed(place, ticks) => !after.shows_go_too_long(place, ticks),
         _ => true,
     }
 }

@@ -80,6 +80,11 @@ impl<'a> TimedView<'a> {
         matches!(self.watch, StopWatch::Hung(place, _) if self.setup.teams.leads(place))
     }
 
+    /// Whether the sign at this robot still shows go when it should have ended, so many ticks after its guard or leader was lost.
+    pub(crate) fn shows_go_too_long(&self, place: u8, ticks: u8) -> bool {
+        self.shows_go_at(place) && self.is_over(ticks, self.setup.limits.corridor_closed)
+    }
+
     /// Whether this number of ticks is longer than a limit.
     pub(crate) fn is_over(&self, ticks: u8, limit: Millis) -> bool {
         self.setup.clock.millis(ticks) > limit

@@ -22,10 +22,7 @@ property! {
 fn holds(step: &TimedStepView) -> bool {
     let after = step.after;
     match after.watch {
-        StopWatch::Hung(place, ticks) => {
-            let limit = after.setup.limits.corridor_closed;
-            !(after.shows_go_at(place) && after.is_over(ticks, limit))
-        }
+        StopWatch::Hung(place, ticks) => !after.shows_go_too_long(place, ticks),
         _ => true,
     }
 }
