@@ -1,7 +1,7 @@
 //! Robots as processes of the `crossguard` command, which cargo builds for the tests of its own crate.
 
 use std::fs::File;
-use std::io::Write;
+use std::io::{BufRead, Write};
 use std::os::unix::net::UnixStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -230,6 +230,48 @@ pub fn signal(child: &Child, signal: &str) {
 pub fn skipped(why: &str) {
     let test = std::thread::current().name().unwrap_or_default().to_owned();
     let _ = writeln!(std::io::stderr(), "SKIPPED {test}: {why}");
+}
+
+/// Runs a script of the shell in namespaces of its own of these kinds; `None`, and a word about it, where this machine permits
+/// none: with the arguments `tried` the script does no more than end well.
+pub fn unshared(
+    kinds: &[&str],
+    script: &str,
+    tried: &[&str],
+    arguments: &[&str],
+) -> Option<Output> {
+    let run = |arguments: &[&str]| {
+        Command::new("unshare")
+            .args(["--user", "--map-root-user"])
+            .args(kinds)
+            .args(["sh", "-c", script, "script"])
+            .args(arguments)
+            .stdin(Stdio::null())
+            .output()
+            .unwrap()
+    };
+    let tried = run(tried);
+    if tried.status.success() {
+        return Some(run(arguments));
+    }
+    let (kinds, why) = (kinds.join(" "), stderr(&tried));
+    skipped(&format!(
+        "this machine permits no namespaces {kinds}: {}",
+        why.trim()
+    ));
+    None
+}
+
+/// Reads on in the JSON lines of a port until one is like this.
+pub fn read_until(from: &mut impl BufRead, is: impl Fn(&Value) -> bool) -> Value {
+    loop {
+        let mut line = String::new();
+        assert!(from.read_line(&mut line).unwrap() > 0, "the port is closed");
+        let line: Value = serde_json::from_str(&line).unwrap();
+        if is(&line) {
+            return line;
+        }
+    }
 }
 
 /// A library that takes the place of a part of the C library in one process; `None`, and a word about it, without a

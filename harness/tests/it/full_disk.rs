@@ -1,7 +1,6 @@
 //! A disk that is full: without a boot counter on it a robot does not start, and does when there is room again.
 
 use std::fs;
-use std::process::{Command, Output, Stdio};
 
 use crossguard_testkit::command::*;
 
@@ -21,33 +20,18 @@ start "$1" "$2"
 cat "$1/ARI.boot"
 "#;
 
-fn small_disk(arguments: &[&str]) -> Output {
-    Command::new("unshare")
-        .args(["--user", "--map-root-user", "--mount"])
-        .args(["sh", "-c", SMALL_DISK, "disk"])
-        .args(arguments)
-        .stdin(Stdio::null())
-        .output()
-        .unwrap()
-}
-
 #[test]
 fn on_a_disk_that_is_full_a_robot_does_not_start_and_does_when_there_is_room_again() {
     let folder = tempfile::tempdir().unwrap();
     let disk = folder.path().to_str().unwrap();
-    let tried = small_disk(&[disk, "try"]);
-    if !tried.status.success() {
-        let why = stderr(&tried);
-        return skipped(&format!(
-            "this machine permits no mount namespaces: {}",
-            why.trim()
-        ));
-    }
     let elsewhere = tempfile::tempdir().unwrap();
     let port = two_free_ports();
     let config = robot_file(elsewhere.path(), "ARI", 1, port, port + 1);
     let config = fs::read_to_string(config).unwrap();
-    let output = small_disk(&[disk, env!("CARGO_BIN_EXE_crossguard"), &config]);
+    let arguments = [disk, env!("CARGO_BIN_EXE_crossguard"), &config];
+    let Some(output) = unshared(&["--mount"], SMALL_DISK, &[disk, "try"], &arguments) else {
+        return;
+    };
     let said = stderr(&output);
     assert_code(&output, 0);
     said.must_have(&[

@@ -176,14 +176,7 @@ fn the_corridor_closes_when_the_body_of_the_leader_stops() {
 
 /// What the kit says next, beats left out.
 fn hears(from: &mut impl BufRead) -> Value {
-    loop {
-        let mut line = String::new();
-        assert!(from.read_line(&mut line).unwrap() > 0, "the port is closed");
-        let line: Value = serde_json::from_str(&line).unwrap();
-        if line["type"] != "beat" {
-            return line;
-        }
-    }
+    read_until(from, |line| line["type"] != "beat")
 }
 
 #[test]

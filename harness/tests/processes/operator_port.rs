@@ -1,12 +1,11 @@
 //! A crossing that another program commands and watches by the operator port, beside programs that spoil it.
 
-use std::io::{BufRead, BufReader, Write};
+use std::io::{BufReader, Write};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
 use std::time::Duration;
 
 use crossguard_testkit::command::*;
-use serde_json::Value;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 
@@ -22,18 +21,6 @@ fn say(to: &mut BufReader<UnixStream>, line: &str) {
     writeln!(to.get_mut(), "{line}").unwrap();
 }
 
-/// Reads on until a line is like this.
-fn until(from: &mut impl BufRead, is: impl Fn(&Value) -> bool) -> Value {
-    loop {
-        let mut line = String::new();
-        assert!(from.read_line(&mut line).unwrap() > 0, "the port is closed");
-        let line: Value = serde_json::from_str(&line).unwrap();
-        if is(&line) {
-            return line;
-        }
-    }
-}
-
 #[test]
 fn a_program_commands_and_watches_a_crossing_whatever_others_say() {
     let folder = tempfile::tempdir().unwrap();
@@ -44,7 +31,7 @@ fn a_program_commands_and_watches_a_crossing_whatever_others_say() {
     edit(&ari, &[("[link]", listen)]);
     let mut robots = [start(&ari), start(&go2)];
     let mut program = connect(&ari);
-    let hello = until(&mut program, |line| line["type"] == "hello");
+    let hello = read_until(&mut program, |line| line["type"] == "hello");
     assert_eq!(
         (&hello["robot"], &hello["station"]),
         (&"ARI".into(), &1.into())
@@ -58,12 +45,12 @@ fn a_program_commands_and_watches_a_crossing_whatever_others_say() {
         .get_mut()
         .write_all("x".repeat(100_000).as_bytes());
     say(&mut spoils[2], HELLO);
-    until(&mut program, |line| {
+    read_until(&mut program, |line| {
         line["type"] == "map" && line["kinds"][0]["count"] == 1
     });
     say(&mut program, r#"{"type": "command", "line": "detect"}"#);
-    until(&mut program, |line| line["output"] == "corridorOpened");
-    let open = until(&mut program, |line| line["type"] == "state");
+    read_until(&mut program, |line| line["output"] == "corridorOpened");
+    let open = read_until(&mut program, |line| line["type"] == "state");
     assert_eq!(
         (&open["corridor"], &open["role"]),
         (&"open".into(), &"leader".into())
@@ -72,10 +59,10 @@ fn a_program_commands_and_watches_a_crossing_whatever_others_say() {
         open["openMs"].as_u64().is_some_and(|left| left > 0),
         "{open}"
     );
-    let ended = until(&mut program, |line| line["notice"] == "sessionEnded");
+    let ended = read_until(&mut program, |line| line["notice"] == "sessionEnded");
     assert_eq!(ended["reason"], "taskCompleted");
     say(&mut program, r#"{"type": "command", "line": "quit"}"#);
-    until(&mut program, |line| line["type"] == "stopped");
+    read_until(&mut program, |line| line["type"] == "stopped");
     type_to(&mut robots[1], "quit\n");
     for robot in &mut robots {
         assert_eq!(wait_for(robot, PATIENCE).code(), Some(0));

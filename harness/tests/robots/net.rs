@@ -4,7 +4,6 @@
 //! and say so by name.
 
 use std::fs;
-use std::process::{Command, Output, Stdio};
 
 use crossguard_testkit::command::*;
 
@@ -64,29 +63,9 @@ sleep 3
 printf 'detect\nuntil maneuver-executing 20\nuntil idle 30\nquit\n'
 ";
 
-/// A command that runs the script in namespaces of its own.
-fn hosts(arguments: &[&str]) -> Output {
-    Command::new("unshare")
-        .args(["--user", "--map-root-user", "--net", "--pid", "--fork"])
-        .args(["--kill-child", "--mount-proc", "sh", "-c", HOSTS, "hosts"])
-        .args(arguments)
-        .stdin(Stdio::null())
-        .output()
-        .unwrap()
-}
-
 /// The logs of ARI and Go2 after a crossing with these options of ARI, and the same of Go2 by its interface; what is typed
 /// to ARI; and lines of robot files instead of their links.
 fn cross(options: &str, typed: &str, links: Option<[&str; 2]>) -> Option<[String; 2]> {
-    let tried = hosts(&["try"]);
-    if !tried.status.success() {
-        let why = stderr(&tried);
-        let why = why.trim();
-        skipped(&format!(
-            "this machine permits no network namespaces: {why}"
-        ));
-        return None;
-    }
     let street = Street::new(&[("speed = 40.0", "speed = 4.0")]);
     for (robot, link) in links.into_iter().flatten().enumerate() {
         street.link(robot, link);
@@ -97,13 +76,10 @@ fn cross(options: &str, typed: &str, links: Option<[&str; 2]>) -> Option<[String
     let of = |name: &str, robot: &str| options.replace("NAME", name).replace("ROBOT", robot);
     let folder = street.path("");
     let program = env!("CARGO_BIN_EXE_crossguard");
-    let output = hosts(&[
-        program,
-        &folder,
-        &of("go2", "Go2"),
-        &of("ari", "ARI"),
-        typed,
-    ]);
+    let (go2, ari) = (of("go2", "Go2"), of("ari", "ARI"));
+    let kinds = ["--net", "--pid", "--fork", "--kill-child", "--mount-proc"];
+    let arguments = [program, &folder, &go2, &ari, typed];
+    let output = unshared(&kinds, HOSTS, &["try"], &arguments)?;
     assert_code(&output, 0);
     let said = stderr(&output);
     assert!(links.is_none() || !said.contains("warning"), "{said}");
