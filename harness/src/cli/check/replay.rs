@@ -53,68 +53,52 @@ pub(super) fn run(scenarios: &[String], file: &Path) -> Result<(), Failure> {
     tell(&model, &name, &replay)
 }
 
-/// Whether the run still exists, and still breaks its property.
+/// Whether the run still exists, and still breaks its property, or nothing in particular.
 fn tell(model: &Model, name: &str, replay: &Replay) -> Result<(), Failure> {
-    if replay.property.is_empty() {
-        return tell_of_walk(model, name, replay);
-    }
-    match replay.follow(model) {
-        Followed::StoppedAt(step) => print(format_args!(
-            "The run of {} in {name} does not exist any more: this cannot happen now:\n  {}",
-            replay.property,
-            line(model, replay, step)
-        )),
-        Followed::OtherwiseAt(step, outputs) => print(format_args!(
-            "The run of {} in {name} does not exist any more: after\n  {}\nthe robot now puts out: {}",
-            replay.property,
-            line(model, replay, step),
-            outputs.join(", ")
-        )),
-        followed @ Followed::ToTheEnd(_) if replay.is_broken(&followed) => {
-            print(format_args!(
-                "The run of {} in {name} still exists as it was.",
-                replay.property
-            ))?;
-            Err(Failure::Wrong)
-        }
-        Followed::ToTheEnd(_) => print(format_args!(
-            "The run of {} in {name} exists, and does not break it any more.",
-            replay.property
-        )),
-    }
-}
-
-/// The same for a run that was to break nothing in particular.
-fn tell_of_walk(model: &Model, name: &str, replay: &Replay) -> Result<(), Failure> {
-    match replay.follow(model) {
+    let property = &replay.property;
+    let is_walk = property.is_empty();
+    let gone = if is_walk {
+        format!("The run does not exist in {name}")
+    } else {
+        format!("The run of {property} in {name} does not exist any more")
+    };
+    let now = if is_walk { "" } else { " now" };
+    // A run that was to break nothing in particular has to be there.
+    let mut is_wrong = is_walk;
+    let followed = replay.follow(model);
+    let told = match &followed {
         Followed::StoppedAt(step) => {
-            print(format_args!(
-                "The run does not exist in {name}: this cannot happen:\n  {}",
-                line(model, replay, step)
-            ))?;
-            Err(Failure::Wrong)
+            let line = line(model, replay, *step);
+            format!("{gone}: this cannot happen{now}:\n  {line}")
         }
         Followed::OtherwiseAt(step, outputs) => {
-            print(format_args!(
-                "The run does not exist in {name}: after\n  {}\nthe robot puts out: {}",
-                line(model, replay, step),
-                outputs.join(", ")
-            ))?;
-            Err(Failure::Wrong)
+            let (line, outputs) = (line(model, replay, *step), outputs.join(", "));
+            format!("{gone}: after\n  {line}\nthe robot{now} puts out: {outputs}")
         }
-        Followed::ToTheEnd(broken) if broken.is_empty() => print(format_args!(
-            "The run exists in {name}, all {} steps of it; its end breaks nothing.",
-            replay.steps.len()
-        )),
-        Followed::ToTheEnd(broken) => {
+        Followed::ToTheEnd(broken) if is_walk => {
+            is_wrong = !broken.is_empty();
             let broken: Vec<_> = broken.iter().map(ToString::to_string).collect();
-            print(format_args!(
-                "The run exists in {name}, all {} steps of it; its end breaks {}.",
-                replay.steps.len(),
-                broken.join(", ")
-            ))?;
-            Err(Failure::Wrong)
+            let broken = match &broken[..] {
+                [] => "nothing".to_owned(),
+                broken => broken.join(", "),
+            };
+            let steps = replay.steps.len();
+            format!("The run exists in {name}, all {steps} steps of it; its end breaks {broken}.")
         }
+        Followed::ToTheEnd(_) => {
+            is_wrong = replay.is_broken(&followed);
+            if is_wrong {
+                format!("The run of {property} in {name} still exists as it was.")
+            } else {
+                format!("The run of {property} in {name} exists, and does not break it any more.")
+            }
+        }
+    };
+    print(told)?;
+    if is_wrong {
+        Err(Failure::Wrong)
+    } else {
+        Ok(())
     }
 }
 
