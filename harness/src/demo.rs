@@ -221,7 +221,7 @@ fn start<'a>(options: &Options, links: Links, watch: &'a mut dyn FnMut(Seen<'_>)
         {
             *role = stations.get(role).copied().unwrap_or(*role);
         }
-        let application = Application::new(Box::new(body), plan);
+        let application = Application::new(Box::new(body), plan).with_home(place);
         let application = application.at(site).on(Road::Known(street.clone()));
         let application = application.showing_by(build.means());
         signs.push(application.sign().clone());

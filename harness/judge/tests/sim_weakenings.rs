@@ -137,6 +137,7 @@ const AMISS: &[Amiss] = &[
     ),
     (|zone| zone.traffic.keep = Millis::ZERO, |_| (), "P3"),
     (|zone| zone.position.ahead_cm = 10_000, hurry, "P4"),
+    (|zone| zone.traffic.keep = Millis::ZERO, |_| (), "P9"),
 ];
 
 /// Escorts are faster than people.

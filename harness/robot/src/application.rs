@@ -32,7 +32,7 @@ use crate::sight::Outline;
 use crate::sign::{Shown, Sign};
 use crate::site::{Place, Site};
 use crate::street::Road;
-use crate::zone::place;
+use crate::zone::{place, point};
 
 /// The longest list of wishes; more are not kept.
 const WISHES: usize = 64;
@@ -111,6 +111,13 @@ impl Application {
     #[must_use]
     pub fn at(self, site: Site) -> Self {
         Self { site, ..self }.set_up()
+    }
+
+    /// The same, whose body waits there when it has no part in a session, and goes back there from the carriageway.
+    #[must_use]
+    pub fn with_home(mut self, home: Place) -> Self {
+        self.setup.home = Some(point(home));
+        self
     }
 
     /// What it knows of the road from now on, where it has come to.
@@ -198,7 +205,9 @@ impl Application {
                 }
                 Output::Stop => self.sign.stop(),
                 Output::WalkTo(to) => {
-                    let heading_deg = self.plan.as_ref().and_then(|plan| plan.own_heading_deg);
+                    let plan = self.plan.as_ref();
+                    let is_own = |plan: &&Plan| plan.own_place.map(point) == Some(to);
+                    let heading_deg = plan.filter(is_own).and_then(|plan| plan.own_heading_deg);
                     self.body.walk_to(place(to), heading_deg);
                 }
                 Output::Wait => self.act_by_body(BodyAct::Wait),
@@ -320,11 +329,6 @@ impl Application {
     /// Carries the body back to where it began.
     pub fn reset(&mut self) {
         self.body.carry_to_safe_place();
-    }
-
-    /// The body walks somewhere on its own account, as back to where it waits. A maneuver or fallback that begins takes its place.
-    pub fn walk_to(&mut self, place: Place) {
-        self.body.walk_to(place, None);
     }
 
     /// Something pushes the body off its place: see [`Body::push`].

@@ -116,9 +116,10 @@ pub enum BodyAct {
     Stop(Maneuver, StopReason),
     /// End the maneuver by a policy. That takes time: see [`Body::fallback`].
     FallBack(Maneuver, FallbackPolicy),
-    /// Stand still in the maneuver, until it is to go on: the person at its side is behind.
+    /// Stand still on the way, until it is to go on: the person at its side is behind, or a vehicle has to pass before it
+    /// steps on the road.
     Wait,
-    /// Go on with the maneuver in which it waits.
+    /// Go on with what it waits in.
     GoOn,
 }
 
@@ -159,8 +160,8 @@ pub trait Body: fmt::Debug + Send {
     /// A person says that its fallback is finished. A body that moves by itself knows better.
     fn finish_fallback(&mut self) {}
 
-    /// Goes somewhere for the leader's own part in a plan, if it moves by itself, and faces this way there, in degrees
-    /// clockwise from north, if that matters.
+    /// Goes to the leader's place in a plan, or home, if it moves by itself, and faces this way there, in degrees clockwise
+    /// from north, if that matters.
     fn walk_to(&mut self, _place: Place, _heading_deg: Option<f64>) {}
 
     /// Whether it moves by itself because of a fallback.

@@ -52,8 +52,8 @@ pub struct RobotFile {
     pub traits: Traits,
     /// Where its boot counter is kept.
     pub boot_file: PathBuf,
-    /// Where it stands.
-    pub place: Place,
+    /// Where it waits, off the carriageway, if that is said; a simulated body begins there, or else at the origin.
+    pub place: Option<Place>,
     /// Where the origin of places is.
     pub site: Site,
     /// How many times as fast as real its simulated body moves.
@@ -343,8 +343,14 @@ impl RobotFile {
     /// A simulated body at its place; `seed` is that of its gait.
     #[must_use]
     pub fn body(&self, seed: u64) -> Simulated {
-        Simulated::new(self.build, self.site, self.place, self.speed, seed)
-            .holding(self.config.settings().holding)
+        Simulated::new(
+            self.build,
+            self.site,
+            self.place.unwrap_or_default(),
+            self.speed,
+            seed,
+        )
+        .holding(self.config.settings().holding)
     }
 
     /// Its body: another process where the file says so, and simulated otherwise, with this seed of its gait.
@@ -356,7 +362,8 @@ impl RobotFile {
             return Ok(Box::new(self.body(seed)));
         };
         let holding = self.config.settings().holding;
-        let body = Ported::open(self.build, self.site, self.place, port, holding)?;
+        let place = self.place.unwrap_or_default();
+        let body = Ported::open(self.build, self.site, place, port, holding)?;
         Ok(Box::new(body))
     }
 
@@ -402,6 +409,10 @@ impl RobotFile {
             .on(self.road())
             .with_traits(self.traits)
             .showing_by(self.shows);
+        let application = match self.place {
+            Some(place) => application.with_home(place),
+            None => application,
+        };
         Setup {
             boot,
             config: self.config.clone(),
@@ -456,8 +467,8 @@ impl RobotTable {
         if self.station == 0 {
             return Err(Impossibility::Station);
         }
-        let [east, north] = self.place.map_or_else(Default::default, |it| it.0);
-        if !is_near([east, north]) {
+        let place = self.place.map(|it| it.0);
+        if let Some([east, north]) = place.filter(|it| !is_near(*it)) {
             return Err(Impossibility::Place(east, north));
         }
         let layout = self.site()?;
@@ -508,7 +519,7 @@ impl RobotTable {
             build: self.build,
             traits,
             boot_file: folder.join(self.boot_file),
-            place: Place::new(east, north),
+            place: place.map(|[east, north]| Place::new(east, north)),
             site,
             speed,
             autopilot,

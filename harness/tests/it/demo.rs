@@ -197,7 +197,9 @@ fn robots_say_show_and_do_what_the_papers_proof_of_concept_has() {
             let shown = &slow["signalsShown"];
             let sees_and_follows_only = slow["capabilities"] == "a0";
             if robot == "ARI" {
-                facing.clone_from(&ram["robotHighFrequencyContainer"]["heading"]["value"]);
+                if shown["toPedestrians"] == "go" {
+                    facing.clone_from(&ram["robotHighFrequencyContainer"]["heading"]["value"]);
+                }
                 let has_shown = shown.is_object().then(|| {
                     let to = |whom: &str| shown[whom].as_str().unwrap().to_owned();
                     (to("toVehicles"), to("toPedestrians"))

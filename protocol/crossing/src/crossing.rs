@@ -19,6 +19,9 @@ use crate::traffic::Traffic;
 /// How long a robot waits after a call before it calls again.
 const CALL_PERIOD: Millis = Millis(2_000);
 
+/// How far from the carriageway a body stops that waits for vehicles to pass, in centimetres, at most.
+const KERB_CM: u32 = 200;
+
 /// Where outputs go.
 pub(crate) trait Sink {
     /// Puts one out. One that does not fit is put out again in a later step: what is said follows from the state.
@@ -86,8 +89,6 @@ struct Task {
     is_reported: bool,
     /// Whether the body has finished.
     is_completed: bool,
-    /// Whether the body was told to wait for its person.
-    waits: bool,
     /// Whether somebody was on the road since it began: who waits at the kerb then is not waited for any more.
     had_people: bool,
 }
@@ -121,8 +122,12 @@ pub struct Crossing<const N: usize = 64> {
     /// Whether the protocol knows that the robot itself sees somebody on the road.
     is_person_told: bool,
     task: Option<Task>,
-    /// Whether the body was told to wait for somebody, while its fallback takes it to the kerb.
-    kerbward: Option<bool>,
+    /// Whether the body's fallback takes it to the kerb, beside a person.
+    is_kerbward: bool,
+    /// Where the body goes without a maneuver: to the place of its plan, or home.
+    walk: Option<Point>,
+    /// Whether the body was told to wait on its way.
+    waits: bool,
     /// Where its own body is, and how long ago that was measured.
     pose: Option<(Pose, Millis)>,
     /// Whether its body is at the place of its plan.
@@ -161,11 +166,13 @@ impl<const N: usize> Crossing<N> {
             }
             Input::Body(report) => self.body_reports(report),
             Input::BodyIsFree(is_free) => self.is_falling_back = !is_free,
-            Input::Started(maneuver, place) => self.start(setup, maneuver, place),
-            Input::Stopped => (self.task, self.kerbward) = (None, None),
+            Input::Started(maneuver, place) => {
+                self.start(setup, maneuver, place);
+                self.watch_way(setup, &mut out);
+            }
+            Input::Stopped => self.begin(None, false),
             Input::FellBack(_, policy) => {
-                self.task = None;
-                self.kerbward = (policy == FallbackPolicy::EscortToKerb).then_some(false);
+                self.begin(None, policy == FallbackPolicy::EscortToKerb);
             }
             Input::Notice(notice) => self.notice(setup, notice, &mut out),
             Input::CorridorOpen(left) => self.show_go(setup, left, &mut out),
@@ -206,9 +213,7 @@ impl<const N: usize> Crossing<N> {
             Phase::Following(following) => following.sees_people,
             _ => false,
         };
-        if robot.duty().is_none() {
-            self.kerbward = None;
-        }
+        self.is_kerbward &= robot.duty().is_some();
         // What was finished or failed is not told again.
         let runs = executing(robot);
         self.task = self.task.filter(|task| runs == Some(task.maneuver));
@@ -284,6 +289,8 @@ impl<const N: usize> Crossing<N> {
         self.guard_corridor(setup, out);
         self.watch_people(setup, out);
         self.watch_task(setup, out);
+        self.leave_road(setup, out);
+        self.watch_way(setup, out);
         self.watch_road(setup, out);
         self.watch_zone(setup, out);
         self.lead_on(setup, out);
@@ -407,17 +414,79 @@ impl<const N: usize> Crossing<N> {
         if let (Some(place), Some((pose, age))) = (place, self.pose) {
             presence.learn(setup.position, place, Some(pose), age);
         }
-        self.kerbward = None;
-        self.task = Some(Task {
+        let task = Task {
             maneuver,
             place,
             presence,
             has_arrived: false,
             is_reported: false,
             is_completed: false,
-            waits: false,
             had_people: false,
-        });
+        };
+        self.begin(Some(task), false);
+    }
+
+    /// The body begins a maneuver, a fallback, or to stand still: whatever it did before is over.
+    fn begin(&mut self, task: Option<Task>, is_kerbward: bool) {
+        (self.task, self.is_kerbward) = (task, is_kerbward);
+        (self.walk, self.waits) = (None, false);
+    }
+
+    /// The body goes somewhere without a maneuver.
+    fn walk_to(&mut self, to: Point, out: &mut Outputs) {
+        (self.walk, self.waits) = (Some(to), false);
+        out.put(Output::WalkTo(to));
+    }
+
+    /// A robot without a part in a session goes home from the carriageway and from the place of its plan, unless it sees
+    /// somebody on the road.
+    fn leave_road(&mut self, setup: &Setup, out: &mut Outputs) {
+        let (Some(home), Some((pose, _))) = (setup.home, self.pose) else {
+            return;
+        };
+        if self.standing != Standing::Free || setup.ground.is_road(home) {
+            return;
+        }
+        let is_out = setup.ground.is_road(pose.at) || self.walk.is_some();
+        if is_out && self.walk != Some(home) && !self.tracks.is_on_road() {
+            self.walk_to(home, out);
+        }
+        if pose.at.distance_cm(home) <= u32::from(setup.position.tolerance_cm) {
+            self.walk = None;
+        }
+    }
+
+    /// Has the body wait on its way, or go on.
+    fn watch_way(&mut self, setup: &Setup, out: &mut Outputs) {
+        let is_escort = |task: &Task| setup.escorts().contains(task.maneuver.task);
+        let waits = if self.is_kerbward {
+            self.is_person_apart(setup)
+        } else {
+            let to = self.task.map_or(self.walk, |task| task.place);
+            self.task.as_ref().is_some_and(is_escort) && self.is_person_behind(setup)
+                || to.is_some_and(|to| self.is_held_by_vehicles(setup, to))
+        };
+        match (self.waits, waits) {
+            (false, true) => out.put(Output::Wait),
+            (true, false) => out.put(Output::GoOn),
+            _ => {}
+        }
+        self.waits = waits;
+    }
+
+    /// Whether the body is to let vehicles pass: at the kerb, on its way on or over the carriageway; without a maneuver, also on it,
+    /// before it steps on another lane. Where somebody is on the road, it does so for those alone that could not stop by hard braking.
+    fn is_held_by_vehicles(&self, setup: &Setup, to: Point) -> bool {
+        let (Some(road), Some((pose, _))) = (setup.ground.road, self.pose) else {
+            return false;
+        };
+        let may_be_held = if road.has(pose.at) {
+            self.task.is_none()
+        } else {
+            road.distance_cm(pose.at) <= KERB_CM && road.is_between(pose.at, to)
+        };
+        let is_urgent = self.tracks.is_on_road();
+        may_be_held && self.traffic.comes_at(setup, [pose.at, to], is_urgent)
     }
 
     /// Tells the protocol whether a follower itself sees somebody on the road: at once, for its leader may end the session.
@@ -432,15 +501,9 @@ impl<const N: usize> Crossing<N> {
         }
     }
 
-    /// Tells the protocol how the maneuver of the body goes, and the body to wait for its person.
+    /// Tells the protocol how the maneuver of the body goes.
     fn watch_task(&mut self, setup: &Setup, out: &mut Outputs) {
         let sees_somebody = self.sees_somebody(setup);
-        if let Some(waits) = self.kerbward {
-            let is_apart = self.is_person_apart(setup);
-            self.kerbward = Some(is_apart);
-            wait(waits, is_apart, out);
-        }
-        let is_behind = self.is_person_behind(setup);
         let has_people = self.tracks.is_on_road();
         let Some(task) = &mut self.task else { return };
         task.had_people |= has_people;
@@ -454,10 +517,6 @@ impl<const N: usize> Crossing<N> {
             }
         } else if task.has_arrived && !task.is_reported {
             out.tell(Event::InPosition(id));
-        }
-        if setup.escorts().contains(task.maneuver.task) {
-            wait(task.waits, is_behind, out);
-            task.waits = is_behind;
         }
         // Who guards people that it knows of is not done before they are off the road.
         if task.is_completed && !(is_guarding && sees_somebody) {
@@ -516,7 +575,7 @@ impl<const N: usize> Crossing<N> {
         if let Notice::RolesEstablished(_) = notice {
             self.own = Presence::NOWHERE;
             if let Some(place) = plan.own_place {
-                out.put(Output::WalkTo(place));
+                self.walk_to(place, out);
                 if let Some((pose, age)) = self.pose {
                     self.own.learn(setup.position, place, Some(pose), age);
                 }
@@ -713,15 +772,6 @@ impl<const N: usize> Crossing<N> {
     #[must_use]
     pub const fn waits_for_clear(&self) -> bool {
         self.obligation.is_some()
-    }
-}
-
-/// Has the body wait for its person or go on, if it does the other.
-fn wait(waits: bool, is_to_wait: bool, out: &mut Outputs) {
-    match (waits, is_to_wait) {
-        (false, true) => out.put(Output::Wait),
-        (true, false) => out.put(Output::GoOn),
-        _ => {}
     }
 }
 

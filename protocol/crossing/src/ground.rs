@@ -179,6 +179,19 @@ impl Shape {
         crossed.count() % 2 == 1
     }
 
+    /// Whether the straight way from one place to another leads over it.
+    #[must_use]
+    pub fn is_between(&self, from: Point, to: Point) -> bool {
+        let parts = |from: Point, to: Point, [a, b]: [Point; 2]| {
+            let is_left = |at: Point| from.to(to).cross(from.to(at)) > 0;
+            is_left(a) != is_left(b)
+        };
+        let mut edges = self.edges();
+        self.has(from)
+            || self.has(to)
+            || edges.any(|(a, b)| parts(from, to, [a, b]) && parts(a, b, [from, to]))
+    }
+
     /// How far a place is from it, in centimetres, rounded down; 0 in it.
     #[must_use]
     pub fn distance_cm(&self, at: Point) -> u32 {

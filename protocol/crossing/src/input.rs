@@ -189,9 +189,9 @@ pub enum Output {
     Go(Millis),
     /// To the sign: show stop.
     Stop,
-    /// To the body: go to the leader's place.
+    /// To the body: go to the leader's place, or home from the carriageway.
     WalkTo(Point),
-    /// To the body: stand until [`GoOn`](Self::GoOn); the person of the escort is behind.
+    /// To the body: stand until [`GoOn`](Self::GoOn); its person is behind, or vehicles have to pass before it steps on the road.
     Wait,
     /// To the body: go on.
     GoOn,

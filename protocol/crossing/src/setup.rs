@@ -2,7 +2,7 @@
 
 use crossguard_protocol::{Config, HelpRequest, Millis, Place, TaskSet, Urgency};
 
-use crate::ground::Ground;
+use crate::ground::{Ground, Point};
 use crate::plan::Plan;
 
 /// What is assumed of sensors (assumption `sees`), and which frames count.
@@ -80,6 +80,8 @@ pub struct TrafficRules {
     /// How far from the middle of the crossing the line of a vehicle may pass it, in centimetres, besides half of
     /// the crossing; 1,000 by default.
     pub aside_cm: u16,
+    /// How long a vehicle may be, in centimetres; 1,200 by default, a bus (Directive 96/53/EC: 12 m for rigid vehicles).
+    pub length_cm: u16,
     /// For how long a vehicle counts after it was heard last; 5 s by default.
     pub keep: Millis,
 }
@@ -91,7 +93,19 @@ impl Default for TrafficRules {
             deceleration_cmps2: 300,
             standing_cmps: 50,
             aside_cm: 1_000,
+            length_cm: 1_200,
             keep: Millis(5_000),
+        }
+    }
+}
+
+impl TrafficRules {
+    /// What an attentive driver can do who brakes hard: half of the time, twice the deceleration.
+    pub(crate) const fn urgent(self) -> Self {
+        Self {
+            reaction: Millis(self.reaction.0 / 2),
+            deceleration_cmps2: self.deceleration_cmps2.saturating_mul(2),
+            ..self
         }
     }
 }
@@ -135,6 +149,8 @@ pub struct Setup {
     pub position: PositionRules,
     /// Where people wait and cross.
     pub ground: Ground,
+    /// Where the body waits when it has no part in a session, off the carriageway. Without it, it stays where it is.
+    pub home: Option<Point>,
     /// What it calls for when somebody waits; the urgency is that of the people.
     pub request: HelpRequest,
     /// What it does when it leads; without a plan, somebody else says.
@@ -158,6 +174,7 @@ impl Default for Setup {
             traffic: TrafficRules::default(),
             position: PositionRules::default(),
             ground: Ground::default(),
+            home: None,
             request: HelpRequest {
                 urgency: Urgency::Medium,
                 followers: 1,

@@ -1,6 +1,6 @@
-//! Whether a vehicle that is heard or seen could no longer stop comfortably before the crossing.
+//! Whether a vehicle that is heard or seen could no longer stop comfortably before the crossing, or before the way of a body.
 //!
-//! A vehicle is no hindrance when it stands, goes away from the crossing, passes it aside, or is farther from it than it needs to stop:
+//! A vehicle is no hindrance when it stands, has passed with its whole length, passes aside, or is farther away than it needs to stop:
 //! `v * reaction + v² / (2 * deceleration)`. An older report counts as if the vehicle had gone on since. A vehicle that
 //! falls silent counts for `keep`. Vehicles that are neither heard nor seen are the road authority's concern.
 
@@ -15,6 +15,9 @@ use crate::setup::{Setup, TrafficRules};
 
 /// Capacity for vehicles. A further one takes the place of one that stands or goes away, or else is a hindrance.
 pub const VEHICLES: usize = 32;
+
+/// How far from its middle a vehicle sweeps the road, in centimetres, with the half of a body: 2.6 m wide at most (Directive 96/53/EC).
+const BESIDE_CM: u64 = 180;
 
 /// How a vehicle comes to the crossing.
 #[derive(Clone, Copy, Debug)]
@@ -77,37 +80,83 @@ impl Traffic {
         }
     }
 
-    /// The first vehicle that could no longer stop comfortably.
+    /// The first vehicle that could no longer stop comfortably before the crossing.
     #[must_use]
     pub fn hindrance(&self, setup: &Setup) -> Option<u32> {
+        let crossing = crossing(setup)?;
+        let hinders = |(vehicle, age): &(Vehicle, Millis)| {
+            ahead(setup, crossing, vehicle).is_some_and(|it| !it.can_stop(&setup.traffic, *age))
+        };
         let mut vehicles = self.vehicles.iter().flatten();
-        let hindering = vehicles.find(|(vehicle, age)| is_hindrance(setup, vehicle, *age));
+        let hindering = vehicles.find(|it| hinders(it));
         let key = hindering.map(|(vehicle, _)| vehicle.key);
         key.or(self.further.map(|(key, _)| key))
     }
+
+    /// Whether a body that goes from one place to another would step in front of a vehicle that could no longer stop: comfortably,
+    /// or by hard braking where it is urgent. On the road, vehicles whose line it stands on already do not count.
+    pub(crate) fn comes_at(&self, setup: &Setup, [from, to]: [Point; 2], is_urgent: bool) -> bool {
+        let Some(way) = Shape::new(&[from, to, to]) else {
+            return false;
+        };
+        let rules = if is_urgent {
+            setup.traffic.urgent()
+        } else {
+            setup.traffic
+        };
+        let is_on_road = setup.ground.is_road(from);
+        let mut vehicles = self.vehicles.iter().flatten();
+        self.further.is_some()
+            || vehicles.any(|(vehicle, age)| {
+                let is_beside = !is_on_road || aside_cm(vehicle, from) >= BESIDE_CM;
+                let ahead = ahead(setup, &way, vehicle).filter(|_| is_beside);
+                ahead.is_some_and(|it| !it.can_stop(&rules, *age))
+            })
+    }
+}
+
+fn crossing(setup: &Setup) -> Option<&Shape> {
+    setup
+        .ground
+        .crossing
+        .as_ref()
+        .or(setup.ground.road.as_ref())
 }
 
 /// Whether a vehicle moves on a line that leads over the crossing.
 fn may_hinder(setup: &Setup, vehicle: &Vehicle) -> bool {
-    let crossing = setup.ground.crossing.or(setup.ground.road);
-    let is_moving = vehicle.velocity.length_cm() > u32::from(setup.traffic.standing_cmps);
-    is_moving && crossing.is_some_and(|crossing| comes(setup, &crossing, vehicle))
+    crossing(setup).is_some_and(|crossing| ahead(setup, crossing, vehicle).is_some())
 }
 
-/// Whether a vehicle could no longer stop comfortably, as reported `age` ago.
-fn is_hindrance(setup: &Setup, vehicle: &Vehicle, age: Millis) -> bool {
-    let Some(crossing) = setup.ground.crossing.or(setup.ground.road) else {
-        return false;
-    };
-    if !may_hinder(setup, vehicle) {
-        return false;
+/// How a vehicle comes to a place, if it moves on a line that comes near it, and has not passed it with its whole length.
+fn ahead(setup: &Setup, place: &Shape, vehicle: &Vehicle) -> Option<Motion> {
+    let rules = &setup.traffic;
+    let speed_cmps = vehicle.velocity.length_cm();
+    let middle: Point = place.middle();
+    let half = place.corners().map(|corner| corner.distance_cm(middle));
+    let near = u64::from(half.max().unwrap_or(0)) + u64::from(rules.aside_cm);
+    if speed_cmps <= u32::from(rules.standing_cmps) || aside_cm(vehicle, middle) > near {
+        return None;
     }
-    let motion = Motion {
-        left_cm: crossing.distance_cm(vehicle.at),
-        error_cm: vehicle.error_cm,
-        speed_cmps: vehicle.velocity.length_cm(),
+    let distance_cm = place.distance_cm(vehicle.at);
+    let left_cm = if vehicle.velocity.dot(vehicle.at.to(middle)) > 0 {
+        distance_cm
+    } else if distance_cm <= u32::from(rules.length_cm) {
+        0
+    } else {
+        return None;
     };
-    !motion.can_stop(&setup.traffic, age)
+    Some(Motion {
+        left_cm,
+        error_cm: vehicle.error_cm,
+        speed_cmps,
+    })
+}
+
+/// How far the line of a vehicle passes from a place.
+fn aside_cm(vehicle: &Vehicle, place: Point) -> u64 {
+    let speed = u64::from(vehicle.velocity.length_cm()).max(1);
+    vehicle.velocity.cross(vehicle.at.to(place)).unsigned_abs() / speed
 }
 
 impl Motion {
@@ -121,18 +170,4 @@ impl Motion {
             speed.saturating_mul(speed) / (2 * u64::from(rules.deceleration_cmps2.max(1)));
         left > reacting.saturating_add(braking)
     }
-}
-
-/// Whether a vehicle moves towards the crossing, on a line that comes near it.
-fn comes(setup: &Setup, crossing: &Shape, vehicle: &Vehicle) -> bool {
-    let middle: Point = crossing.middle();
-    let half = crossing
-        .corners()
-        .map(|corner| corner.distance_cm(middle))
-        .max();
-    let way = vehicle.at.to(middle);
-    let speed = u64::from(vehicle.velocity.length_cm()).max(1);
-    let aside = vehicle.velocity.cross(way).unsigned_abs() / speed;
-    let near = u64::from(half.unwrap_or(0)) + u64::from(setup.traffic.aside_cm);
-    aside <= near && (vehicle.velocity.dot(way) > 0 || crossing.has(vehicle.at))
 }

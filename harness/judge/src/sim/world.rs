@@ -269,6 +269,8 @@ struct World<'a> {
     sensors: Vec<SimulatedSensor<'a>>,
     frames: Vec<FrameInFlight>,
     flow: Flow,
+    /// When somebody may have been on the road last.
+    occupied_us: Option<u64>,
     /// The properties of the truth that had something to say.
     met: BTreeSet<&'static str>,
     progress: Option<Progress>,
@@ -333,6 +335,7 @@ impl<'a> World<'a> {
             sensors: sensors::of(swarm),
             frames: Vec::new(),
             flow: Flow::default(),
+            occupied_us: None,
             met: BTreeSet::new(),
             progress: None,
             names: BTreeMap::new(),

@@ -35,7 +35,7 @@ pub struct Simulated {
     /// The place to go to when contact is lost on the carriageway.
     safe_place: Place,
     motion: Option<Motion>,
-    /// Whether it stands in its maneuver until it is to go on.
+    /// Whether it stands on its way until it is to go on.
     waits: bool,
     /// Where it set out for the maneuver, and where it leads.
     way: Option<(Place, Place)>,

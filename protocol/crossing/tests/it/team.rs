@@ -146,7 +146,9 @@ impl Team {
                 }
                 Output::Go(left) => member.go_until = self.now + left.0,
                 Output::Stop => member.go_until = 0,
-                Output::WalkTo(place) => member.body.to = Some(place),
+                Output::WalkTo(place) => {
+                    (member.body.to, member.body.waits) = (Some(place), false);
+                }
                 Output::Wait => member.body.waits = true,
                 Output::GoOn => member.body.waits = false,
                 Output::Release => member.body.holds = false,

@@ -38,7 +38,8 @@ fn a_vehicle_hinders_that_can_no_longer_stop_comfortably() {
         ("50 km/h at 62 m", vehicle(-6_500, 200, fast, 0), false),
         ("from the east", vehicle(2_100, 500, -fast, 0), true),
         ("it stands", vehicle(-400, 200, 40, 0), false),
-        ("it has passed", vehicle(600, 200, fast, 0), false),
+        ("its rear is there", vehicle(1_600, 200, fast, 0), true),
+        ("it has passed", vehicle(1_800, 200, fast, 0), false),
         ("it is on the crossing", vehicle(450, 200, fast, 0), true),
         ("it passes aside", vehicle(-1_900, 4_000, fast, 0), false),
         (

@@ -233,10 +233,9 @@ fn go_ends_when_a_guard_is_not_at_its_place_any_more() {
     }
 }
 
-/// Hazard I: a car at 50 km/h, 16 m away.
-#[test]
-fn go_does_not_begin_in_front_of_a_car_and_ends_before_one() {
-    let car = |east| Vehicle {
+/// A car at 50 km/h.
+fn car(east: i32) -> Vehicle {
+    Vehicle {
         key: 7,
         at: Point::new(east, 200),
         error_cm: 0,
@@ -244,7 +243,125 @@ fn go_does_not_begin_in_front_of_a_car_and_ends_before_one() {
             east_cm: 1_389,
             north_cm: 0,
         },
+    }
+}
+
+/// While this robot hears of a car that cannot stop.
+fn pass_beside_a_car(team: &mut Team, robot: usize, ms: u32) {
+    pass_beside(team, robot, car(-1_900), ms);
+}
+
+fn pass_beside(team: &mut Team, robot: usize, vehicle: Vehicle, ms: u32) {
+    for _ in 0..ms / 50 {
+        team.hear(robot, Input::Vehicle(vehicle, Millis(0)));
+        team.pass(50);
+    }
+}
+
+fn is_on_road(body: &Body) -> bool {
+    (0..700).contains(&body.at.north_cm())
+}
+
+#[test]
+fn a_guard_steps_on_the_lane_when_no_vehicle_comes_that_cannot_stop() {
+    let mut team = blocking();
+    pass_beside_a_car(&mut team, 1, 10_000);
+    let body = &team.robots[1].body;
+    assert!(body.waits && !is_on_road(body) && !team.shows_go());
+    assert!(body.at.north_cm() >= -200, "it stands at the kerb");
+    team.pass_until("go", Team::shows_go);
+    assert!(is_on_road(&team.robots[1].body));
+    // One on the lane does not stand there on its way because of a vehicle.
+    team.robots[1].body.at = Point::new(-200, 10);
+    pass_beside_a_car(&mut team, 1, 3_000);
+    let body = &team.robots[1].body;
+    assert!(!body.waits && body.at.distance_cm(POST) <= 200);
+}
+
+/// A vehicle hits it whose driver cannot stop even by hard braking, and that helps nobody.
+#[test]
+fn a_guard_goes_to_somebody_on_the_road_before_a_driver_who_can_stop_by_hard_braking() {
+    for (east, is_going) in [(-1_900, false), (-3_800, true)] {
+        let mut team = blocking();
+        pass_beside(&mut team, 1, car(east), 5_000);
+        assert!(team.robots[1].body.waits);
+        team.people.push(person(2, 300, 300));
+        pass_beside(&mut team, 1, car(east), 4_000);
+        assert_eq!(is_on_road(&team.robots[1].body), is_going, "{east}");
+    }
+}
+
+/// The flank of a vehicle whose front has passed, and a vehicle that stands.
+#[test]
+fn a_guard_steps_behind_a_vehicle_and_before_one_that_stands() {
+    for (east, speed, is_going) in [
+        (300, 150, false),
+        (300, 0, true),
+        (1_200, 150, true),
+        (-900, 0, true),
+    ] {
+        let vehicle = Vehicle {
+            velocity: Way {
+                east_cm: speed,
+                north_cm: 0,
+            },
+            ..car(east)
+        };
+        let mut team = blocking();
+        pass_beside(&mut team, 1, vehicle, 8_000);
+        let body = &team.robots[1].body;
+        assert_eq!(is_on_road(body), is_going, "{east} at {speed} cm/s");
+    }
+}
+
+#[test]
+fn a_leader_waits_at_the_kerb_on_its_way_to_the_place_of_its_plan() {
+    let own_place = Some(Point::new(200, 200));
+    let plan = plan(&[leg(TaskType::BLOCK, POST)]);
+    let mut team = team(Plan { own_place, ..plan }, true);
+    team.robots[0].setup.home = Some(team.robots[0].body.at);
+    team.people = vec![person(1, 100, -100)];
+    pass_beside_a_car(&mut team, 0, 6_000);
+    let body = &team.robots[0].body;
+    assert!(body.waits && !is_on_road(body));
+    team.pass_until("go", Team::shows_go);
+    assert!(is_on_road(&team.robots[0].body));
+    walk_across(&mut team);
+    team.pass_until("idle", Team::is_idle);
+    team.pass(5_000);
+    assert!(!is_on_road(&team.robots[0].body));
+}
+
+#[test]
+fn a_robot_without_a_part_leaves_the_road_unless_somebody_is_on_it() {
+    let mut team = blocking();
+    team.pass_until("go", Team::shows_go);
+    walk_across(&mut team);
+    let is_released = |team: &Team| team.is_idle() && is_on_road(&team.robots[1].body);
+    team.pass_until("idle", is_released);
+    team.robots[0].setup.calls = false;
+    team.people.push(person(2, 300, 300));
+    team.pass(500);
+    let home = Point::new(-100, -150);
+    team.robots[1].setup.home = Some(home);
+    team.pass(5_000);
+    assert_eq!(team.robots[1].body.at, POST, "somebody is on the road");
+    team.people.clear();
+    // On its way it does not step on the other lane before a car.
+    let other_lane = Vehicle {
+        at: Point::new(-1_900, 0),
+        ..car(0)
     };
+    pass_beside(&mut team, 1, other_lane, 6_000);
+    let body = &team.robots[1].body;
+    assert!(body.waits && body.at.north_cm() > 150);
+    team.pass(12_000);
+    assert_eq!(team.robots[1].body.at, home);
+}
+
+/// Hazard I: a car at 50 km/h, 16 m away.
+#[test]
+fn go_does_not_begin_in_front_of_a_car_and_ends_before_one() {
     let mut team = blocking();
     for _ in 0..200 {
         team.hear(0, Input::Vehicle(car(-1_900), Millis(0)));

@@ -32,7 +32,9 @@ impl World<'_> {
             Deed::Boot => return self.boot(place),
             Deed::Hang(ms) => return self.hang(place, ms),
             Deed::Push(by) => {
-                if let Some(machine) = &mut self.seats[place].machine {
+                let seat = &mut self.seats[place];
+                seat.observed.is_beside_road = false;
+                if let Some(machine) = &mut seat.machine {
                     machine.application_mut().push(by);
                 }
                 return Ok(());
@@ -173,7 +175,8 @@ impl World<'_> {
             gait,
         );
         let body = body.holding(draw.config.settings().holding);
-        let application = Application::new(Box::new(body), Some(draw.plan.clone()));
+        let plan = Some(draw.plan.clone());
+        let application = Application::new(Box::new(body), plan).with_home(draw.place);
         // Where roles are parted only the leader calls for people who wait.
         let calls = self.swarm.demand.is_none() || place == 0;
         let application = match &self.swarm.sensing {

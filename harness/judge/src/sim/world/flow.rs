@@ -135,6 +135,18 @@ pub(super) struct Flow {
     pub(super) log: PlaceLog,
 }
 
+impl Flow {
+    /// How far some vehicles are before the crossing, in metres, and how fast they are, in m/s.
+    pub(super) fn vehicles_ahead(
+        &self,
+        is_one: impl Fn(&usize) -> bool,
+    ) -> impl Iterator<Item = [f64; 2]> {
+        let drivers = self.drivers.iter();
+        let drivers = drivers.filter(move |it| is_one(&it.number));
+        drivers.map(|it| [-it.front_m, it.speed_mps])
+    }
+}
+
 impl World<'_> {
     pub(super) fn begin_flow(&mut self) {
         if let Some(demand) = &self.swarm.demand {
@@ -159,7 +171,6 @@ impl World<'_> {
         self.drivers_go_on(demand);
         self.vehicles_speak(demand)?;
         self.phones_speak(demand);
-        self.robots_walk_home();
         self.note_guards();
         Ok(())
     }
@@ -439,20 +450,6 @@ impl World<'_> {
             if draw.has_phone && sent.is_none_or(|it| it.is_due(&now, 5_000_000)) {
                 *sent = Some(now);
                 self.flow.log.vams[usize::from(is_told)] += 1;
-            }
-        }
-    }
-
-    /// Robots on the road without a part in a session and without a duty go back to where they wait. The kit says nothing of that.
-    fn robots_walk_home(&mut self) {
-        for seat in &mut self.seats {
-            let home = seat.draw.place;
-            let Some(machine) = seat.machine.as_mut().filter(|it| it.is_at_rest()) else {
-                continue;
-            };
-            let at = machine.application().body().place();
-            if at.north > -0.5 && at.north < ROAD_M + 0.5 {
-                machine.application_mut().walk_to(home);
             }
         }
     }

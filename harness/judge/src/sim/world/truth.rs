@@ -1,4 +1,4 @@
-//! The properties P1 to P4, judged by where people, bodies and vehicles really are.
+//! The properties P1 to P4 and P9, judged by where people, bodies and vehicles really are.
 //!
 //! Nothing here asks a crossing machine what is so.
 
@@ -7,6 +7,7 @@ use crossguard_protocol::{Event, Input, Outputs};
 use crossguard_robot::site::Place;
 
 use super::{Finding, World};
+use crate::sim::place::ROAD_M;
 
 /// How far a guard may be from its place, in metres.
 pub(super) const TOLERANCE_M: f64 = 2.05;
@@ -16,6 +17,20 @@ const AHEAD_M: f64 = 2.5;
 
 /// Within which time a vehicle was heard, in microseconds.
 const HEARD_US: u64 = 600_000;
+
+/// For how long a vehicle that cannot stop has been heard when a body ought to stand at the kerb, in microseconds.
+const STANDS_WITHIN_US: u64 = 1_500_000;
+
+/// How far from the kerb a body is on the road, and beside it with room to stop, in metres.
+const KERB_M: f64 = 0.1;
+const STOPS_M: f64 = 1.0;
+
+/// For how long after somebody was on the road robots may have them there, as with sensors that fail.
+const LINGERS_US: u64 = 60_000_000;
+
+/// What a driver needs to stop: time of reaction in s, and deceleration in m/s²; comfortably, and by hard braking.
+const COMFORT: [f64; 2] = [2.0, 3.0];
+const HARD: [f64; 2] = [1.0, 6.0];
 
 /// A property's id, and what it says.
 type Judged = (&'static str, &'static str);
@@ -37,6 +52,11 @@ const P4: Judged = (
     "an escort on the road does not go on while a person of its session is far behind",
 );
 
+const P9: Judged = (
+    "P9",
+    "no robot steps on the road while a vehicle that it hears can no longer stop, comfortably or, where somebody is on it, at all",
+);
+
 /// What is seen of a body from one moment to the next.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ObservedBody {
@@ -46,6 +66,10 @@ pub(super) struct ObservedBody {
     off_since_us: Option<u64>,
     /// Where it was when a person of its session was too far behind first.
     apart_at: Option<Place>,
+    /// Whether it was beside the road last, and has not been pushed since.
+    pub(super) is_beside_road: bool,
+    /// Since when it hears a vehicle that cannot stop.
+    hears_since_us: Option<u64>,
 }
 
 impl World<'_> {
@@ -102,38 +126,91 @@ impl World<'_> {
 
     /// P3, when the sign of a leader begins to show go.
     pub(super) fn judge_go(&mut self, place: usize) -> Result<(), Finding> {
-        let Some(sensing) = &self.swarm.sensing else {
-            return Ok(());
-        };
-        for (number, car) in sensing.cars.iter().enumerate() {
-            let heard = self.seats[place].heard_us.get(&number);
-            let is_heard = heard.is_some_and(|at_us| self.now_us - at_us <= HEARD_US);
-            if !is_heard {
-                continue;
-            }
+        let vehicles = self.vehicles_heard(place);
+        if !vehicles.is_empty() {
             self.met.insert(P3.0);
-            let ahead_m = -self.car_east(*car) * car.speed_mps.signum();
-            let speed_mps = car.speed_mps.abs();
-            let stops_m = speed_mps * 2.0 + speed_mps * speed_mps / (2.0 * 3.0);
-            // As of the last CAM it may have been a little farther away.
-            if ahead_m > 0.0 && ahead_m + speed_mps * 0.2 < stops_m {
-                return Err(self.breaks(P3, place));
-            }
+        }
+        if vehicles.into_iter().any(|it| cannot_stop(it, COMFORT)) {
+            return Err(self.breaks(P3, place));
         }
         Ok(())
     }
 
-    /// P2 and P4, at any time.
+    /// How far each vehicle that a robot has heard lately is before the crossing, in metres, and how fast it is, in m/s.
+    fn vehicles_heard(&self, place: usize) -> Vec<[f64; 2]> {
+        let is_heard = |number: &usize| {
+            let heard = self.seats[place].heard_us.get(number);
+            heard.is_some_and(|at_us| self.now_us - at_us <= HEARD_US)
+        };
+        let cars = self.swarm.sensing.iter().flat_map(|it| it.cars.iter());
+        let cars = cars.enumerate().filter(|(number, _)| is_heard(number));
+        let cars = cars.map(|(_, car)| {
+            let ahead_m = -self.car_east(*car) * car.speed_mps.signum();
+            [ahead_m, car.speed_mps.abs()]
+        });
+        cars.chain(self.flow.vehicles_ahead(is_heard)).collect()
+    }
+
+    /// P9, when a body has moved.
+    fn judge_step(&mut self, place: usize, at: Place) -> Result<(), Finding> {
+        let now_us = self.now_us;
+        let is_lately = |at_us: u64| now_us - at_us <= LINGERS_US;
+        let needs = if self.occupied_us.is_some_and(is_lately) {
+            HARD
+        } else {
+            COMFORT
+        };
+        let mut vehicles = self.vehicles_heard(place).into_iter();
+        let is_held = vehicles.any(|it| cannot_stop(it, needs));
+        let observed = &mut self.seats[place].observed;
+        let since_us = observed.hears_since_us.filter(|_| is_held);
+        observed.hears_since_us = is_held.then(|| since_us.unwrap_or(now_us));
+        let off_m = (at.north - ROAD_M / 2.0).abs() - ROAD_M / 2.0;
+        let is_on_road = off_m < -KERB_M;
+        let was_beside = observed.is_beside_road;
+        observed.is_beside_road = off_m > STOPS_M || was_beside && !is_on_road;
+        let ought_to_stand = since_us.is_some_and(|at_us| now_us - at_us > STANDS_WITHIN_US);
+        if !was_beside || !ought_to_stand {
+            return Ok(());
+        }
+        if off_m < 2.0 {
+            self.met.insert(P9.0);
+        }
+        if is_on_road {
+            return Err(self.breaks(P9, place));
+        }
+        Ok(())
+    }
+
+    /// Whether robots may have somebody on the road: there is somebody, within the error of sensors.
+    fn may_be_occupied(&self) -> bool {
+        let sources = self.swarm.sensing.iter().flat_map(|it| it.sources.iter());
+        let errors = sources.flatten().map(|it| it.error_m);
+        let error_m = errors.fold(0.0, f64::max);
+        self.walkers.iter().any(|it| {
+            let north = it.place(self.now_us).north;
+            north > -error_m && north < ROAD_M + error_m
+        })
+    }
+
+    /// P2, P4 and P9, at any time.
     pub(super) fn judge_bodies(&mut self) -> Result<(), Finding> {
         if self.swarm.sensing.is_none() {
             return Ok(());
         }
+        if self.may_be_occupied() {
+            self.occupied_us = Some(self.now_us);
+        }
         for place in 0..self.seats.len() {
             let Some(machine) = &self.seats[place].machine else {
-                self.seats[place].observed.off_since_us = None;
+                self.seats[place].observed = ObservedBody {
+                    target: self.seats[place].observed.target,
+                    ..ObservedBody::default()
+                };
                 continue;
             };
             let at = machine.application().body().place();
+            self.judge_step(place, at)?;
             let settings = self.seats[place].draw.config.settings();
             match self.monitor.node(place).actuation.body {
                 Body::InPosition(maneuver) if settings.holding.contains(maneuver.task) => {
@@ -179,4 +256,10 @@ impl World<'_> {
         }
         Ok(())
     }
+}
+
+/// Whether a vehicle so far before the crossing can no longer stop. As of its last CAM it may have been a little farther away.
+fn cannot_stop([ahead_m, speed_mps]: [f64; 2], [reaction_s, deceleration_mps2]: [f64; 2]) -> bool {
+    let stops_m = speed_mps * reaction_s + speed_mps * speed_mps / (2.0 * deceleration_mps2);
+    ahead_m > 0.0 && ahead_m + speed_mps * 0.2 < stops_m
 }
