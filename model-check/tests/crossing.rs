@@ -67,7 +67,8 @@ const WEAKENINGS: &[Weakening] = &[
     (DRIFTING, |setup| setup.position.tolerance_cm = 10_000, Rule::P2),
     // It is for a minute after its last position.
     (DRIFTING, |setup| setup.position.lease = Millis(60_000), Rule::P2),
-    (WITH_VEHICLE, trusts_drivers, Rule::P3),
+    (WITH_VEHICLE, |setup| if setup.plan.is_some() { trusts_drivers(setup) }, Rule::P3),
+    (WITH_VEHICLE, |setup| if setup.plan.is_none() { trusts_drivers(setup) }, Rule::P9),
     // People have to wait for long.
     (PERSON, |setup| setup.waiting.dwell = Millis(10_000), Rule::P5),
     (PERSON, never_ends, Rule::P6),

@@ -12,6 +12,9 @@ use super::{MISS_MAX, Watch};
 /// Where the guard stands.
 pub(super) const POST: Point = Point::new(-200, 200);
 
+/// Where the guard waits without a session, at the kerb.
+pub(super) const HOME: Point = Point::new(-200, -100);
+
 /// Where a guard is that has drifted: 4 m off its place.
 const DRIFTED: Point = Point::new(-600, 200);
 
@@ -121,6 +124,7 @@ fn setups(watch: Watch, config: &Config) -> [Setup; 2] {
         watches: watch != Watch::Leader,
         calls: false,
         plan: None,
+        home: Some(HOME),
         ..leader.clone()
     };
     [leader, follower]

@@ -10,11 +10,14 @@ use crate::exploration::Stop;
 
 use super::rules::Rules;
 use super::team::{FOLLOWING, Team};
-use super::truth::{ADRIFT_MAX, DETECT_MAX, END_MAX, Rule};
+use super::truth::{ADRIFT_MAX, DETECT_MAX, END_MAX, Rule, STOP_M};
 use super::{Street, Watch};
 
 /// A tick.
 pub(super) const TICK: Millis = Millis(500);
+
+/// How far a vehicle comes in a tick, in metres: more than at 50 km/h.
+const PER_TICK_M: u8 = 14;
 
 /// How many people there are at most.
 pub(super) const PEOPLE_MAX: usize = 2;
@@ -84,6 +87,7 @@ pub(super) struct Person {
 
 /// The guard's body.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(super) struct Guard {
     /// It is 4 m off its place.
     pub(super) is_drifted: bool,
@@ -93,6 +97,10 @@ pub(super) struct Guard {
     pub(super) adrift: u8,
     /// It has guarded, and does not any more; or a word of the leader has freed it.
     pub(super) has_left: bool,
+    /// A vehicle has come within its way to stop for a tick, and nobody has been on the road.
+    pub(super) ought_to_wait: bool,
+    /// It stepped on the road all the same.
+    pub(super) stepped_out: bool,
 }
 
 /// The leader's sign.
@@ -132,6 +140,11 @@ impl Sensed<'_> {
         for (age, seen) in self.frames {
             tell_frame(*age, *seen, &mut tell);
         }
+        self.vehicle(tell);
+    }
+
+    /// Calls `tell` with the vehicle that is heard, if there is one.
+    pub(super) fn vehicle(&self, mut tell: impl FnMut(Input<'_>)) {
         if let Some(vehicle) = self.vehicle {
             tell(Input::Vehicle(vehicle, Millis::ZERO));
         }
@@ -280,12 +293,14 @@ impl State {
             person.was_seen_there &= person.at.is_road() || self.left.watch != Watch::Guard;
         }
         self.sign.left = self.sign.left.saturating_sub(TICK.0);
-        self.car = self.car.and_then(|metres| metres.checked_sub(14));
+        let has_come = self.car.is_some_and(|metres| metres + PER_TICK_M <= STOP_M);
+        self.car = self.car.and_then(|metres| metres.checked_sub(PER_TICK_M));
         self.car = self.car.filter(|metres| *metres > 0);
         if self.team.begins() {
             self.guard = Guard::default();
         }
-        self.team.walk();
+        self.guard.ought_to_wait = has_come && !self.people.iter().any(|it| it.has_walked);
+        self.guard.stepped_out = self.team.walk() && self.guard.ought_to_wait;
         let left = &mut self.left;
         left.words -= u8::from(tick.word.is_some());
         match tick.fault {
@@ -497,7 +512,7 @@ impl stateright::Model for World {
                 ));
             )*};
         }
-        rules!(P1 P2 P3 P5 P6);
+        rules!(P1 P2 P3 P5 P6 P9);
         // One that never comes about, so that the exploration goes to its end.
         properties.push(Property::sometimes("never", |_, _| false));
         properties

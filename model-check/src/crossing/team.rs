@@ -10,7 +10,7 @@ use crossguard_protocol::{
 };
 
 use super::Watch;
-use super::rules::{Machine, POST, Rules, pose};
+use super::rules::{HOME, Machine, POST, Rules, pose};
 use super::street::{Guard, Sensed, Sign, TICK};
 
 const LEADER: usize = 0;
@@ -31,12 +31,15 @@ struct Member {
 
 /// What the follower's body does.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 struct Body {
     at: Point,
     task: Option<ManeuverId>,
     to: Option<Point>,
     /// Whether it holds a place because of a fallback.
     holds: bool,
+    /// Whether it stands on its way.
+    waits: bool,
     /// Whether a maneuver has begun since the last tick.
     begins: bool,
     has_guarded: bool,
@@ -74,7 +77,10 @@ impl Team {
         };
         Self {
             members: [LEADING, FOLLOWING].map(member),
-            body: Body::default(),
+            body: Body {
+                at: HOME,
+                ..Body::default()
+            },
         }
     }
 
@@ -83,12 +89,14 @@ impl Team {
         self.body.begins
     }
 
-    /// The body goes to its place, which takes a tick.
-    pub(super) fn walk(&mut self) {
+    /// The body goes where it is to be, unless it waits, which takes a tick. Whether it steps on the road.
+    pub(super) fn walk(&mut self) -> bool {
         self.body.begins = false;
-        if let Some(to) = self.body.to {
+        let from = self.body.at;
+        if let Some(to) = self.body.to.filter(|_| !self.body.waits) {
             self.body.at = to;
         }
+        from == HOME && self.body.at == POST
     }
 
     /// A tick of both, or of the follower alone while the leader hangs. Once the leader is idle and nobody is on the road, a
@@ -140,6 +148,7 @@ impl Team {
         if turn.rules.watch != Watch::Leader {
             sensed.now(|input| self.tell(FOLLOWER, input, turn));
         }
+        sensed.vehicle(|input| self.tell(FOLLOWER, input, turn));
         if let Some(pose) = pose(turn.guard, self.body.at) {
             self.tell(FOLLOWER, Input::Pose(Some(pose), Millis::ZERO), turn);
         }
@@ -184,7 +193,11 @@ impl Team {
                 }
                 Output::Go(left) => turn.sign.left = left.0,
                 Output::Stop => turn.sign.left = 0,
-                Output::Release if member == FOLLOWER => self.body.holds = false,
+                _ if member != FOLLOWER => {}
+                Output::Release => self.body.holds = false,
+                Output::Wait => self.body.waits = true,
+                Output::GoOn => self.body.waits = false,
+                Output::WalkTo(to) => (self.body.to, self.body.waits) = (Some(to), false),
                 _ => {}
             }
         }
@@ -214,6 +227,7 @@ impl Team {
                         task: Some(maneuver.id),
                         to: Some(POST),
                         holds: false,
+                        waits: false,
                         begins: true,
                         ..self.body
                     };
@@ -268,6 +282,11 @@ impl Team {
         turn.queue.push_back((1 - from, ram));
     }
 
+    /// Whether the follower's body has not come to the place of its maneuver yet.
+    pub(super) fn is_sent(&self) -> bool {
+        self.body.to == Some(POST) && self.body.at == HOME
+    }
+
     /// Whether the follower guards, or stands by because of a fallback.
     pub(super) const fn guards(&self) -> bool {
         let follows = matches!(self.members[FOLLOWER].robot.phase(), Phase::Following(_));
@@ -312,7 +331,8 @@ impl Team {
 
 impl Body {
     fn leave_task(&mut self, holds: bool) {
-        (self.task, self.to, self.holds) = (None, None, holds);
+        (self.task, self.to) = (None, None);
+        (self.holds, self.waits) = (holds, false);
     }
 }
 

@@ -16,7 +16,7 @@ pub(super) const DETECT_MAX: u8 = 6;
 pub(super) const ADRIFT_MAX: u8 = 2;
 
 /// At 50 km/h a driver goes 27.8 m within the 2 s of reaction, and then 32.2 m to stop at 3 m/s².
-const STOP_M: u8 = 60;
+pub(super) const STOP_M: u8 = 60;
 
 /// A rule of the ground truth.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Deserialize)]
@@ -31,6 +31,8 @@ pub enum Rule {
     P5,
     /// See [`Rule::claim`].
     P6,
+    /// See [`Rule::claim`].
+    P9,
 }
 
 /// What a rule says.
@@ -48,7 +50,7 @@ pub struct RuleClaim {
 
 impl Rule {
     /// The rules. P4, escorts beside their people, needs continuous geometry: fuzz and `validate` judge it.
-    pub const ALL: [Self; 5] = [Self::P1, Self::P2, Self::P3, Self::P5, Self::P6];
+    pub const ALL: [Self; 6] = [Self::P1, Self::P2, Self::P3, Self::P5, Self::P6, Self::P9];
 
     /// What it says.
     #[must_use]
@@ -84,6 +86,12 @@ impl Rule {
                 statement: "the team is free within 27 s after everybody was off the road for good, seen on it before or out of sight",
                 premise: "somebody has crossed, and the team is free again",
             },
+            Self::P9 => RuleClaim {
+                id: "P9",
+                premise_id: "P9-premise",
+                statement: "a guard that hears for 0.5 s of a vehicle that can no longer stop does not step on an empty road",
+                premise: "a guard that is to go to its place hears of such a vehicle, and nobody has been on the road",
+            },
         }
     }
 
@@ -94,6 +102,7 @@ impl Rule {
             Self::P3 => !(state.sign.has_begun && cannot_stop(state)),
             Self::P5 => state.undetected <= DETECT_MAX,
             Self::P6 => state.off_road <= END_MAX,
+            Self::P9 => !state.guard.stepped_out,
         }
     }
 
@@ -109,6 +118,7 @@ impl Rule {
             Self::P3 => cannot_stop(state) && state.guards && people.any(|it| it.at == Cell::Near),
             Self::P5 => state.undetected > 0 && people.any(|it| it.missed > 0),
             Self::P6 => state.is_free && people.any(|it| it.at == Cell::Far),
+            Self::P9 => state.guard.ought_to_wait && state.team.is_sent(),
         }
     }
 }
