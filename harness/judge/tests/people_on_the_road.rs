@@ -156,6 +156,19 @@ impl Crossing {
         self.add(from_us, robot, Entry::Zone(zone));
     }
 
+    /// A robot has a vehicle that comes from so far east at 10 m/s.
+    fn has_vehicle(&mut self, robot: &str, at_us: u64, east_m: f64) {
+        let vehicle = SeenVehicle {
+            place: Site::default().coordinates(Place::new(east_m, 2.0)),
+            velocity: Some([-10.0, 0.0]),
+        };
+        let sight = Sight {
+            people: Vec::new(),
+            vehicles: vec![vehicle],
+        };
+        self.add(at_us, robot, Entry::People(sight));
+    }
+
     fn add(&mut self, at_us: u64, robot: &str, entry: Entry) {
         let robot = robot.to_owned();
         let place = self.0.partition_point(|record| record.at_us <= at_us);
@@ -169,8 +182,13 @@ impl Crossing {
         );
     }
 
-    /// A robot is so far to the north of where its RAM said, from then on; without a distance it does not know where.
+    /// A robot is so far to the north of where its RAM said, from then on.
     fn drifts(&mut self, robot: &str, from_us: u64, north_m: f64) {
+        self.drifts_in(robot, from_us..u64::MAX, north_m);
+    }
+
+    /// The same for a while.
+    fn drifts_in(&mut self, robot: &str, times_us: std::ops::Range<u64>, north_m: f64) {
         let identifiers = Identifiers::default();
         for place in 0..self.0.len() {
             let record = &self.0[place];
@@ -182,7 +200,7 @@ impl Crossing {
             else {
                 continue;
             };
-            if record.robot != robot || record.at_us < from_us {
+            if record.robot != robot || !times_us.contains(&record.at_us) {
                 continue;
             }
             let before = octets.clone();
@@ -344,15 +362,7 @@ fn hazard_i_go_begins_before_a_vehicle_that_cannot_stop() {
         let mut log = Crossing::new();
         let (leader, go_us) = log.go();
         log.watches(&leader, go_us - S);
-        let vehicle = SeenVehicle {
-            place: Site::default().coordinates(Place::new(east_m, 2.0)),
-            velocity: Some([-10.0, 0.0]),
-        };
-        let sight = Sight {
-            people: Vec::new(),
-            vehicles: vec![vehicle],
-        };
-        log.add(go_us - S / 10, &leader, Entry::People(sight));
+        log.has_vehicle(&leader, go_us - S / 10, east_m);
         log
     };
     comes(41.0).is_refused("P3");
@@ -361,6 +371,37 @@ fn hazard_i_go_begins_before_a_vehicle_that_cannot_stop() {
         assert!(said.starts_with("P3 kept 1 times"), "{said}");
     }
     assert!(Crossing::new().kept("P3").starts_with("P3 not judged"));
+}
+
+/// A robot that has gone home after its session is on the lane again all at once.
+#[test]
+fn a_robot_steps_on_the_lane_before_a_vehicle_that_cannot_stop() {
+    let steps = |sights: &[(u64, f64)]| {
+        let mut log = Crossing::of_guards();
+        let guard = log.who(TaskType::BLOCK);
+        let (steps_us, (latitude, _)) = *log.ways(&guard).last().unwrap();
+        let kerb = Site::default().coordinates(Place::default());
+        let north_m = (latitude - kerb.0) * 111_195.0;
+        log.drifts_in(&guard, steps_us - 5 * S..steps_us, -2.0 - north_m);
+        log.drifts(&guard, steps_us, 2.0 - north_m);
+        log.watches(&guard, steps_us - 3 * S);
+        for (before_us, east_m) in sights {
+            log.has_vehicle(&guard, steps_us - before_us, *east_m);
+        }
+        log
+    };
+    steps(&[(2 * S, 40.0), (S / 2, 25.0)]).is_refused("P9");
+    for sights in [
+        // It could stop until a second ago, or can; it has passed; it came in sight a second ago.
+        &[(2 * S, 60.0), (S, 40.0)][..],
+        &[(2 * S, 60.0), (S / 2, 45.0)],
+        &[(2 * S, 40.0), (S / 2, -10.0)],
+        &[(S, 30.0)],
+    ] {
+        let said = steps(sights).kept("P9");
+        assert!(said.starts_with("P9 kept 1 times"), "{sights:?}: {said}");
+    }
+    assert!(Crossing::new().kept("P9").starts_with("P9 not judged"));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! P1 to P4 of the crossing, on logs that have people, vehicles and positions.
+//! P1 to P4 and P9 of the crossing, on logs that have people, vehicles and positions.
 //!
 //! | property | what logs show | judged when |
 //! |---|---|---|
@@ -6,6 +6,7 @@
 //! | P2 | While go is shown, each guard that holds a place is within [`TOLERANCE_M`] of it, or left it a short time ago. | a guard sends a RAM, or go begins or goes on |
 //! | P3 | Go does not begin while a vehicle could no longer stop. | go begins at a robot that has vehicles in sight |
 //! | P4 | An escort that moves is no further than [`AHEAD_M`] ahead of a person in its sight on the carriageway. | an escort sends a RAM while it sees somebody on the carriageway |
+//! | P9 | No robot steps on the road while a vehicle has been in its sight for a while that could no longer stop. | RAM of a robot that has vehicles in sight are beside the road first, and then on it, and nobody has been on it for a minute |
 //!
 //! What people do is worked out of their [places](super::ground) alone, never of what a robot made of them. Guards are
 //! judged by what bodies are told (start, stop, fall back), positions by the robots' own RAM, to which the error that
@@ -29,7 +30,7 @@ use crossguard_robot::trace::Entry;
 use super::fault::Fault;
 use super::ground::{Ground, Metres, OnRoad, distance, seconds};
 use super::targets;
-use super::traffic::Vehicle;
+use super::traffic::{AtKerb, Vehicle};
 
 /// How far a guard may be from its place, and an escort ahead of its person, besides the stated error of its
 /// position.
@@ -41,6 +42,9 @@ const MOVES_MPS: f64 = 0.3;
 
 /// An escort stops within so many seconds.
 const STOPS_S: f64 = 1.0;
+
+/// For how long after somebody was on the road robots may have them there, in µs.
+const LINGERS_US: u64 = 60_000_000;
 
 /// For how long after its last position a robot still is where it was, in µs.
 const PLACED_US: u64 = 1_000_000;
@@ -55,8 +59,11 @@ pub(super) struct Crossing {
     /// Until when the sign of each leader shows go.
     go: BTreeMap<String, Go>,
     targets: HashMap<(ManeuverId, StationId), Metres>,
-    /// The vehicles that each robot has.
+    /// The vehicles that each robot has, and where it is.
     vehicles: BTreeMap<String, Vec<Vehicle>>,
+    at_kerb: BTreeMap<String, AtKerb>,
+    /// Until when robots may have somebody on the road.
+    occupied_until_us: u64,
     /// The guard that left last by an application's word, and until when a person who saw go may be seen to step on the
     /// road.
     freed: Option<(Left, u64)>,
@@ -64,6 +71,7 @@ pub(super) struct Crossing {
     held: usize,
     begun: usize,
     escorted: usize,
+    stepped: usize,
     has_guards: bool,
     may_be_away_ms: u64,
 }
@@ -121,7 +129,7 @@ impl Crossing {
             Entry::Zone(outline) => self.ground.outline(robot, outline),
             Entry::People(sight) => {
                 self.ground.see(robot, at_us, sight);
-                self.see_vehicles(robot, sight);
+                self.see_vehicles(robot, at_us, sight);
                 self.freed_too_early(at_us)?;
             }
             Entry::Step {
@@ -163,6 +171,7 @@ impl Crossing {
     pub(super) fn forget(&mut self, robot: &str) {
         self.ground.forget(robot);
         self.vehicles.remove(robot);
+        self.at_kerb.remove(robot);
         self.guards.remove(robot);
     }
 
@@ -184,7 +193,7 @@ impl Crossing {
         }
     }
 
-    fn see_vehicles(&mut self, robot: &str, sight: &Sight) {
+    fn see_vehicles(&mut self, robot: &str, at_us: u64, sight: &Sight) {
         let mut vehicles = Vec::new();
         for seen in &sight.vehicles {
             if let Some(velocity) = seen.velocity {
@@ -192,7 +201,36 @@ impl Crossing {
                 vehicles.push(Vehicle { at, velocity });
             }
         }
+        let crossing = self.ground.crossing(robot).unwrap_or_default();
+        let coming = vehicles.iter().find_map(|it| it.comes(crossing));
+        let at_kerb = self.at_kerb.entry(robot.to_owned()).or_default();
+        at_kerb.see(at_us, coming);
         self.vehicles.insert(robot.to_owned(), vehicles);
+        if self.ground.on_road(at_us).next().is_some() {
+            self.occupied_until_us = at_us + LINGERS_US;
+        }
+    }
+
+    /// A robot is somewhere, with this error (P9).
+    fn steps(&mut self, robot: &str, at_us: u64, here: Metres, error_m: f64) -> Result<(), Fault> {
+        let Some(off_m) = self.ground.off_road_m(robot, here) else {
+            return Ok(());
+        };
+        let at_kerb = self.at_kerb.entry(robot.to_owned()).or_default();
+        let (steps, before) = at_kerb.is_at(at_us, off_m, error_m);
+        let has_vehicles = self.vehicles.get(robot).is_some_and(|it| !it.is_empty());
+        if !steps || !has_vehicles || at_us < self.occupied_until_us {
+            return Ok(());
+        }
+        self.stepped += 1;
+        before.map_or(Ok(()), |coming| {
+            Err(Fault::StepsBeforeVehicle {
+                robot: robot.to_owned(),
+                speed_mps: coming.speed_mps,
+                left_m: coming.left_m,
+                needs_m: coming.needs_m,
+            })
+        })
     }
 
     /// Whether go begins in front of a vehicle that could no longer stop (P3).
@@ -364,6 +402,7 @@ impl Crossing {
         };
         let here = self.ground.metres(degrees);
         let error = position.ellipse.map_or(0.0, |ellipse| ellipse.semi_major);
+        self.steps(robot, at_us, here, error)?;
         let before = self.places.insert(robot.to_owned(), (at_us, here, error));
         let Some(guard) = self.guards.get_mut(robot) else {
             return Ok(());
@@ -431,6 +470,8 @@ impl Crossing {
         let held =
             (self.held == 0).then_some("no position of a guard at a place while go was shown");
         let begun = (self.begun == 0).then_some("go never began with a vehicle in sight");
+        let stepped = (self.stepped == 0)
+            .then_some("no robot with vehicles in sight stepped on an empty road");
         let escorted =
             (self.escorted == 0).then_some("no escort moved while it saw somebody on the road");
         vec![
@@ -465,6 +506,14 @@ impl Crossing {
                 format!(
                     "{} times: no escort further ahead than {AHEAD_M} m, its error and {STOPS_S} s of its way",
                     self.escorted
+                ),
+            ),
+            verdict(
+                "P9",
+                stepped,
+                format!(
+                    "{} times: a robot stepped on the road, and no vehicle in its sight came that could not stop",
+                    self.stepped
                 ),
             ),
         ]

@@ -200,6 +200,20 @@ pub enum Fault {
         /// How far it goes until it stands, in metres.
         needs_m: f64,
     },
+    /// A robot steps on an empty road before a vehicle that could no longer stop.
+    #[error(
+        "broke P9: {robot} steps on the road while a vehicle comes at {speed_mps:.1} m/s, {left_m:.1} m from the crossing; it needs {needs_m:.1} m to stop"
+    )]
+    StepsBeforeVehicle {
+        /// The robot.
+        robot: String,
+        /// How fast the vehicle is.
+        speed_mps: f64,
+        /// How far it is from the crossing, in metres.
+        left_m: f64,
+        /// How far it goes until it stands, in metres.
+        needs_m: f64,
+    },
     /// A property is broken.
     #[error("broke {}: {}", .0.name(), .0.statement())]
     Broken(PropertyId),

@@ -103,6 +103,13 @@ impl Ground {
         outline.into_iter().find(|corners| corners.len() > 2)
     }
 
+    /// How far a place is off the road of a robot, in metres, negative on it.
+    pub(super) fn off_road_m(&self, robot: &str, at: Metres) -> Option<f64> {
+        let road = self.roads.get(robot).filter(|it| it.road.len() > 2)?;
+        let edge_m = road.depth(at);
+        Some(if road.contains(at) { -edge_m } else { edge_m })
+    }
+
     /// A robot has made a record, so it lives.
     pub(super) fn lives(&mut self, robot: &str, at_us: u64) {
         if let Some(watcher) = self.watchers.get_mut(robot) {

@@ -1,4 +1,5 @@
-//! Whether go began before vehicles that could no longer stop (P3), as far as sights in logs tell.
+//! Whether go began before vehicles that could no longer stop (P3), or a robot stepped on the road before one (P9), as far as
+//! sights in logs tell.
 //!
 //! Only the geometry of a log is used: the places and velocities that a robot had when go began, and the outline of its
 //! crossing. A robot logs its newest sight when its sign begins to show go, so the log is as new as the decision. A vehicle
@@ -60,6 +61,42 @@ fn way(from: Metres, ahead: [f64; 2], corners: &[Metres]) -> Option<f64> {
         (turn != 0.0 && along >= 0.0 && (0.0..=1.0).contains(&on_edge)).then_some(along)
     });
     crossed.min_by(f64::total_cmp)
+}
+
+/// For how long such a vehicle has been in sight when a body ought to stand at the kerb, in µs.
+const STANDS_WITHIN_US: u64 = 1_500_000;
+
+/// How far from the kerb a body is on the road, and beside it with room to stop, in metres, besides the stated error of its position.
+const KERB_M: f64 = 0.3;
+const STOPS_M: f64 = 1.0;
+
+/// A robot at the kerb.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct AtKerb {
+    is_beside: bool,
+    /// Since when a vehicle is in its sight that cannot stop, and that vehicle as it was last.
+    coming: Option<(u64, Coming)>,
+}
+
+impl AtKerb {
+    /// It has a sight.
+    pub(super) fn see(&mut self, at_us: u64, coming: Option<Coming>) {
+        let since_us = self.coming.map_or(at_us, |(since_us, _)| since_us);
+        self.coming = coming.map(|coming| (since_us, coming));
+    }
+
+    /// It is so far off the road, or inside of it where that is negative. Whether it stepped on it, and the vehicle before which it
+    /// ought not to have done so.
+    pub(super) fn is_at(&mut self, at_us: u64, off_m: f64, error_m: f64) -> (bool, Option<Coming>) {
+        let was_beside = self.is_beside;
+        let is_on_road = off_m < -(KERB_M + error_m);
+        self.is_beside = off_m > STOPS_M + error_m || was_beside && !is_on_road;
+        let coming = self
+            .coming
+            .filter(|(since_us, _)| at_us - since_us > STANDS_WITHIN_US);
+        let steps = was_beside && is_on_road;
+        (steps, coming.map(|(_, coming)| coming).filter(|_| steps))
+    }
 }
 
 #[cfg(test)]
