@@ -257,6 +257,14 @@ local function register_signed()
     end
 end
 
+-- Robots without a radio send these packets by UDP, at ports of their own: "Decode As" in Wireshark, or for those of the
+-- demonstration -d udp.port==47401,crossguard.udp -d udp.port==47402,crossguard.udp.
+local datagram = Proto("crossguard.udp", "GeoNetworking in UDP")
+function datagram.dissector(tvb, pinfo, tree)
+    return Dissector.get("gnw"):call(tvb, pinfo, tree)
+end
+DissectorTable.get("udp.port"):add_for_decode_as(datagram)
+
 local ports = {}
 
 local function register()

@@ -124,7 +124,6 @@ fn a_disk_that_is_full_is_named_by_each_command_that_writes_to_it() {
     for arguments in [
         &["report", &log, "--output", "/dev/full"][..],
         &["export", &log, "--facts", "/dev/full"],
-        &["sniff", "--address", "127.0.0.1:0", "--pcap", "/dev/full"],
         &simulate,
         // A capture begins with a header, so this is known before the robots start.
         &[&demo[..], &["--pcap", "/dev/full"]].concat(),
