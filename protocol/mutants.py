@@ -149,6 +149,8 @@ MUTANTS = [
      "self.task.is_none()\n        } else {", "true\n        } else {"),
     ("a robot walks home over the other lane whatever comes", "crossing/src/crossing.rs",
      "self.task.is_none()\n        } else {", "false\n        } else {"),
+    ("a robot on its way home stands on its lane before a vehicle", "crossing/src/traffic.rs",
+     "!is_on_road || aside_cm(vehicle, from) >= BESIDE_CM", "true"),
     ("a robot leaves the road under the eyes of people", "crossing/src/crossing.rs",
      "self.walk != Some(home) && !self.tracks.is_on_road()", "self.walk != Some(home)"),
     ("an id is somebody wherever it is", "crossing/src/tracks.rs",

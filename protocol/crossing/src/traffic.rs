@@ -83,14 +83,7 @@ impl Traffic {
     /// The first vehicle that could no longer stop comfortably before the crossing.
     #[must_use]
     pub fn hindrance(&self, setup: &Setup) -> Option<u32> {
-        let crossing = crossing(setup)?;
-        let hinders = |(vehicle, age): &(Vehicle, Millis)| {
-            ahead(setup, crossing, vehicle).is_some_and(|it| !it.can_stop(&setup.traffic, *age))
-        };
-        let mut vehicles = self.vehicles.iter().flatten();
-        let hindering = vehicles.find(|it| hinders(it));
-        let key = hindering.map(|(vehicle, _)| vehicle.key);
-        key.or(self.further.map(|(key, _)| key))
+        self.first(setup, crossing(setup)?, &setup.traffic, |_| true)
     }
 
     /// Whether a body that goes from one place to another would step in front of a vehicle that could no longer stop: comfortably,
@@ -105,13 +98,25 @@ impl Traffic {
             setup.traffic
         };
         let is_on_road = setup.ground.is_road(from);
-        let mut vehicles = self.vehicles.iter().flatten();
-        self.further.is_some()
-            || vehicles.any(|(vehicle, age)| {
-                let is_beside = !is_on_road || aside_cm(vehicle, from) >= BESIDE_CM;
-                let ahead = ahead(setup, &way, vehicle).filter(|_| is_beside);
-                ahead.is_some_and(|it| !it.can_stop(&rules, *age))
-            })
+        let counts = |vehicle: &Vehicle| !is_on_road || aside_cm(vehicle, from) >= BESIDE_CM;
+        self.first(setup, &way, &rules, counts).is_some()
+    }
+
+    /// The first of the vehicles that count which could no longer stop before a place, or else one that is too many to be kept.
+    fn first(
+        &self,
+        setup: &Setup,
+        place: &Shape,
+        rules: &TrafficRules,
+        counts: impl Fn(&Vehicle) -> bool,
+    ) -> Option<u32> {
+        let hinders = |(vehicle, age): &&(Vehicle, Millis)| {
+            let ahead = ahead(setup, place, vehicle).filter(|_| counts(vehicle));
+            ahead.is_some_and(|it| !it.can_stop(rules, *age))
+        };
+        let key = self.vehicles.iter().flatten().find(hinders);
+        let key = key.map(|(vehicle, _)| vehicle.key);
+        key.or(self.further.map(|(key, _)| key))
     }
 }
 

@@ -347,14 +347,17 @@ fn a_robot_without_a_part_leaves_the_road_unless_somebody_is_on_it() {
     team.pass(5_000);
     assert_eq!(team.robots[1].body.at, POST, "somebody is on the road");
     team.people.clear();
-    // On its way it does not step on the other lane before a car.
-    let other_lane = Vehicle {
-        at: Point::new(-1_900, 0),
-        ..car(0)
-    };
-    pass_beside(&mut team, 1, other_lane, 6_000);
-    let body = &team.robots[1].body;
-    assert!(body.waits && body.at.north_cm() > 150);
+    // On its way it does not step on the other lane before a car, and does not stand on its own lane before one.
+    for (lane, is_held) in [(0, true), (200, false)] {
+        let vehicle = Vehicle {
+            at: Point::new(-1_900, lane),
+            ..car(0)
+        };
+        pass_beside(&mut team, 1, vehicle, 6_000);
+        let body = &team.robots[1].body;
+        let is_on_lane = body.at.north_cm() > 150;
+        assert_eq!((body.waits, is_on_lane), (is_held, is_held), "{lane}");
+    }
     team.pass(12_000);
     assert_eq!(team.robots[1].body.at, home);
 }
