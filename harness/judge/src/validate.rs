@@ -49,6 +49,7 @@ mod traffic;
 
 pub use fault::Fault;
 pub use time::Late;
+pub use traffic::Coming;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::fmt;

@@ -59,8 +59,6 @@ pub(super) struct Crossing {
     /// Until when the sign of each leader shows go.
     go: BTreeMap<String, Go>,
     targets: HashMap<(ManeuverId, StationId), Metres>,
-    /// The vehicles that each robot has, and where it is.
-    vehicles: BTreeMap<String, Vec<Vehicle>>,
     at_kerb: BTreeMap<String, AtKerb>,
     /// Until when robots may have somebody on the road.
     occupied_until_us: u64,
@@ -170,7 +168,6 @@ impl Crossing {
     /// A robot is down.
     pub(super) fn forget(&mut self, robot: &str) {
         self.ground.forget(robot);
-        self.vehicles.remove(robot);
         self.at_kerb.remove(robot);
         self.guards.remove(robot);
     }
@@ -202,10 +199,8 @@ impl Crossing {
             }
         }
         let crossing = self.ground.crossing(robot).unwrap_or_default();
-        let coming = vehicles.iter().find_map(|it| it.comes(crossing));
         let at_kerb = self.at_kerb.entry(robot.to_owned()).or_default();
-        at_kerb.see(at_us, coming);
-        self.vehicles.insert(robot.to_owned(), vehicles);
+        at_kerb.see(at_us, vehicles, crossing);
         if self.ground.on_road(at_us).next().is_some() {
             self.occupied_until_us = at_us + LINGERS_US;
         }
@@ -218,18 +213,12 @@ impl Crossing {
         };
         let at_kerb = self.at_kerb.entry(robot.to_owned()).or_default();
         let (steps, before) = at_kerb.is_at(at_us, off_m, error_m);
-        let has_vehicles = self.vehicles.get(robot).is_some_and(|it| !it.is_empty());
-        if !steps || !has_vehicles || at_us < self.occupied_until_us {
+        if !steps || at_us < self.occupied_until_us {
             return Ok(());
         }
         self.stepped += 1;
         before.map_or(Ok(()), |coming| {
-            Err(Fault::StepsBeforeVehicle {
-                robot: robot.to_owned(),
-                speed_mps: coming.speed_mps,
-                left_m: coming.left_m,
-                needs_m: coming.needs_m,
-            })
+            Err(Fault::StepsBeforeVehicle(robot.to_owned(), coming))
         })
     }
 
@@ -238,8 +227,9 @@ impl Crossing {
         let shows = self.go.get(robot).is_some_and(|go| at_us < go.until_us);
         let begins = !shows && outputs.iter().any(|it| go_for(it).is_some());
         let vehicles = self
-            .vehicles
+            .at_kerb
             .get(robot)
+            .map(|it| &it.vehicles)
             .filter(|it| begins && !it.is_empty());
         let (Some(vehicles), Some(crossing)) = (vehicles, self.ground.crossing(robot)) else {
             return Ok(());
@@ -247,12 +237,7 @@ impl Crossing {
         self.begun += 1;
         let coming = vehicles.iter().find_map(|it| it.comes(crossing));
         coming.map_or(Ok(()), |coming| {
-            Err(Fault::GoBeforeVehicle {
-                robot: robot.to_owned(),
-                speed_mps: coming.speed_mps,
-                left_m: coming.left_m,
-                needs_m: coming.needs_m,
-            })
+            Err(Fault::GoBeforeVehicle(robot.to_owned(), coming))
         })
     }
 

@@ -7,6 +7,8 @@ use crossguard_protocol::{BrokenInequality, StationId};
 use crossguard_codec::Unheard;
 use crossguard_robot::trace::Unreadable;
 
+use super::traffic::Coming;
+
 /// What does not fit in a record. Each reads on after the robot's name.
 #[derive(Debug, thiserror::Error)]
 pub enum Fault {
@@ -187,33 +189,11 @@ pub enum Fault {
         may_m: f64,
     },
     /// A sign begins to show go in front of a vehicle.
-    #[error(
-        "broke P3: {robot} begins to show go while a vehicle comes at {speed_mps:.1} m/s, {left_m:.1} m from the crossing; it needs {needs_m:.1} m to stop"
-    )]
-    GoBeforeVehicle {
-        /// The robot with the sign.
-        robot: String,
-        /// How fast the vehicle is.
-        speed_mps: f64,
-        /// How far it is from the crossing, in metres.
-        left_m: f64,
-        /// How far it goes until it stands, in metres.
-        needs_m: f64,
-    },
+    #[error("broke P3: {0} begins to show go while {1}")]
+    GoBeforeVehicle(String, Coming),
     /// A robot steps on an empty road before a vehicle that could no longer stop.
-    #[error(
-        "broke P9: {robot} steps on the road while a vehicle comes at {speed_mps:.1} m/s, {left_m:.1} m from the crossing; it needs {needs_m:.1} m to stop"
-    )]
-    StepsBeforeVehicle {
-        /// The robot.
-        robot: String,
-        /// How fast the vehicle is.
-        speed_mps: f64,
-        /// How far it is from the crossing, in metres.
-        left_m: f64,
-        /// How far it goes until it stands, in metres.
-        needs_m: f64,
-    },
+    #[error("broke P9: {0} steps on the road while {1}")]
+    StepsBeforeVehicle(String, Coming),
     /// A property is broken.
     #[error("broke {}: {}", .0.name(), .0.statement())]
     Broken(PropertyId),

@@ -5,6 +5,8 @@
 //! crossing. A robot logs its newest sight when its sign begins to show go, so the log is as new as the decision. A vehicle
 //! comes on straight ahead; its error and the age of its report, which a robot has to add, are left out.
 
+use std::fmt::{self, Display, Formatter};
+
 use super::ground::Metres;
 
 /// A driver's time of reaction in seconds, and a comfortable deceleration in m/s².
@@ -23,10 +25,27 @@ pub(super) struct Vehicle {
 
 /// A vehicle that comes, and cannot stop.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Coming {
-    pub(super) speed_mps: f64,
-    pub(super) left_m: f64,
-    pub(super) needs_m: f64,
+pub struct Coming {
+    /// How fast it is.
+    pub speed_mps: f64,
+    /// How far it is from the crossing, in metres.
+    pub left_m: f64,
+    /// How far it goes until it stands, in metres.
+    pub needs_m: f64,
+}
+
+impl Display for Coming {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self {
+            speed_mps,
+            left_m,
+            needs_m,
+        } = self;
+        write!(
+            f,
+            "a vehicle comes at {speed_mps:.1} m/s, {left_m:.1} m from the crossing; it needs {needs_m:.1} m to stop"
+        )
+    }
 }
 
 impl Vehicle {
@@ -70,23 +89,27 @@ const STANDS_WITHIN_US: u64 = 1_500_000;
 const KERB_M: f64 = 0.3;
 const STOPS_M: f64 = 1.0;
 
-/// A robot at the kerb.
-#[derive(Clone, Copy, Debug, Default)]
+/// A robot at the kerb, and the vehicles in its sight.
+#[derive(Clone, Debug, Default)]
 pub(super) struct AtKerb {
-    is_beside: bool,
-    /// Since when a vehicle is in its sight that cannot stop, and that vehicle as it was last.
+    pub(super) vehicles: Vec<Vehicle>,
+    /// Since when a vehicle is among them that cannot stop, and that vehicle as it was last.
     coming: Option<(u64, Coming)>,
+    /// Whether it was beside the road last.
+    is_beside: bool,
 }
 
 impl AtKerb {
-    /// It has a sight.
-    pub(super) fn see(&mut self, at_us: u64, coming: Option<Coming>) {
+    /// It has these vehicles in sight now.
+    pub(super) fn see(&mut self, at_us: u64, vehicles: Vec<Vehicle>, crossing: &[Metres]) {
         let since_us = self.coming.map_or(at_us, |(since_us, _)| since_us);
+        let coming = vehicles.iter().find_map(|it| it.comes(crossing));
         self.coming = coming.map(|coming| (since_us, coming));
+        self.vehicles = vehicles;
     }
 
-    /// It is so far off the road, or inside of it where that is negative. Whether it stepped on it, and the vehicle before which it
-    /// ought not to have done so.
+    /// It is so far off the road, or inside of it where that is negative. Whether it stepped on it with vehicles in sight, and the one
+    /// before which it ought not to have done so.
     pub(super) fn is_at(&mut self, at_us: u64, off_m: f64, error_m: f64) -> (bool, Option<Coming>) {
         let was_beside = self.is_beside;
         let is_on_road = off_m < -(KERB_M + error_m);
@@ -94,7 +117,7 @@ impl AtKerb {
         let coming = self
             .coming
             .filter(|(since_us, _)| at_us - since_us > STANDS_WITHIN_US);
-        let steps = was_beside && is_on_road;
+        let steps = was_beside && is_on_road && !self.vehicles.is_empty();
         (steps, coming.map(|(_, coming)| coming).filter(|_| steps))
     }
 }

@@ -126,29 +126,29 @@ impl World<'_> {
 
     /// P3, when the sign of a leader begins to show go.
     pub(super) fn judge_go(&mut self, place: usize) -> Result<(), Finding> {
-        let vehicles = self.vehicles_heard(place);
-        if !vehicles.is_empty() {
+        if self.vehicles_heard(place).next().is_some() {
             self.met.insert(P3.0);
         }
-        if vehicles.into_iter().any(|it| cannot_stop(it, COMFORT)) {
+        let mut vehicles = self.vehicles_heard(place);
+        if vehicles.any(|it| cannot_stop(it, COMFORT)) {
             return Err(self.breaks(P3, place));
         }
         Ok(())
     }
 
     /// How far each vehicle that a robot has heard lately is before the crossing, in metres, and how fast it is, in m/s.
-    fn vehicles_heard(&self, place: usize) -> Vec<[f64; 2]> {
-        let is_heard = |number: &usize| {
+    fn vehicles_heard(&self, place: usize) -> impl Iterator<Item = [f64; 2]> {
+        let is_heard = move |number: &usize| {
             let heard = self.seats[place].heard_us.get(number);
             heard.is_some_and(|at_us| self.now_us - at_us <= HEARD_US)
         };
         let cars = self.swarm.sensing.iter().flat_map(|it| it.cars.iter());
-        let cars = cars.enumerate().filter(|(number, _)| is_heard(number));
-        let cars = cars.map(|(_, car)| {
+        let cars = cars.enumerate().filter(move |(number, _)| is_heard(number));
+        let cars = cars.map(move |(_, car)| {
             let ahead_m = -self.car_east(*car) * car.speed_mps.signum();
             [ahead_m, car.speed_mps.abs()]
         });
-        cars.chain(self.flow.vehicles_ahead(is_heard)).collect()
+        cars.chain(self.flow.vehicles_ahead(is_heard))
     }
 
     /// P9, when a body has moved.
@@ -160,8 +160,9 @@ impl World<'_> {
         } else {
             COMFORT
         };
-        let mut vehicles = self.vehicles_heard(place).into_iter();
+        let mut vehicles = self.vehicles_heard(place);
         let is_held = vehicles.any(|it| cannot_stop(it, needs));
+        drop(vehicles);
         let observed = &mut self.seats[place].observed;
         let since_us = observed.hears_since_us.filter(|_| is_held);
         observed.hears_since_us = is_held.then(|| since_us.unwrap_or(now_us));
