@@ -33,7 +33,7 @@ pub(super) struct Dispatch<'a> {
 }
 
 /// A robot, and the number of the place that it is at or walks to.
-struct Walker {
+struct Dispatched {
     way: Schedule,
     goal: usize,
 }
@@ -42,8 +42,8 @@ impl Dispatch<'_> {
     /// The ways of `count` robots, at most as many as there are places.
     pub(super) fn schedules(&self, count: usize) -> Vec<Schedule> {
         let places = self.places.iter().take(count).enumerate();
-        let mut robots: Vec<Walker> = places
-            .map(|(goal, place)| Walker {
+        let mut robots: Vec<Dispatched> = places
+            .map(|(goal, place)| Dispatched {
                 way: Schedule::new(goal, vec![(0.0, *place)]),
                 goal,
             })
@@ -66,7 +66,7 @@ impl Dispatch<'_> {
     }
 
     /// Where the people are that robots see or hear at a sample of the run.
-    fn known(&self, robots: &[Walker], sample: u64) -> Vec<Point> {
+    fn known(&self, robots: &[Dispatched], sample: u64) -> Vec<Point> {
         let now_s = seconds(sample * self.sample_ms);
         let robots: Vec<Point> = robots.iter().map(|it| it.way.place_at(now_s)).collect();
         let people = &self.run.pedestrians;
@@ -88,7 +88,7 @@ impl Dispatch<'_> {
     }
 
     /// The number of the place of each robot, by where people were known to be.
-    fn goals(&self, robots: &[Walker], known: Vec<Point>, now_s: f64) -> Vec<usize> {
+    fn goals(&self, robots: &[Dispatched], known: Vec<Point>, now_s: f64) -> Vec<usize> {
         // Whole millimetres, so that equal ways are equal.
         #[expect(
             clippy::cast_possible_truncation,
@@ -185,7 +185,7 @@ mod tests {
     #[test]
     fn a_place_takes_the_nearest_free_robot_and_no_two_robots_have_the_same_place() {
         let (run, behaviour) = (run(vec![]), Behaviour::default());
-        let robot = |(east_m, goal)| Walker {
+        let robot = |(east_m, goal)| Dispatched {
             way: Schedule::new(0, vec![(0.0, [east_m, 0.0])]),
             goal,
         };

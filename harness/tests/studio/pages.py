@@ -186,7 +186,7 @@ DROP = """files => {
 
 
 def opened(studio, folder):
-    """Logs that are dropped on After, or picked by keys, are shown as those that the studio is given."""
+    """After shows logs that somebody drops on it or picks by keys, like logs on the command line."""
     lines = demo(folder).read_text().splitlines(keepends=True)
     of = lambda robot: "".join(it for it in lines if json.loads(it)["robot"] == robot)
     ari, go2, large = (folder / name for name in ("ari.jsonl", "go2.jsonl", "large.jsonl"))
