@@ -4,6 +4,8 @@
 //! happens when a robot dies. Fan-out to the peers stands for the radio's broadcast. Nothing
 //! leaves the machine.
 
+#[cfg(feature = "full")]
+mod car;
 mod links;
 mod scenario;
 
@@ -133,6 +135,8 @@ const WITHOUT_POWER: &str = "without power";
 
 /// A demonstration that runs.
 struct Demo<'a> {
+    #[cfg(feature = "full")]
+    _car: Option<car::Driving>,
     scenario: Scenario,
     robots: Vec<(Participant, Running)>,
     records: Receiver<Arc<Record>>,
@@ -209,7 +213,13 @@ fn start<'a>(options: &Options, links: Links, watch: &'a mut dyn FnMut(Seen<'_>)
     let mut securities = securities.into_iter();
     let (mut robots, mut signs) = (Vec::new(), Vec::new());
     let street = Street::default();
-    for ((participant, link), nth) in participants.into_iter().zip(links.halves).zip(1..) {
+    let mut links = links.halves;
+    #[cfg(feature = "full")]
+    let car = options
+        .scenario
+        .car()
+        .zip(links.pop_if(|_| options.scenario.car().is_some()));
+    for ((participant, link), nth) in participants.into_iter().zip(links).zip(1..) {
         let (site, seed) = (options.scenario.site(), options.seed.wrapping_add(nth));
         let (build, place) = (participant.build, participant.place);
         let body = Simulated::new(build, site, place, options.time_scale, seed);
@@ -243,6 +253,10 @@ fn start<'a>(options: &Options, links: Links, watch: &'a mut dyn FnMut(Seen<'_>)
         robots.push((participant, running));
     }
     Demo {
+        #[cfg(feature = "full")]
+        _car: car.map(|(car, link)| {
+            car::Driving::start(car.clone(), options.scenario.street().clone(), link, clock)
+        }),
         scenario: options.scenario.clone(),
         robots,
         records,

@@ -39,6 +39,11 @@ const WITH_VEHICLE: Street = Street {
     ..PERSON
 };
 
+const ASKED: Street = Street {
+    asks: true,
+    ..WITH_VEHICLE
+};
+
 /// One empty frame is enough, and nobody lingers.
 fn trusts_one_frame(setup: &mut Setup) {
     setup.sensors.miss_max = 0;
@@ -69,6 +74,8 @@ const WEAKENINGS: &[Weakening] = &[
     (DRIFTING, |setup| setup.position.lease = Millis(60_000), Rule::P2),
     (WITH_VEHICLE, |setup| if setup.plan.is_some() { trusts_drivers(setup) }, Rule::P3),
     (WITH_VEHICLE, |setup| if setup.plan.is_none() { trusts_drivers(setup) }, Rule::P9),
+    // Silence is a promise.
+    (ASKED, |setup| setup.traffic.asks = Millis(0), Rule::P10),
     // People have to wait for long.
     (PERSON, |setup| setup.waiting.dwell = Millis(10_000), Rule::P5),
     (PERSON, never_ends, Rule::P6),

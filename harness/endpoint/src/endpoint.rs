@@ -51,6 +51,13 @@ pub enum Stimulus<'a> {
         /// Where and how.
         parameters: TaskParameters,
     },
+    /// The application asks a vehicle whether it will stop: see [`Exchange::ask`].
+    Ask {
+        /// Which.
+        vehicle: StationId,
+        /// Where its front is to stand.
+        parameters: TaskParameters,
+    },
     /// All road users that the robot's sensors have now. Places are metres to the east and to the
     /// north of the robot's reference position.
     Perceived(&'a [PerceivedVru]),
@@ -256,6 +263,10 @@ impl<P: StateMachine> Endpoint<P> {
                 let outputs = exchange.command(&mut turn, follower, task, parameters);
                 turn.answer(Event::CommandManeuver { follower, task }, &outputs);
             }
+            Stimulus::Ask {
+                vehicle,
+                parameters,
+            } => exchange.ask(&mut turn, vehicle, parameters),
             Stimulus::Perceived(people) => turn.perceive(people),
             Stimulus::Time => {}
         }

@@ -20,8 +20,8 @@ use crossguard_codec::{
     TaskParameters, ViewError, encode_into, ram_from, rmcm_from_answer, rmcm_from_commands,
 };
 use crossguard_protocol::{
-    Command, Config, Event, Input, Millis, Output, Outputs, Phase, Rmcm, Robot, StateMachine,
-    StationId, TaskType, UniqueNumber,
+    Command, Config, Event, Input, Millis, Output, Outputs, Phase, RequestId, Rmcm, Robot,
+    SessionId, StateMachine, StationId, TaskType, UniqueNumber, Verdict,
 };
 
 pub use self::entitled::NotEntitled;
@@ -31,6 +31,9 @@ use self::orders::Orders;
 use self::pins::Pins;
 use crate::cause::Cause;
 use crate::ras::generation::{Generation, Limits, Status, Trigger};
+
+/// An RMCM is sent when the protocol says so, or a vehicle is asked.
+const RMCM: (Service, Trigger) = (Service::Rmcm, Trigger::Protocol);
 
 /// One robot's transition function with its packets.
 #[derive(Clone, Debug)]
@@ -46,6 +49,8 @@ pub struct Exchange<P = Robot> {
     pins: Pins,
     /// The newest command that the robot took on, and its parameters.
     accepted: Option<(Command, Option<TaskParameters>)>,
+    /// What a vehicle was asked last.
+    asked: Option<Command>,
 }
 
 impl<P: StateMachine> Exchange<P> {
@@ -62,6 +67,7 @@ impl<P: StateMachine> Exchange<P> {
             orders: Orders::default(),
             pins: Pins::default(),
             accepted: None,
+            asked: None,
         }
     }
 
@@ -136,6 +142,37 @@ impl<P: StateMachine> Exchange<P> {
             self.orders = before;
         }
         outputs
+    }
+
+    /// Asks a vehicle that does not follow whether it will stop: a command to block its direction, which it accepts or rejects as a
+    /// follower does. Each question has a number of its own, so that an answer to an older one is none. A robot that does not lead
+    /// asks nobody.
+    pub fn ask<H: Host>(&mut self, host: &mut H, vehicle: StationId, parameters: TaskParameters) {
+        let Phase::Leading(leading) = self.robot().phase() else {
+            return;
+        };
+        let number = self.asked.map_or(0, |it| it.request.0.wrapping_add(1));
+        let command = Command {
+            session: SessionId {
+                leader: self.robot().station(),
+                number: leading.number,
+            },
+            to: vehicle,
+            request: RequestId(number),
+            task: TaskType::BLOCK,
+        };
+        self.asked = Some(command);
+        self.send_commands(host, &[(command, parameters)]);
+    }
+
+    /// Whether a message answers the newest question to a vehicle, and what it says.
+    fn answers_question(&self, input: &Input) -> Option<bool> {
+        let (Input::Rmcm(Rmcm::Answer(answer)), Some(asked)) = (input, self.asked) else {
+            return None;
+        };
+        let is_own = (answer.from, answer.session, answer.request)
+            == (asked.to, asked.session, asked.request);
+        is_own.then_some(answer.verdict == Verdict::Accepted)
     }
 
     /// The robot goes by another station id and address. Its session and offer numbers begin at `next`, or go on
@@ -237,6 +274,10 @@ impl<P: StateMachine> Exchange<P> {
                 let detail =
                     "a command that differs from one that was accepted takes the next requestID";
                 host.dropped(cause, &detail, message);
+                continue;
+            }
+            if let Some(promises) = self.answers_question(input) {
+                host.answered(heard.from, promises);
                 continue;
             }
             self.step(host, *input, heard.parameters);
@@ -353,24 +394,29 @@ impl<P: StateMachine> Exchange<P> {
     }
 
     fn send_rmcm<H: Host>(&mut self, host: &mut H, rmcm: &Rmcm) {
-        let state = self.state(host);
-        let (ids, position) = (&self.identifiers, &state.position);
-        let time = generation_delta_time(host.moment().timestamp_its);
-        let message = match rmcm {
+        match rmcm {
             Rmcm::Command(command) => {
-                let commands = [(*command, self.orders.of(command.to))];
-                rmcm_from_commands(ids, position, &commands, time)
+                self.send_commands(host, &[(*command, self.orders.of(command.to))]);
             }
             Rmcm::Answer(answer) => {
+                let state = self.state(host);
                 let status = ExecutionStatus {
                     progression: state.task_progression,
                     time_to_completion: None,
                 };
-                rmcm_from_answer(ids, position, answer, status, time)
+                let time = generation_delta_time(host.moment().timestamp_its);
+                let (ids, position) = (&self.identifiers, &state.position);
+                let message = rmcm_from_answer(ids, position, answer, status, time);
+                self.send::<_, _, RMCM_LEN_MAX>(host, RMCM, message);
             }
-        };
-        let kind = (Service::Rmcm, Trigger::Protocol);
-        self.send::<_, _, RMCM_LEN_MAX>(host, kind, message);
+        }
+    }
+
+    fn send_commands<H: Host>(&mut self, host: &mut H, commands: &[(Command, TaskParameters)]) {
+        let time = generation_delta_time(host.moment().timestamp_its);
+        let (ids, position) = (&self.identifiers, &host.state().position);
+        let message = rmcm_from_commands(ids, position, commands, time);
+        self.send::<_, _, RMCM_LEN_MAX>(host, RMCM, message);
     }
 
     /// Encodes a message in `LEN` octets and sends it.

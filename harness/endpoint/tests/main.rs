@@ -7,4 +7,5 @@ mod receive_path;
 mod same_request;
 mod state_after_the_step;
 mod support;
+mod vehicle;
 mod way_of_a_ram;

@@ -26,8 +26,8 @@ fn packets(effects: &[Effect]) -> Vec<Vec<u8>> {
     sent.map(|(packet, _)| packet.to_vec()).collect()
 }
 
-/// A follower that carries a command out, the command, and when that is.
-fn follower_with_a_command() -> (Endpoint, Command, u64) {
+/// A leader and a follower that carries a command out, the command, and when that is.
+pub(crate) fn team_with_a_command() -> ([Endpoint; 2], Command, u64) {
     let mut robots = [LEADER, FOLLOWER].map(endpoint);
     let mut on_air = vec![Vec::new(), Vec::new()];
     let detected = Stimulus::Event(detected(TASK, Place::UNKNOWN));
@@ -53,8 +53,7 @@ fn follower_with_a_command() -> (Endpoint, Command, u64) {
             && let Some(job) = following.job
         {
             let (session, request) = (following.session, job.request);
-            let [_, follower] = robots;
-            return (follower, command(session, request, TASK), now_ms);
+            return (robots, command(session, request, TASK), now_ms);
         }
     }
     panic!("nothing was commanded");
@@ -73,7 +72,7 @@ fn command(session: SessionId, request: RequestId, task: TaskType) -> Command {
 /// Hazard: a guard stands at its first place, and its leader holds the acknowledgement for one of another place.
 #[test]
 fn point_7_another_target_under_the_same_request_id_is_refused() {
-    let (mut follower, known, now_ms) = follower_with_a_command();
+    let ([_, mut follower], known, now_ms) = team_with_a_command();
     let ids = Identifiers::default();
     let mut leader = Stack::of_robot(ids, LEADER);
     let mut say = |command: Command, parameters: TaskParameters| {

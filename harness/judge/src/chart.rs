@@ -147,6 +147,17 @@ impl Chart {
         (self.spacing >= SPACING_MIN).then_some(self)
     }
 
+    /// The same chart with a column for a station that keeps no log.
+    #[must_use]
+    pub fn with_stranger(mut self, name: &str, station: StationId) -> Self {
+        self.names.set(station, name);
+        self.lanes.push(Lane {
+            is_stranger: true,
+            ..Lane::new(name.to_owned(), station, Identifiers::default())
+        });
+        self
+    }
+
     /// The same chart with sessions, commands and stations as logs have them.
     #[must_use]
     pub fn with_short_ids(mut self) -> Self {

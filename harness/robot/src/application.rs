@@ -27,7 +27,7 @@ use self::bodily::Bodily;
 use self::senses::Said;
 pub use self::traits::Traits;
 use crate::body::{Body, BodyAct, Fallback};
-use crate::plan::Plan;
+use crate::plan::{Plan, millis};
 use crate::sight::Outline;
 use crate::sign::{Shown, Sign};
 use crate::site::{Place, Site};
@@ -140,6 +140,7 @@ impl Application {
             request,
             ..(*self.setup).clone()
         });
+        setup.traffic.asks = plan.map_or(Millis::ZERO, |plan| millis(plan.asks_vehicles_s));
         setup.sensors.speed_max_cmps =
             scaled(Sensors::default().speed_max_cmps, self.body.time_scale());
         setup
@@ -199,6 +200,14 @@ impl Application {
             match *output {
                 Output::Tell(event) => self.wish(Stimulus::Event(event)),
                 Output::Order(follower, leg) => self.order(follower, leg),
+                Output::Ask(vehicle, line) => self.wish(Stimulus::Ask {
+                    vehicle,
+                    parameters: TaskParameters {
+                        target: Some(self.site.target(place(line))),
+                        map_place: self.site.map_place,
+                        ..TaskParameters::default()
+                    },
+                }),
                 Output::Go(time) => {
                     self.hindrance = None;
                     self.sign.go(micros(self.at_s), time);
@@ -358,6 +367,9 @@ impl Application {
             }
             Act::CloseCorridor(_) => self.step(Input::CorridorClosed),
             Act::Ignored(Event::PedestrianDetected(_), _) => self.step(Input::CallIgnored),
+            Act::VehicleAnswered(station, promises) => {
+                self.step(Input::Answered(*station, *promises));
+            }
             Act::LockIdentity(_) | Act::RenewEpoch | Act::Ignored(..) => {}
         }
     }

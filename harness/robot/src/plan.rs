@@ -62,6 +62,8 @@ pub struct Plan {
     pub patience_s: f64,
     /// The kerbs between which a person is escorted, where that can be done in either direction.
     pub kerbs: Option<[Place; 2]>,
+    /// Vehicles that would be at the crossing within this time are asked to stop before go begins, in seconds; 0: none.
+    pub asks_vehicles_s: f64,
 }
 
 impl Leg {
@@ -139,6 +141,7 @@ impl Plan {
             crossing_s: 8.0,
             patience_s: 200.0,
             kerbs: None,
+            asks_vehicles_s: 0.0,
         }
     }
 

@@ -27,6 +27,7 @@ use std::path::Path;
 
 use crossguard_codec::PublicSignal;
 use crossguard_protocol::{EndReason, ReleaseReason, Settings, StationId, Urgency};
+use serde::Deserialize;
 
 use crate::body::Build;
 use crate::located::{self, FileError};
@@ -58,12 +59,48 @@ pub struct PlanFile {
     pub crossing_s: f64,
     /// After which time the leader gives up, in seconds.
     pub patience_s: f64,
+    /// Vehicles that would be at the crossing within this time are asked to stop before go begins, in seconds; 0: none.
+    pub asks_vehicles_s: f64,
     /// The places between which the escort may go in either direction.
     pub either_way: Option<[Place; 2]>,
     /// The robot that loses power in a demonstration, once the pedestrian is on the road.
     pub loses_power: Option<String>,
     /// How a demonstration is to end.
     pub ends: Ending,
+    /// A connected vehicle of a demonstration.
+    pub car: Option<Car>,
+}
+
+/// A connected vehicle of a demonstration, which comes along a lane of the site over and over.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Car {
+    /// Its name.
+    pub name: String,
+    /// Its station id.
+    pub station: u32,
+    /// The lane that it comes along.
+    pub lane: String,
+    /// How far before the crossing it comes into sight, in metres.
+    pub from_m: f64,
+    /// How fast it is, in m/s.
+    pub speed_mps: f64,
+    /// What it does when it is asked to stop.
+    pub answers: CarAnswer,
+}
+
+/// What a vehicle does when it is asked to stop.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CarAnswer {
+    /// It says that it will, and does.
+    Stops,
+    /// It says that it will, and goes on.
+    Lies,
+    /// It says that it will not.
+    Refuses,
+    /// It says nothing.
+    Silent,
 }
 
 /// Somebody who takes part.
@@ -115,7 +152,8 @@ shipped!(
     "team",
     "follower-dies",
     "leader-dies",
-    "two-detect"
+    "two-detect",
+    "vehicle"
 );
 
 impl PlanFile {
@@ -224,6 +262,7 @@ impl PlanFile {
             crossing_s: self.crossing_s,
             patience_s: self.patience_s,
             kerbs: self.either_way,
+            asks_vehicles_s: self.asks_vehicles_s,
         }
     }
 

@@ -13,6 +13,7 @@ use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Mode;
 use crossguard_judge::chart::Chart;
 use crossguard_judge::timing::{Statistic, Summary};
+use crossguard_protocol::StationId;
 use crossguard_robot::plan_file::PlanFile;
 use crossguard_robot::trace::{LogFile, LogLimits, Record};
 use crossguard_robot::transport::Faults;
@@ -170,6 +171,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(super::small::build_all());
     }
     let scenario = scenario(arguments)?;
+    #[cfg(not(feature = "full"))]
+    if scenario.car().is_some() {
+        return Err(super::small::build_all());
+    }
+    if let Some(car) = scenario
+        .car()
+        .filter(|_| arguments.security.mode() != Mode::Off)
+    {
+        let what = format!("{} signs nothing: leave --security away", car.name);
+        return Err(Failure::Input(what));
+    }
     if let Some(victim) = scenario.victim().filter(|_| arguments.trials > 1) {
         return Err(Failure::Input(format!(
             "--trials {}: {victim} loses power in this scenario, so there is one crossing",
@@ -206,16 +218,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .map(|one| (&*one.name, one.station))
         .collect();
     let mut chart = Chart::new(&columns, Identifiers::default());
+    if let Some(car) = options.scenario.car() {
+        chart = chart.with_stranger(&car.name, StationId(car.station));
+    }
     if arguments.wording.verbose {
         chart = chart.with_short_ids();
     }
     let chart = chart.within(self::columns());
     let shows_chart = is_told && names.len() <= CHARTED && chart.is_some();
     let mut chart = chart.unwrap_or_default();
-    let links = Links::open(&options, names.len()).map_err(Failure::input)?;
+    let stations = names.len() + usize::from(options.scenario.car().is_some());
+    let links = Links::open(&options, stations).map_err(Failure::input)?;
     if is_told {
         let first = usize::from(links.first_port);
-        let ports = first..=first + names.len() - 1;
+        let ports = first..=first + stations - 1;
         introduce(&options, ports, arguments.security.is_throw_away())?;
     }
     if shows_chart {

@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 
 use crossguard_robot::body::Build;
 use crossguard_robot::plan::Plan;
-use crossguard_robot::plan_file::{PlanFile, Role, SHIPPED};
+use crossguard_robot::plan_file::{Car, PlanFile, Role, SHIPPED};
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::site_file::SiteFile;
 
@@ -142,6 +142,12 @@ impl Scenario {
     #[must_use]
     pub fn victim(&self) -> Option<&str> {
         self.0.loses_power.as_deref()
+    }
+
+    /// The connected vehicle that comes along.
+    #[must_use]
+    pub const fn car(&self) -> Option<&Car> {
+        self.0.car.as_ref()
     }
 
     /// How it is to end.

@@ -21,6 +21,7 @@ trio          | --speed 40 --security enforce | ARI-2 block, Go2 move           
 team          | --speed 20 --loss 0.2 --seed 1 | ARI-2 block, ARI-3 block, Go2 move | ARI Idle, ARI-2 Idle, ARI-3 Idle, Go2 Idle | corridorOpened "taskCompleted"
 follower-dies | --speed 5                     | Go2 move                            | ARI Idle, Go2 without power      | corridorClosed "noFollowers"
 leader-dies   | --speed 5                     | Go2 move                            | ARI without power, Go2 Idle      | fallBack "contactLost"
+vehicle       | --speed 40                    | ARI-2 initialPos, ARI-2 block       | ARI Idle, ARI-2 Idle             | corridorOpened "taskCompleted"
 two-detect    | --speed 40                    | ANYBODY move                        | ARI Idle, ARI-2 Idle, Go2 Idle   | corridorOpened "taskCompleted"
 "#;
 

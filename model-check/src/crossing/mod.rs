@@ -4,7 +4,7 @@
 //!   people ──► sensor: misses, ids, blindness ──► Crossing ◄──► Robot   leader
 //!      ▲                                                          │ good channel
 //!    sign ◄───────────────────────────────────── Crossing ◄──► Robot   follower ──► body
-//!      └───────────► truth: P1 to P3, P5, P6 and P9, from people, bodies and the sign alone
+//!      └───────────► truth: P1 to P3, P5, P6, P9 and P10, from people, bodies and the sign alone
 //! ```
 //!
 //! Time passes in ticks of half a second. In each tick people and the vehicle move as they like, the sensor misses people
@@ -70,6 +70,8 @@ pub struct Street {
     pub drifts: u8,
     /// Whether a vehicle comes along.
     pub vehicle: bool,
+    /// Whether the leader asks it to stop. It answers as it likes, at any time or never, and does not stop.
+    pub asks: bool,
 }
 
 impl Street {
@@ -84,6 +86,7 @@ impl Street {
         blind: 0,
         drifts: 0,
         vehicle: false,
+        asks: false,
     };
 }
 
@@ -103,13 +106,14 @@ pub struct Shipped {
 }
 
 /// The shipped streets.
-pub const SHIPPED: [Shipped; 10] = {
+pub const SHIPPED: [Shipped; 11] = {
     const PERSON: Street = Street::PERSON;
     const MET: &[Rule] = &[Rule::P1, Rule::P5, Rule::P6];
     const ALONE: &[Rule] = &[Rule::P1];
     const UNMISSED: &[Rule] = &[Rule::P1, Rule::P6];
     const DRIFT: &[Rule] = &[Rule::P1, Rule::P2, Rule::P5, Rule::P6];
     const VEHICLE: &[Rule] = &[Rule::P1, Rule::P3, Rule::P5, Rule::P6, Rule::P9];
+    const ASKED: &[Rule] = &[Rule::P1, Rule::P3, Rule::P5, Rule::P6, Rule::P9, Rule::P10];
     const fn of(
         name: &'static str,
         summary: &'static str,
@@ -139,6 +143,8 @@ pub const SHIPPED: [Shipped; 10] = {
             Street { drifts: 1, ..PERSON }, DRIFT, 285_042),
         of("street-vehicle", "the same, and a vehicle comes at 50 km/h",
             Street { vehicle: true, ..PERSON }, VEHICLE, 421_333),
+        of("street-asked", "the same, and the leader asks it to stop: it says that it will, that it will not, or nothing",
+            Street { vehicle: true, asks: true, ..PERSON }, ASKED, 514_168),
         of("street-pair", "two people cross together or one after the other, and the sensor misses nobody",
             Street { people: 2, misses: 0, ..PERSON }, UNMISSED, 2_239_015),
         of("street-sight", "one person, and both robots take in the frames of the sensor",
@@ -204,7 +210,7 @@ const ASSUMPTIONS: [&str; 5] = [
     "sees: the sensor, which covers the whole road, misses nobody in more than 1 frame in a row; nobody walks faster than 9 m/s, or crosses within a second",
     "people step on the road under go alone, and stay on it for as long as they like",
     "time passes in ticks of 0.5 s, and at most one fault happens in a tick; messages arrive at once",
-    "positions and what vehicles say of themselves are true",
+    "positions of bodies and vehicles are true",
     "no run is as long as T_lock or T_exec",
 ];
 
@@ -261,7 +267,7 @@ pub fn explore(
     let drain = Stop::default();
     let world = World {
         street,
-        rules: Rules::new(street.watch, change),
+        rules: Rules::new(street, change),
         drain: drain.clone(),
     };
     let builder = world.checker().threads(options.threads.get());

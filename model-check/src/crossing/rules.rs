@@ -7,7 +7,7 @@ use crossguard_crossing::{
 use crossguard_protocol::{Config, HelpRequest, List, Millis, Settings, TaskSet, TaskType};
 
 use super::street::{Guard, TICK};
-use super::{MISS_MAX, Watch};
+use super::{MISS_MAX, Street, Watch};
 
 /// Where the guard stands.
 pub(super) const POST: Point = Point::new(-200, 200);
@@ -17,6 +17,9 @@ pub(super) const HOME: Point = Point::new(-200, -100);
 
 /// Where a guard is that has drifted: 4 m off its place.
 const DRIFTED: Point = Point::new(-600, 200);
+
+/// How long before it would be at the crossing a vehicle is asked: whenever it is heard.
+const ASKS: Millis = Millis(10_000);
 
 /// A machine. It has room for more tracks than there are people: those whose ids change have two.
 pub(super) type Machine = crossguard_crossing::Crossing<4>;
@@ -36,12 +39,12 @@ pub(super) struct Rules {
 }
 
 impl Rules {
-    pub(super) fn new(watch: Watch, change: fn(&mut Setup)) -> Self {
+    pub(super) fn new(street: Street, change: fn(&mut Setup)) -> Self {
         let config = config();
-        let mut setups = setups(watch, &config);
+        let mut setups = setups(street, &config);
         setups.iter_mut().for_each(change);
         Self {
-            watch,
+            watch: street.watch,
             setups,
             config,
         }
@@ -71,7 +74,7 @@ fn rectangle(west: i32, south: i32, east: i32, north: i32) -> Option<Shape> {
 }
 
 /// The settings of the leader's machine and of the follower's.
-fn setups(watch: Watch, config: &Config) -> [Setup; 2] {
+fn setups(street: Street, config: &Config) -> [Setup; 2] {
     let ground = Ground {
         road: rectangle(-3_000, 0, 3_000, 700),
         crossing: rectangle(-300, 0, 300, 700),
@@ -116,12 +119,13 @@ fn setups(watch: Watch, config: &Config) -> [Setup; 2] {
         ..Setup::default()
     }
     .with(config);
+    leader.traffic.asks = if street.asks { ASKS } else { Millis::ZERO };
     leader.request = HelpRequest {
         tasks: TaskSet::of(&[task]),
         ..leader.request
     };
     let follower = Setup {
-        watches: watch != Watch::Leader,
+        watches: street.watch != Watch::Leader,
         calls: false,
         plan: None,
         home: Some(HOME),

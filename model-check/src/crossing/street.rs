@@ -3,7 +3,9 @@
 use std::fmt;
 
 use crossguard_crossing::{Coverage, Frame, Input, Point, RoadUser, Sighting, Vehicle, Way};
-use crossguard_protocol::{Event, HelpRequest, Millis, Place, TaskSet, TaskType, Urgency};
+use crossguard_protocol::{
+    Event, HelpRequest, Millis, Place, StationId, TaskSet, TaskType, Urgency,
+};
 use stateright::Property;
 
 use crate::exploration::Stop;
@@ -18,6 +20,14 @@ pub(super) const TICK: Millis = Millis(500);
 
 /// How far a vehicle comes in a tick, in metres: more than at 50 km/h.
 const PER_TICK_M: u8 = 14;
+
+/// How far away it comes into hearing, in metres; one that is asked comes from farther, so that it can answer in time.
+const fn comes_m(street: &Street) -> u8 {
+    if street.asks { 126 } else { 84 }
+}
+
+/// Its station.
+const VEHICLE: StationId = StationId(7);
 
 /// How many people there are at most.
 pub(super) const PEOPLE_MAX: usize = 2;
@@ -110,6 +120,8 @@ pub(super) struct Sign {
     pub(super) left: u32,
     /// Whether go began in this tick.
     pub(super) has_begun: bool,
+    /// Whether a vehicle was asked in this tick to stop.
+    pub(super) asks: bool,
 }
 
 impl Sign {
@@ -128,6 +140,8 @@ pub(super) struct Sensed<'a> {
     /// Frames with their ages in ticks.
     frames: &'a [(u8, Seen)],
     vehicle: Option<Vehicle>,
+    /// What the vehicle answers to the leader.
+    answer: Option<bool>,
     /// The frame of this tick, for a follower that sees.
     now: Option<Seen>,
     /// What the leader's application says, if that may say anything.
@@ -139,6 +153,9 @@ impl Sensed<'_> {
     pub(super) fn each(&self, mut tell: impl FnMut(Input<'_>)) {
         for (age, seen) in self.frames {
             tell_frame(*age, *seen, &mut tell);
+        }
+        if let Some(promises) = self.answer {
+            tell(Input::Answered(VEHICLE, promises));
         }
         self.vehicle(tell);
     }
@@ -172,6 +189,7 @@ fn tell_frame(age: u8, seen: Seen, tell: &mut impl FnMut(Input<'_>)) {
 
 /// One state.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(super) struct State {
     pub(super) team: Team,
     pub(super) people: Vec<Person>,
@@ -179,6 +197,10 @@ pub(super) struct State {
     pub(super) sign: Sign,
     /// How many metres a vehicle is before the crossing.
     pub(super) car: Option<u8>,
+    /// Whether it has told the leader that it will stop, and has not taken that back.
+    pub(super) promised: bool,
+    /// Go began while it had been heard for a tick and had not.
+    pub(super) began_unpromised: bool,
     /// Frames that wait for a leader that hangs, oldest first, with their ages in ticks.
     piled: Vec<(u8, Seen)>,
     /// For how many ticks the leader hangs already.
@@ -202,6 +224,8 @@ pub(super) struct Tick {
     /// Who is missed.
     missed: [bool; PEOPLE_MAX],
     fault: Fault,
+    /// What a vehicle that was asked answers, if it does.
+    answer: Option<bool>,
     /// What the leader's application says, if that may say anything.
     word: Option<Event>,
 }
@@ -296,6 +320,7 @@ impl State {
         let has_come = self.car.is_some_and(|metres| metres + PER_TICK_M <= STOP_M);
         self.car = self.car.and_then(|metres| metres.checked_sub(PER_TICK_M));
         self.car = self.car.filter(|metres| *metres > 0);
+        self.promised &= self.car.is_some();
         if self.team.begins() {
             self.guard = Guard::default();
         }
@@ -316,7 +341,7 @@ impl State {
             Fault::Hangs => left.hang -= 1,
             Fault::Drifts => (left.drifts, self.guard.is_drifted) = (left.drifts - 1, true),
             Fault::IsLost => (left.drifts, self.guard.is_lost) = (left.drifts - 1, true),
-            Fault::CarComes => (left.vehicle, self.car) = (false, Some(84)),
+            Fault::CarComes => (left.vehicle, self.car) = (false, Some(comes_m(left))),
         }
     }
 
@@ -353,10 +378,15 @@ impl State {
             let hung = core::mem::take(&mut self.hangs);
             (hung + 1, core::mem::take(&mut self.piled))
         };
+        let answer = tick.answer.filter(|_| passed > 0);
+        let had_promised = self.promised;
+        self.promised = answer.unwrap_or(self.promised);
+        self.sign.asks = false;
         let sensed = Sensed {
             passed,
             frames: &frames,
             vehicle: self.car.map(vehicle),
+            answer,
             now: (tick.fault != Fault::Blind).then_some(seen),
             word: tick.word,
         };
@@ -364,6 +394,13 @@ impl State {
         self.team
             .tick(rules, self.guard, &sensed, is_road_empty, &mut self.sign);
         self.sign.has_begun = self.sign.shows_go() && !went;
+        let is_silent = self.is_heard() && !had_promised && !self.promised;
+        self.began_unpromised = self.left.asks && self.sign.has_begun && is_silent;
+    }
+
+    /// Whether there is a vehicle that was heard a tick ago.
+    pub(super) fn is_heard(&self) -> bool {
+        self.car.is_some_and(|metres| metres < comes_m(&self.left))
     }
 
     /// What is kept of the past to judge by.
@@ -423,6 +460,7 @@ const WORDS: [Option<Event>; 8] = [
 fn vehicle(metres: u8) -> Vehicle {
     Vehicle {
         key: 7,
+        station: Some(VEHICLE),
         at: Point::new(-300 - 100 * i32::from(metres), 200),
         error_cm: 0,
         velocity: Way {
@@ -463,6 +501,8 @@ impl stateright::Model for World {
             guard: Guard::default(),
             sign: Sign::default(),
             car: None,
+            promised: false,
+            began_unpromised: false,
             piled: Vec::new(),
             hangs: 0,
             left: self.street,
@@ -482,14 +522,22 @@ impl stateright::Model for World {
         } else {
             &[None]
         };
+        let answers = if state.sign.asks && state.car.is_some() {
+            &[None, Some(true), Some(false)][..]
+        } else {
+            &[None]
+        };
         for (moves, missed) in self.moves(state) {
             for fault in Self::faults(state) {
-                ticks.extend(words.iter().map(|&word| Tick {
-                    moves,
-                    missed,
-                    fault,
-                    word,
-                }));
+                for &answer in answers {
+                    ticks.extend(words.iter().map(|&word| Tick {
+                        moves,
+                        missed,
+                        fault,
+                        answer,
+                        word,
+                    }));
+                }
             }
         }
     }
@@ -512,7 +560,7 @@ impl stateright::Model for World {
                 ));
             )*};
         }
-        rules!(P1 P2 P3 P5 P6 P9);
+        rules!(P1 P2 P3 P5 P6 P9 P10);
         // One that never comes about, so that the exploration goes to its end.
         properties.push(Property::sometimes("never", |_, _| false));
         properties
@@ -532,6 +580,9 @@ impl fmt::Display for State {
         }
         if let Some(metres) = self.car {
             write!(f, ", a vehicle {metres} m away")?;
+            if self.promised {
+                write!(f, " that says it will stop")?;
+            }
         }
         if self.hangs > 0 {
             write!(f, ", the leader hangs")?;

@@ -193,6 +193,7 @@ impl Team {
                 }
                 Output::Go(left) => turn.sign.left = left.0,
                 Output::Stop => turn.sign.left = 0,
+                Output::Ask(..) => turn.sign.asks = true,
                 _ if member != FOLLOWER => {}
                 Output::Release => self.body.holds = false,
                 Output::Wait => self.body.waits = true,

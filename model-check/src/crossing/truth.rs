@@ -33,6 +33,8 @@ pub enum Rule {
     P6,
     /// See [`Rule::claim`].
     P9,
+    /// See [`Rule::claim`].
+    P10,
 }
 
 /// What a rule says.
@@ -50,7 +52,10 @@ pub struct RuleClaim {
 
 impl Rule {
     /// The rules. P4, escorts beside their people, needs continuous geometry: fuzz and `validate` judge it.
-    pub const ALL: [Self; 6] = [Self::P1, Self::P2, Self::P3, Self::P5, Self::P6, Self::P9];
+    pub const ALL: [Self; 7] = {
+        use Rule::{P1, P2, P3, P5, P6, P9, P10};
+        [P1, P2, P3, P5, P6, P9, P10]
+    };
 
     /// What it says.
     #[must_use]
@@ -92,6 +97,12 @@ impl Rule {
                 statement: "a guard that hears for 0.5 s of a vehicle that can no longer stop does not step on an empty road",
                 premise: "a guard that is to go to its place hears of such a vehicle, and nobody has been on the road",
             },
+            Self::P10 => RuleClaim {
+                id: "P10",
+                premise_id: "P10-premise",
+                statement: "where vehicles are asked, go does not begin while one that has been heard for 0.5 s has not said that it will stop",
+                premise: "a vehicle that can still stop has not said so, somebody waits, and the guard is at its place",
+            },
         }
     }
 
@@ -103,6 +114,7 @@ impl Rule {
             Self::P5 => state.undetected <= DETECT_MAX,
             Self::P6 => state.off_road <= END_MAX,
             Self::P9 => !state.guard.stepped_out,
+            Self::P10 => !state.began_unpromised,
         }
     }
 
@@ -119,6 +131,10 @@ impl Rule {
             Self::P5 => state.undetected > 0 && people.any(|it| it.missed > 0),
             Self::P6 => state.is_free && people.any(|it| it.at == Cell::Far),
             Self::P9 => state.guard.ought_to_wait && state.team.is_sent(),
+            Self::P10 => {
+                let may_stop = state.is_heard() && !cannot_stop(state) && !state.promised;
+                may_stop && state.guards && people.any(|it| it.at == Cell::Near)
+            }
         }
     }
 }

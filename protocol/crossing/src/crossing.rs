@@ -157,6 +157,7 @@ impl<const N: usize> Crossing<N> {
                 self.traffic.hear(setup, vehicle, age);
                 self.guard_corridor(setup, &mut out);
             }
+            Input::Answered(station, promises) => self.traffic.answer(setup, station, promises),
             Input::Pose(pose, age) => self.is_at(setup, pose, age),
             Input::FollowerAt(station, pose, age) => {
                 if let (Some(plan), Some(lead)) = (&setup.plan, &mut self.lead) {
@@ -294,6 +295,7 @@ impl<const N: usize> Crossing<N> {
         self.watch_road(setup, out);
         self.watch_zone(setup, out);
         self.lead_on(setup, out);
+        self.ask_vehicle(setup, out);
     }
 
     /// While a sign that counts on this robot may show go, no frame counts for a clear road.
@@ -341,6 +343,7 @@ impl<const N: usize> Crossing<N> {
             if let (RoadUser::Vehicle, Some(velocity)) = (sighting.what, sighting.velocity) {
                 let number = u32::try_from(number).unwrap_or(u32::MAX);
                 let vehicle = crate::input::Vehicle {
+                    station: None,
                     // Apart from those of stations and of other sources.
                     key: u32::MAX
                         - u32::from(frame.source) * 4_096
@@ -623,7 +626,26 @@ impl<const N: usize> Crossing<N> {
         if setup.watches && !self.occupancy.is_covered(setup) {
             return Some(Hindrance::NoSight);
         }
-        self.traffic.hindrance(setup).map(Hindrance::Vehicle)
+        let vehicle = self.traffic.hindrance(setup).map(Hindrance::Vehicle);
+        // Go that has begun stays for people who rely on it.
+        let begins = self.sign == Millis::ZERO;
+        let unpromised = || self.traffic.unpromised(setup).filter(|_| begins);
+        vehicle.or_else(|| unpromised().map(Hindrance::NoPromise))
+    }
+
+    /// Asks the vehicle to stop that is all that keeps people from crossing.
+    fn ask_vehicle(&mut self, setup: &Setup, out: &mut Outputs) {
+        let may_open = self.standing == Standing::Leading
+            && self.corridor == Corridor::Clear
+            && !self.is_preparing(setup);
+        let is_wanted = || self.view(setup).is_some_and(|view| view.is_wanted);
+        if may_open
+            && is_wanted()
+            && let Some(Hindrance::NoPromise(_)) = self.hindered(setup)
+            && let Some((station, line)) = self.traffic.ask(setup)
+        {
+            out.put(Output::Ask(station, line));
+        }
     }
 
     /// What keeps people from crossing now, if anything does.

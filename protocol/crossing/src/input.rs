@@ -61,6 +61,8 @@ pub struct Frame<'a> {
 pub struct Vehicle {
     /// What it is known by: a hint.
     pub key: u32,
+    /// The station that it is, if it tells itself where it is: it can be asked to stop.
+    pub station: Option<StationId>,
     /// Where its front is.
     pub at: Point,
     /// Error of the place, in centimetres.
@@ -102,6 +104,8 @@ pub enum Input<'a> {
     Heard(Sighting, Millis),
     /// A vehicle was heard or seen, so long ago.
     Vehicle(Vehicle, Millis),
+    /// A vehicle answers that it will stop before the crossing, as it was asked the last time; `false`: that it will not.
+    Answered(StationId, bool),
     /// The position of the robot's own body, measured so long ago; `None` where it is not known.
     Pose(Option<Pose>, Millis),
     /// The position of a follower by its RAM, measured so long ago; `None` where it does not say.
@@ -165,6 +169,8 @@ pub enum Hindrance {
     NoSight,
     /// A vehicle can no longer stop comfortably: its key.
     Vehicle(u32),
+    /// A vehicle that is to be asked has not said that it will stop.
+    NoPromise(StationId),
 }
 
 impl Display for Hindrance {
@@ -174,6 +180,9 @@ impl Display for Hindrance {
             Self::LeaderElsewhere => f.write_str("the leader is not at its place"),
             Self::NoSight => f.write_str("sensors do not cover the carriageway"),
             Self::Vehicle(_) => f.write_str("a vehicle can no longer stop comfortably"),
+            Self::NoPromise(station) => {
+                write!(f, "vehicle {station} has not said that it will stop")
+            }
         }
     }
 }
@@ -185,6 +194,8 @@ pub enum Output {
     Tell(Event),
     /// To the protocol: a command to a follower.
     Order(StationId, Leg),
+    /// To a vehicle: will it stop before the crossing, with its front there?
+    Ask(StationId, Point),
     /// To the sign: show go for so long from now.
     Go(Millis),
     /// To the sign: show stop.
@@ -199,7 +210,7 @@ pub enum Output {
     Release,
     /// To the log: a frame was dropped.
     Dropped(FrameDrop),
-    /// To the log: why an open corridor is closed.
+    /// To the log: why an open corridor is closed, or what besides guards on their way keeps people who wait from crossing.
     Hindered(Hindrance),
 }
 

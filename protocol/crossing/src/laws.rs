@@ -119,6 +119,7 @@ fn sighting(source: &mut impl Source) -> Sighting {
 fn vehicle(source: &mut impl Source, key: u32) -> Vehicle {
     Vehicle {
         key,
+        station: source.flag().then_some(StationId(key)),
         at: point(source),
         error_cm: source.u16(10),
         velocity: way(source),
@@ -172,6 +173,7 @@ fn setup(source: &mut impl Source) -> Setup {
     setup.traffic.reaction = millis(source, 2_000);
     setup.traffic.deceleration_cmps2 = source.u16(300);
     setup.traffic.keep = millis(source, 5_000);
+    setup.traffic.asks = millis(source, 10_000);
     setup.position.lease = millis(source, 1_000);
     setup.position.ahead_cm = source.u16(200);
     setup.t_safety = millis(source, 300);
@@ -204,7 +206,11 @@ fn observation(source: &mut impl Source) -> Told {
         6 => Input::Heard(sighting(source), millis(source, 100)),
         7 => {
             let key = source.number(u32::MAX, 1);
-            Input::Vehicle(vehicle(source, key), millis(source, 100))
+            if source.likely(Some(true)) {
+                Input::Vehicle(vehicle(source, key), millis(source, 100))
+            } else {
+                Input::Answered(StationId(key), source.flag())
+            }
         }
         _ => {
             let station = StationId(source.number(u32::MAX, arbitrary::PEER));
@@ -417,13 +423,17 @@ pub fn more_against(source: &mut impl Source) {
     is_never_safer(source, &setup, (with, without));
 }
 
-/// A vehicle that was not known before hinders, or changes nothing.
+/// A vehicle that was not known before, and a refusal to stop, hinders or changes nothing.
 pub fn one_more_vehicle(source: &mut impl Source) {
     let setup = setup(source);
     let without = machine(source, &setup);
     let mut with = without.clone();
     let key = 77_777_777;
-    let told = Input::Vehicle(vehicle(source, key), millis(source, 100));
+    let told = if source.likely(Some(true)) {
+        Input::Vehicle(vehicle(source, key), millis(source, 100))
+    } else {
+        Input::Answered(StationId(source.number(u32::MAX, 1)), false)
+    };
     with.step(&setup, told);
     assert!(with.hindered(&setup).is_some() || without.hindered(&setup).is_none());
 }

@@ -461,9 +461,14 @@ impl Lead {
             return;
         }
         self.tried = OPENING_PERIOD;
-        let is_free = self.hindrance(view).is_none();
-        if view.corridor != Corridor::Open && view.is_wanted && is_free && !self.is_full() {
-            out.tell(Event::OpenCorridor);
+        if view.corridor == Corridor::Open || !view.is_wanted || self.is_full() {
+            return;
+        }
+        match self.hindrance(view) {
+            None => out.tell(Event::OpenCorridor),
+            Some(why) if view.hindrance == Some(why) => out.put(Output::Hindered(why)),
+            // Guards on their way are nothing to tell of.
+            Some(_) => {}
         }
     }
 

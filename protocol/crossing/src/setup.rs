@@ -82,8 +82,11 @@ pub struct TrafficRules {
     pub aside_cm: u16,
     /// How long a vehicle may be, in centimetres; 1,200 by default, a bus (Directive 96/53/EC: 12 m for rigid vehicles).
     pub length_cm: u16,
-    /// For how long a vehicle counts after it was heard last; 5 s by default.
+    /// For how long a vehicle counts after it was heard last, and its word that it will stop; 5 s by default.
     pub keep: Millis,
+    /// Vehicles that tell where they are and would be at the crossing within this time are asked to stop, and go does not begin
+    /// before they have said that they will; zero by default: none is asked.
+    pub asks: Millis,
 }
 
 impl Default for TrafficRules {
@@ -95,6 +98,7 @@ impl Default for TrafficRules {
             aside_cm: 1_000,
             length_cm: 1_200,
             keep: Millis(5_000),
+            asks: Millis::ZERO,
         }
     }
 }

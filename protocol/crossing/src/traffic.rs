@@ -3,11 +3,14 @@
 //! A vehicle is no hindrance when it stands, has passed with its whole length, passes aside, or is farther away than it needs to stop:
 //! `v * reaction + v² / (2 * deceleration)`. An older report counts as if the vehicle had gone on since. A vehicle that
 //! falls silent counts for `keep`. Vehicles that are neither heard nor seen are the road authority's concern.
+//!
+//! Where vehicles are asked to stop, one that is soon at the crossing hinders *go* until it has said that it will. Its word makes
+//! nothing safer than what it can do: it may lie, and then it hinders as soon as it could not stop any more.
 
 #[cfg(any(test, feature = "laws"))]
 pub mod laws;
 
-use crossguard_protocol::Millis;
+use crossguard_protocol::{Millis, StationId};
 
 use crate::ground::{Point, Shape};
 use crate::input::Vehicle;
@@ -19,6 +22,13 @@ pub const VEHICLES: usize = 32;
 /// How far from its middle a vehicle sweeps the road, in centimetres, with the half of a body: 2.6 m wide at most (Directive 96/53/EC).
 const BESIDE_CM: u64 = 180;
 
+/// How far before the crossing a vehicle is to stop, in centimetres: yield lines are 6 to 15 m before one (MUTCD 2009, section
+/// 3B.16), and guards stand there.
+const STOP_LINE_CM: u32 = 600;
+
+/// How long a leader waits before it asks a vehicle again.
+const ASKING_PERIOD: Millis = Millis(500);
+
 /// How a vehicle comes to the crossing.
 #[derive(Clone, Copy, Debug)]
 struct Motion {
@@ -28,12 +38,23 @@ struct Motion {
     speed_cmps: u32,
 }
 
+/// A vehicle as it was heard or seen last.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+struct Known {
+    vehicle: Vehicle,
+    age: Millis,
+    /// For how long yet its word counts that it will stop.
+    promise: Millis,
+}
+
 /// What is known of the vehicles around.
 #[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
 pub struct Traffic {
-    vehicles: [Option<(Vehicle, Millis)>; VEHICLES],
+    vehicles: [Option<Known>; VEHICLES],
     /// There are too many: this one counts as one that cannot stop.
     further: Option<(u32, Millis)>,
+    /// Until then no vehicle is asked again.
+    asked: Millis,
 }
 
 impl Traffic {
@@ -43,11 +64,13 @@ impl Traffic {
             .further
             .map(|(key, left)| (key, left.saturating_sub(time)));
         self.further = left.filter(|(_, left)| *left > Millis::ZERO);
+        self.asked = self.asked.saturating_sub(time);
         for slot in &mut self.vehicles {
-            if let Some((_, age)) = slot {
-                *age = age.saturating_add(time);
+            if let Some(known) = slot {
+                known.age = known.age.saturating_add(time);
+                known.promise = known.promise.saturating_sub(time);
             }
-            if slot.is_some_and(|(_, age)| age > setup.traffic.keep) {
+            if slot.is_some_and(|known| known.age > setup.traffic.keep) {
                 *slot = None;
             }
         }
@@ -58,26 +81,80 @@ impl Traffic {
         if age > setup.traffic.keep {
             return;
         }
-        let is_own =
-            |slot: &Option<(Vehicle, Millis)>| slot.is_some_and(|(it, _)| it.key == vehicle.key);
-        if let Some(own) = self.vehicles.iter().position(is_own) {
+        let mut known = self.vehicles.iter_mut().flatten();
+        if let Some(known) = known.find(|it| it.vehicle.key == vehicle.key) {
             // A late report says nothing new.
-            if self.vehicles[own].is_none_or(|(_, known)| age <= known) {
-                self.vehicles[own] = Some((vehicle, age));
+            if age <= known.age {
+                (known.vehicle, known.age) = (vehicle, age);
             }
             return;
         }
         if !may_hinder(setup, &vehicle) {
             return;
         }
-        let is_free = |slot: &Option<(Vehicle, Millis)>| {
-            slot.is_none_or(|(vehicle, _)| !may_hinder(setup, &vehicle))
+        let may_replace =
+            |slot: &&mut Option<Known>| slot.is_none_or(|it| !may_hinder(setup, &it.vehicle));
+        let known = Known {
+            vehicle,
+            age,
+            promise: Millis::ZERO,
         };
-        if let Some(place) = self.vehicles.iter().position(is_free) {
-            self.vehicles[place] = Some((vehicle, age));
-        } else {
-            self.further = Some((vehicle.key, setup.traffic.keep));
+        match self.vehicles.iter_mut().find(may_replace) {
+            Some(slot) => *slot = Some(known),
+            None => self.further = Some((vehicle.key, setup.traffic.keep)),
         }
+    }
+
+    /// Takes in a vehicle's answer to the newest question whether it will stop.
+    pub(crate) fn answer(&mut self, setup: &Setup, station: StationId, promises: bool) {
+        let of_station = |it: &&mut Known| it.vehicle.station == Some(station);
+        for known in self.vehicles.iter_mut().flatten().filter(of_station) {
+            known.promise = if promises {
+                setup.traffic.keep
+            } else {
+                Millis::ZERO
+            };
+        }
+    }
+
+    /// The first vehicle to be asked that has not said that it will stop.
+    pub(crate) fn unpromised(&self, setup: &Setup) -> Option<StationId> {
+        self.to_ask(setup).map(|(station, _)| station)
+    }
+
+    /// The same vehicle, and where its front is to stand, unless one was asked a moment ago.
+    pub(crate) fn ask(&mut self, setup: &Setup) -> Option<(StationId, Point)> {
+        let asks = self.to_ask(setup).filter(|_| self.asked == Millis::ZERO);
+        if asks.is_some() {
+            self.asked = ASKING_PERIOD;
+        }
+        asks
+    }
+
+    fn to_ask(&self, setup: &Setup) -> Option<(StationId, Point)> {
+        let (rules, crossing) = (&setup.traffic, crossing(setup)?);
+        if rules.asks == Millis::ZERO {
+            return None;
+        }
+        let silent = self
+            .vehicles
+            .iter()
+            .flatten()
+            .filter(|it| it.promise == Millis::ZERO);
+        let mut coming = silent.filter_map(|it| {
+            let motion = ahead(setup, crossing, &it.vehicle)?;
+            let station = it
+                .vehicle
+                .station
+                .filter(|_| motion.comes_within(rules.asks, it.age))?;
+            let way = i32::try_from(motion.left_cm.saturating_sub(STOP_LINE_CM)).ok()?;
+            let speed = i32::try_from(motion.speed_cmps).ok()?;
+            Some((
+                station,
+                it.vehicle.at.plus(it.vehicle.velocity.part(way, speed)),
+            ))
+        });
+        coming.next()
     }
 
     /// The first vehicle that could no longer stop comfortably before the crossing.
@@ -110,12 +187,12 @@ impl Traffic {
         rules: &TrafficRules,
         counts: impl Fn(&Vehicle) -> bool,
     ) -> Option<u32> {
-        let hinders = |(vehicle, age): &&(Vehicle, Millis)| {
-            let ahead = ahead(setup, place, vehicle).filter(|_| counts(vehicle));
-            ahead.is_some_and(|it| !it.can_stop(rules, *age))
+        let hinders = |it: &&Known| {
+            let ahead = ahead(setup, place, &it.vehicle).filter(|_| counts(&it.vehicle));
+            ahead.is_some_and(|motion| !motion.can_stop(rules, it.age))
         };
         let key = self.vehicles.iter().flatten().find(hinders);
-        let key = key.map(|(vehicle, _)| vehicle.key);
+        let key = key.map(|it| it.vehicle.key);
         key.or(self.further.map(|(key, _)| key))
     }
 }
@@ -168,11 +245,24 @@ impl Motion {
     /// Whether it can stop comfortably, if it was like this `age` ago and has gone on.
     fn can_stop(self, rules: &TrafficRules, age: Millis) -> bool {
         let speed = u64::from(self.speed_cmps);
-        let gone = speed.saturating_mul(u64::from(age.0)) / 1_000 + u64::from(self.error_cm);
-        let left = u64::from(self.left_cm).saturating_sub(gone);
-        let reacting = speed.saturating_mul(u64::from(rules.reaction.0)) / 1_000;
         let braking =
             speed.saturating_mul(speed) / (2 * u64::from(rules.deceleration_cmps2.max(1)));
-        left > reacting.saturating_add(braking)
+        self.left_cm(age) > self.way_cm(rules.reaction).saturating_add(braking)
+    }
+
+    /// Whether it is at the place within a time, if it goes on.
+    fn comes_within(self, time: Millis, age: Millis) -> bool {
+        self.left_cm(age) <= self.way_cm(time)
+    }
+
+    /// How far it is from the place at least, if it was like this `age` ago.
+    fn left_cm(self, age: Millis) -> u64 {
+        let gone = self.way_cm(age).saturating_add(u64::from(self.error_cm));
+        u64::from(self.left_cm).saturating_sub(gone)
+    }
+
+    /// How far it goes in a time.
+    fn way_cm(self, time: Millis) -> u64 {
+        u64::from(self.speed_cmps).saturating_mul(u64::from(time.0)) / 1_000
     }
 }

@@ -2,7 +2,8 @@
 
 use crossguard_codec::TaskParameters;
 use crossguard_protocol::{
-    CorridorClosure, Event, FallbackPolicy, Ignored, Maneuver, Millis, Notice, Output, StopReason,
+    CorridorClosure, Event, FallbackPolicy, Ignored, Maneuver, Millis, Notice, Output, StationId,
+    StopReason,
 };
 
 /// What the application is to do or to know.
@@ -25,6 +26,8 @@ pub enum Act {
     LockIdentity(bool),
     /// Persist a larger boot counter, and tell [`Event::EpochRenewed`].
     RenewEpoch,
+    /// Know that a vehicle says that it will stop, as it was asked the last time; `false`: that it will not.
+    VehicleAnswered(StationId, bool),
     /// Know this.
     Notice(Notice),
     /// Know that the event that was told had no effect.

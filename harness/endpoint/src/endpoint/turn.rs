@@ -146,6 +146,11 @@ impl Host for Turn<'_> {
             .extend(act(*output, parameters).map(Effect::Act));
     }
 
+    fn answered(&mut self, vehicle: StationId, promises: bool) {
+        let answered = Act::VehicleAnswered(vehicle, promises);
+        self.effects.push(Effect::Act(answered));
+    }
+
     fn heard(&mut self, me: &Robot, heard: &Heard, arrived: Arrived<'_>) {
         let now_ms = self.moment.now_ms;
         self.understood(heard.service, heard.from, arrived);

@@ -84,7 +84,8 @@ pub(super) fn check_entitled<H: Host>(
         return Err(NotEntitled::Namesake { says, is });
     }
     let address = Address::of_station(is.0, identifiers.robot_station_type);
-    if indication.source.address != address {
+    // A vehicle that answers has another station type.
+    if indication.source.address.link_layer != address.link_layer {
         return Err(NotEntitled::Address(is));
     }
     if let Some(signer) = indication.signer {

@@ -81,6 +81,9 @@ pub trait Host {
     /// input of the step. Never [`Output::SendRam`] and [`Output::SendRmcm`].
     fn act(&mut self, output: &Output, parameters: TaskParameters);
 
+    /// A vehicle answers the newest question whether it will stop.
+    fn answered(&mut self, _vehicle: StationId, _promises: bool) {}
+
     /// The robot `me` understood a message.
     fn heard(&mut self, me: &Robot, heard: &Heard, arrived: Arrived<'_>);
 

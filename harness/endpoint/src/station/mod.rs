@@ -2,6 +2,7 @@
 //!
 //! - [`LocalDynamicMap`] is who is around, as heard lately, by robots and by other stations.
 //! - [`Security`] is whether a robot signs and verifies, and under which pseudonyms.
+//! - [`vehicle`] is the other side of a question to a vehicle.
 //! - [`listen`] reads packets and messages that are meant for any receiver, for sniffers and charts.
 
 pub mod listen;
@@ -14,6 +15,7 @@ mod observe;
 mod pseudonyms;
 #[cfg(feature = "security")]
 mod security;
+pub mod vehicle;
 
 pub use map::{LocalDynamicMap, Neighbour, USERS_MAX, lifetime_ms};
 pub use namesakes::{NAMES_MAX, NotAdmitted};

@@ -11,7 +11,8 @@ use crossguard_endpoint::station::listen::overhear;
 #[cfg(feature = "foreign")]
 use crossguard_endpoint::station::service_of;
 use crossguard_protocol::{
-    Config, Decimetres, Input, Output, Outputs, Rmcm, Robot, Settings, StationId,
+    Command, Config, Decimetres, Input, Output, Outputs, Phase, Rmcm, Robot, Settings, StationId,
+    TaskType,
 };
 use crossguard_robot::trace::Reception;
 
@@ -42,6 +43,8 @@ pub(super) struct Follow {
     heard: VecDeque<Input>,
     counted: Counts,
     targets: Targets,
+    /// What the robot asked a vehicle last.
+    asked: Option<Command>,
 }
 
 impl Follow {
@@ -66,6 +69,7 @@ impl Follow {
             heard: VecDeque::new(),
             counted: Counts::default(),
             targets: Targets::default(),
+            asked: None,
         })
     }
 
@@ -195,6 +199,10 @@ impl Follow {
             ram: self.robot.ram(),
             distance: Decimetres(0),
         };
+        if let Some(question) = self.question(found) {
+            self.asked = Some(question);
+            return Ok(());
+        }
         if kind == Service::Rmcm {
             self.targets.sent(&self.identifiers, octets);
         }
@@ -213,6 +221,30 @@ impl Follow {
             found: format!("'{found}'"),
             expected,
         })
+    }
+
+    /// The command by which a leader asks a vehicle to stop: no step puts it out, and it is to nobody who follows.
+    fn question(&self, found: Input) -> Option<Command> {
+        let (Input::Rmcm(Rmcm::Command(command)), Phase::Leading(leading)) =
+            (found, self.robot.phase())
+        else {
+            return None;
+        };
+        let is_own = command.session.leader == self.robot.station()
+            && command.session.number == leading.number;
+        let follows = leading.members.iter().any(|it| it.station == command.to);
+        let is_question = is_own && !follows && command.task == TaskType::BLOCK;
+        (is_question && self.owed.is_empty()).then_some(command)
+    }
+
+    /// Whether a message answers the newest question to a vehicle. The protocol has no part in that.
+    fn answers_question(&self, heard: &Input) -> bool {
+        let (Input::Rmcm(Rmcm::Answer(answer)), Some(asked)) = (heard, self.asked) else {
+            return false;
+        };
+        answer.from == asked.to
+            && answer.session == asked.session
+            && answer.request == asked.request
     }
 
     pub(super) fn heard(
@@ -236,7 +268,8 @@ impl Follow {
         if (message.service, message.from) != (kind, from) {
             return Err(other());
         }
-        self.heard = message.inputs.iter().copied().collect();
+        let heard = message.inputs.iter().copied();
+        self.heard = heard.filter(|it| !self.answers_question(it)).collect();
         Ok(())
     }
 

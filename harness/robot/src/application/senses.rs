@@ -216,11 +216,11 @@ impl Application {
                 }
             }
         }
+        let is_news = |known: &&Neighbour| known.heard_ms == now_ms;
+        for known in map.of_kind(Kind::Vehicle).filter(is_news) {
+            self.hear_vehicle(known);
+        }
         if !matches!(self.road, Road::Known(_)) {
-            let is_news = |known: &&Neighbour| known.heard_ms == now_ms;
-            for known in map.of_kind(Kind::Vehicle).filter(is_news) {
-                self.hear_vehicle(known);
-            }
             for known in map.of_kind(Kind::Vru).filter(is_news) {
                 self.hear_person(known);
             }
@@ -246,6 +246,10 @@ impl Application {
         self.observe_one(HEARD, seen);
         let vehicle = Vehicle {
             key: key(user.identity),
+            station: match user.identity {
+                Identity::Station(id) => Some(StationId(id)),
+                Identity::Object { .. } => None,
+            },
             at,
             error_cm: seen.error_cm,
             velocity,

@@ -10,7 +10,7 @@ use crossguard_protocol::{
 use toml::Spanned;
 
 use super::tables::{DemoTable, EndName, PartTable, PlanTables, RoleTable, SignalName, SpotName};
-use super::{APART_M, Ending, PlanFile, Role, safety};
+use super::{APART_M, Car, Ending, PlanFile, Role, safety};
 use crate::located::{self, Exact, Misfit};
 use crate::plan::{Leg, Stage, Who};
 use crate::site::Place;
@@ -54,7 +54,9 @@ impl PlanTables {
         let crossing_s = crossing_s.unwrap_or(CROSSING_S);
         let patience_s = located::within_if_any(self.patience_s.as_ref(), 1.0..=3_600.0, "s")?;
         safety::crossing_in_time(&site, self.crossing_s.as_ref(), crossing_s, settings)?;
-        let (loses_power, ends) = demo(self.demo.as_ref(), &roles)?;
+        let asks = self.asks_vehicles_s.as_ref();
+        let asks_vehicles_s = located::within_if_any(asks, 0.0..=60.0, "s")?;
+        let (loses_power, ends, car) = demo(self.demo.as_ref(), &roles, &site)?;
         Ok(PlanFile {
             name: name.to_owned(),
             summary: self.summary.unwrap_or_else(|| format!("Plan {name}.")),
@@ -62,12 +64,14 @@ impl PlanTables {
             urgency: self.urgency.unwrap_or(Urgency::Medium),
             crossing_s,
             patience_s: patience_s.unwrap_or(PATIENCE_S),
+            asks_vehicles_s: asks_vehicles_s.unwrap_or(0.0),
             either_way: either_way.transpose()?,
             site,
             roles,
             stages,
             loses_power,
             ends,
+            car,
         })
     }
 }
@@ -250,9 +254,10 @@ fn apart(tables: &PlanTables, roles: &[Role], stages: &[Stage]) -> Result<(), Mi
 fn demo(
     table: Option<&Spanned<DemoTable>>,
     roles: &[Role],
-) -> Result<(Option<String>, Ending), Misfit> {
+    site: &SiteFile,
+) -> Result<(Option<String>, Ending, Option<Car>), Misfit> {
     let Some(spanned) = table else {
-        return Ok((None, Ending::Session(EndReason::TaskCompleted)));
+        return Ok((None, Ending::Session(EndReason::TaskCompleted), None));
     };
     let table = spanned.get_ref();
     if let Some(name) = &table.loses_power
@@ -266,5 +271,24 @@ fn demo(
         EndName::NoFollowers => Ending::Session(EndReason::NoFollowers),
         EndName::ContactLost => Ending::Released(ReleaseReason::ContactLost),
     };
-    Ok((table.loses_power.clone(), ends))
+    if let Some(car) = &table.car {
+        let is_taken = |role: &Role| role.station == Some(StationId(car.station));
+        let what = if !site.lanes.iter().any(|it| it.name == car.lane) {
+            Some(format!("site '{}' has no lane '{}'", site.name, car.lane))
+        } else if car.station == 0 || roles.iter().any(is_taken) {
+            Some(format!(
+                "station {} is no station, or that of a role",
+                car.station
+            ))
+        } else if !(10.0..=1_000.0).contains(&car.from_m) || !(1.0..=50.0).contains(&car.speed_mps)
+        {
+            Some("a car comes from 10 to 1,000 m before the crossing, at 1 to 50 m/s".to_owned())
+        } else {
+            None
+        };
+        if let Some(what) = what {
+            return Err(Misfit::at(spanned, what));
+        }
+    }
+    Ok((table.loses_power.clone(), ends, table.car.clone()))
 }

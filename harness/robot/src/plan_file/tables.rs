@@ -6,6 +6,7 @@ use crossguard_protocol::Urgency;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::Car;
 use crate::body::Build;
 use crate::located::Exact;
 
@@ -17,6 +18,7 @@ pub(super) struct PlanTables {
     pub(super) urgency: Option<Urgency>,
     pub(super) crossing_s: Option<Spanned<f64>>,
     pub(super) patience_s: Option<Spanned<f64>>,
+    pub(super) asks_vehicles_s: Option<Spanned<f64>>,
     pub(super) either_way: Option<Exact<Spanned<SpotName>, 2>>,
     pub(super) roles: Vec<Spanned<RoleTable>>,
     pub(super) stages: Vec<Spanned<BTreeMap<String, Spanned<PartTable>>>>,
@@ -63,6 +65,7 @@ pub(super) struct PartTable {
 pub(super) struct DemoTable {
     pub(super) loses_power: Option<String>,
     pub(super) ends: EndName,
+    pub(super) car: Option<Car>,
 }
 
 #[derive(Clone, Copy, Default, Deserialize)]

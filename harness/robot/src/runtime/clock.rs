@@ -26,6 +26,12 @@ impl Clock {
         u64::try_from(self.start.elapsed().as_micros()).unwrap_or(u64::MAX)
     }
 
+    /// This moment.
+    #[must_use]
+    pub fn moment(&self) -> Moment {
+        moment_at(self.now_us())
+    }
+
     /// What it showed at an instant, in ms; 0 before the start.
     pub(super) fn at_ms(&self, instant: Instant) -> u64 {
         let since = instant.saturating_duration_since(self.start);

@@ -123,6 +123,7 @@ impl Leader {
         self.said = out.iter().copied().collect();
         let word = |output: &Output| match output {
             Output::Order(..) => "order",
+            Output::Hindered(_) => "hindered",
             Output::Tell(Event::OpenCorridor) => "open",
             Output::Tell(Event::CloseCorridor) => "close",
             Output::Tell(Event::TaskCompleted) => "completed",
@@ -335,7 +336,7 @@ fn an_escort_waits_until_nothing_hinders() {
     let mut leader = Leader::of(escorting());
     leader.view.hindrance = Some(Hindrance::NoSight);
     assert_eq!(leader.joins(FIRST), "");
-    assert_eq!(leader.pass(5_000), "");
+    assert_eq!(leader.pass(5_000), "hindered");
     leader.view.hindrance = None;
     assert_eq!(leader.pass(100), "order");
 }

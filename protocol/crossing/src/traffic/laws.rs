@@ -9,7 +9,8 @@ use crate::laws::millis;
 use crate::setup::TrafficRules;
 
 /// A vehicle that can stop comfortably by an old or an inexact report of it can by a newer or a more exact one that says the
-/// same, and from farther away. Whether it can by the worse one.
+/// same, and from farther away; and one that comes soon by the better report does by the worse one. Whether it can stop by the
+/// worse one.
 pub fn worse_stops_no_vehicle(source: &mut impl Source) -> bool {
     let rules = TrafficRules {
         reaction: millis(source, 2_000),
@@ -29,5 +30,9 @@ pub fn worse_stops_no_vehicle(source: &mut impl Source) -> bool {
     let (soon, by) = (millis(source, 100), millis(source, 100));
     let can_stop = worse.can_stop(&rules, soon.saturating_add(by));
     assert!(!can_stop || better.can_stop(&rules, soon));
+    let within = millis(source, 10_000);
+    assert!(
+        !better.comes_within(within, soon) || worse.comes_within(within, soon.saturating_add(by))
+    );
     can_stop
 }

@@ -152,7 +152,7 @@ impl Team {
                 Output::Wait => member.body.waits = true,
                 Output::GoOn => member.body.waits = false,
                 Output::Release => member.body.holds = false,
-                Output::Dropped(..) | Output::Hindered(_) => {}
+                Output::Ask(..) | Output::Dropped(..) | Output::Hindered(_) => {}
             }
         }
     }

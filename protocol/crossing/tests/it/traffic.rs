@@ -1,7 +1,7 @@
 //! Which vehicles hinder (hazard I).
 
 use crossguard_crossing::*;
-use crossguard_protocol::Millis;
+use crossguard_protocol::{Millis, StationId};
 
 use crate::scene::*;
 
@@ -12,6 +12,7 @@ fn vehicle(east: i32, north: i32, east_cms: i32, north_cms: i32) -> Vehicle {
     };
     Vehicle {
         key: 7,
+        station: None,
         at: Point::new(east, north),
         error_cm: 0,
         velocity,
@@ -142,4 +143,86 @@ fn vehicles_of_two_sources_are_two() {
         matches!(hindered, Some(Hindrance::Vehicle(_))),
         "{hindered:?}"
     );
+}
+
+/// Paper, section VI names coordination with vehicles as further work.
+#[test]
+fn a_vehicle_that_can_stop_hinders_until_it_has_said_that_it_will() {
+    let station = Some(StationId(7));
+    let asked = Vehicle {
+        station,
+        ..vehicle(-9_000, 200, 1_389, 0)
+    };
+    let hinders = |asks: u32, vehicle: Vehicle, answers: &[bool], later: u32| {
+        let mut setup = street();
+        (setup.watches, setup.traffic.asks) = (false, Millis(asks));
+        let mut scene = Scene::new(setup);
+        scene.tell(Input::Vehicle(vehicle, Millis(0)));
+        for promises in answers {
+            scene.tell(Input::Answered(StationId(7), *promises));
+        }
+        scene.pass(later);
+        scene.tell(Input::Vehicle(vehicle, Millis(0)));
+        scene.crossing.hindered(&scene.setup) == Some(Hindrance::NoPromise(StationId(7)))
+    };
+    // It is at the crossing in 6.3 s.
+    for (name, asks, vehicle, answers, later, expected) in [
+        ("silent", 10_000, asked, &[][..], 0, true),
+        ("no vehicle is asked", 0, asked, &[], 0, false),
+        ("far", 6_000, asked, &[], 0, false),
+        ("it promises", 10_000, asked, &[true], 0, false),
+        (
+            "it promised 4.9 s ago",
+            10_000,
+            asked,
+            &[true],
+            4_900,
+            false,
+        ),
+        ("it promised 5 s ago", 10_000, asked, &[true], 5_000, true),
+        ("it refuses", 10_000, asked, &[false], 0, true),
+        (
+            "it thinks better of it",
+            10_000,
+            asked,
+            &[true, false],
+            0,
+            true,
+        ),
+        (
+            "it is seen, and tells nothing",
+            10_000,
+            Vehicle {
+                station: None,
+                ..asked
+            },
+            &[],
+            0,
+            false,
+        ),
+        (
+            "it stands",
+            10_000,
+            Vehicle {
+                velocity: Way::default(),
+                ..asked
+            },
+            &[],
+            0,
+            false,
+        ),
+        (
+            "it cannot stop, whatever it says",
+            10_000,
+            Vehicle {
+                at: Point::new(-4_000, 200),
+                ..asked
+            },
+            &[true],
+            0,
+            false,
+        ),
+    ] {
+        assert_eq!(hinders(asks, vehicle, answers, later), expected, "{name}");
+    }
 }

@@ -1,7 +1,7 @@
 //! Whole crossings: from the person who waits to the robots that are idle again.
 
 use crossguard_crossing::*;
-use crossguard_protocol::{Event, HelpRequest, List, Millis, Phase, TaskSet, TaskType};
+use crossguard_protocol::{Event, HelpRequest, List, Millis, Phase, StationId, TaskSet, TaskType};
 
 use crate::scene::*;
 use crate::team::*;
@@ -237,6 +237,7 @@ fn go_ends_when_a_guard_is_not_at_its_place_any_more() {
 fn car(east: i32) -> Vehicle {
     Vehicle {
         key: 7,
+        station: Some(StationId(7)),
         at: Point::new(east, 200),
         error_cm: 0,
         velocity: Way {
@@ -376,6 +377,40 @@ fn go_does_not_begin_in_front_of_a_car_and_ends_before_one() {
     assert!(!team.shows_go());
     team.pass(50);
     assert_eq!(team.told(0, |it| *it == Event::CloseCorridor), 1, "once");
+}
+
+/// A vehicle that could stop is asked for as long as it does not answer, and go begins once it has.
+#[test]
+fn go_begins_once_a_car_has_said_that_it_will_stop() {
+    let mut team = blocking();
+    team.robots[0].setup.traffic.asks = Millis(10_000);
+    let asked = |team: &Team| {
+        let out = team.robots[0].log.iter();
+        out.filter(|it| matches!(it, Output::Ask(StationId(7), _)))
+            .count()
+    };
+    pass_beside(&mut team, 0, car(-9_000), 10_000);
+    assert!(!team.shows_go());
+    let why = Output::Hindered(Hindrance::NoPromise(StationId(7)));
+    assert!(
+        team.first(0, |it| *it == why).is_some(),
+        "nobody is told why"
+    );
+    let count = asked(&team);
+    assert!((5..=20).contains(&count), "{count}");
+    team.hear(0, Input::Answered(StationId(7), true));
+    pass_beside(&mut team, 0, car(-9_000), 1_000);
+    assert!(team.shows_go());
+    assert!(asked(&team) <= count + 1);
+    // Another one does not end go for people who have set out, as long as it can stop.
+    let other = Vehicle {
+        key: 8,
+        station: Some(StationId(8)),
+        ..car(-9_000)
+    };
+    team.hear(0, Input::Vehicle(other, Millis(0)));
+    team.pass(50);
+    assert!(team.shows_go());
 }
 
 /// Hazard J: the follower falls back for lack of contact, and is commanded again.
