@@ -42,16 +42,21 @@ size_t strlen(const char *text) {
     return length;
 }
 
-static long system_call(long number, long a, long b, long c) {
-    long result;
-    __asm__ volatile("syscall"
-                     : "=a"(result)
-                     : "a"(number), "D"(a), "S"(b), "d"(c)
-                     : "rcx", "r11", "memory");
-    return result;
+#ifdef __x86_64__
+enum { WRITE = 1, EXIT = 60 };
+static void system_call(long number, long a, long b, long c) {
+    __asm__ volatile("syscall" : "+a"(number) : "D"(a), "S"(b), "d"(c) : "rcx", "r11", "memory");
 }
+__asm__(".globl _start\n_start:\n  xor %ebp, %ebp\n  and $-16, %rsp\n  call program\n");
+#else
+enum { EXIT = 1, WRITE = 4 };
+static void system_call(long number, long a, long b, long c) {
+    __asm__ volatile("int $0x80" : "+a"(number) : "b"(a), "c"(b), "d"(c) : "memory");
+}
+__asm__(".globl _start\n_start:\n  xor %ebp, %ebp\n  and $-16, %esp\n  call program\n");
+#endif
 
-static void say(const char *text) { system_call(1, 1, (long)text, (long)strlen(text)); }
+static void say(const char *text) { system_call(WRITE, 1, (long)text, (long)strlen(text)); }
 
 static void say_number(size_t number) {
     char digits[24];
@@ -63,7 +68,7 @@ static void say_number(size_t number) {
 }
 
 __attribute__((noreturn)) static void end(int code) {
-    for (;;) system_call(60, code, 0, 0);
+    for (;;) system_call(EXIT, code, 0, 0);
 }
 
 enum { LEADER, FOLLOWER };
@@ -259,5 +264,3 @@ __attribute__((noreturn, used)) static void program(void) {
     say(completed ? "crossing completed\n" : "not completed\n");
     end(!completed);
 }
-
-__asm__(".globl _start\n_start:\n  xor %ebp, %ebp\n  and $-16, %rsp\n  call program\n");
