@@ -146,30 +146,23 @@ fn assert_exhaustive(printed: &str) {
     }
 }
 
+/// The verdicts, and what is to be seen in all states; also with a guard that holds a place, which is in place once it says
+/// so.
 #[test]
-fn spin_and_the_kit_come_to_the_same_verdicts_about_the_pair() {
-    if !can_run("spin_and_the_kit_come_to_the_same_verdicts_about_the_pair") {
+fn spin_and_the_kit_come_to_the_same_verdicts_and_the_same_is_to_be_seen() {
+    if !can_run("spin_and_the_kit_come_to_the_same_verdicts_and_the_same_is_to_be_seen") {
         return;
     }
-    let scenario = Scenario::load("pair").unwrap();
-    let printed = Verification::of("pair", &scenario).run("-O2");
-    assert!(
-        printed.contains(&format!("{STATES} states, stored")),
-        "{printed}"
-    );
-    assert_same_verdicts(&printed, scenario);
-}
-
-/// A guard that holds a place is in place once it says so.
-#[test]
-#[ignore = "takes a minute: cargo test -p crossguard-model-check --test it -- --ignored spin::"]
-fn spin_and_the_kit_come_to_the_same_verdicts_about_a_guard_that_blocks() {
-    if !can_run("spin_and_the_kit_come_to_the_same_verdicts_about_a_guard_that_blocks") {
-        return;
-    }
-    let scenario = pair_that_blocks();
-    let printed = Verification::of("blocks", &scenario).run("-O2");
-    assert_same_verdicts(&printed, scenario);
+    let pair = Scenario::load("pair").unwrap();
+    let printed = Verification::of("pair", &pair).with_sights().run("-O2");
+    let counted = format!("{STATES} states, stored");
+    assert!(printed.contains(&counted), "{printed}");
+    assert_eq!(assert_same_sights(&printed, pair.clone()), SIGHTS);
+    assert_same_verdicts(&printed, pair);
+    let blocks = pair_that_blocks();
+    let printed = Verification::of("blocks", &blocks).with_sights().run("-O2");
+    assert_same_sights(&printed, blocks.clone());
+    assert_same_verdicts(&printed, blocks);
 }
 
 fn pair_that_blocks() -> Scenario {
@@ -266,47 +259,10 @@ fn in_spin_too_a_command_of_an_earlier_session_must_not_be_executed() {
 /// How many different things are to be seen in the pair.
 const SIGHTS: usize = 2_156;
 
-#[test]
-fn in_spin_and_in_the_kit_the_same_is_to_be_seen() {
-    if !can_run("in_spin_and_in_the_kit_the_same_is_to_be_seen") {
-        return;
-    }
-    let pair = Scenario::load("pair").unwrap();
-    assert_eq!(assert_same_sights("sights", pair), SIGHTS);
-    assert_same_sights("sights-blocks", pair_that_blocks());
-}
-
-/// What rules change is to be seen: two models that differ in one would not pass for the same.
-#[test]
-#[ignore = "takes a minute: cargo test -p crossguard-model-check --test it -- --ignored spin::"]
-fn in_spin_without_a_rule_something_else_is_to_be_seen() {
-    if !can_run("in_spin_without_a_rule_something_else_is_to_be_seen") {
-        return;
-    }
-    let scenario = pair_that_blocks();
-    let seen = |rule: Option<&str>| {
-        let mut verification = Verification::of("other-sights", &scenario).with_sights();
-        verification
-            .macros
-            .extend(rule.map(|rule| format!("-D{rule}")));
-        sights_of(&verification.run("-O2"))
-    };
-    let usual = seen(None);
-    for rule in ["FORGETS_ITS_DUTY", "EVERY_END_STOPS", "OPENS_ON_THE_WAY"] {
-        assert_ne!(seen(Some(rule)), usual, "{rule}");
-    }
-}
-
-fn sights_of(printed: &str) -> BTreeSet<u32> {
-    let number = |line: &str| line.strip_prefix("sees ")?.parse().ok();
-    printed.lines().filter_map(number).collect()
-}
-
 /// Asserts that robots, bodies and pedestrian are to be seen in the same states in both models; in how many.
-fn assert_same_sights(name: &str, scenario: Scenario) -> usize {
-    let printed = Verification::of(name, &scenario).with_sights().run("-O2");
-    assert_exhaustive(&printed);
-    let in_spin = sights_of(&printed);
+fn assert_same_sights(printed: &str, scenario: Scenario) -> usize {
+    let number = |line: &str| line.strip_prefix("sees ")?.parse().ok();
+    let in_spin: BTreeSet<u32> = printed.lines().filter_map(number).collect();
     let in_kit = sights(&Model::new(scenario));
     let only = |a: &BTreeSet<u32>, b: &BTreeSet<u32>| -> Vec<String> {
         a.difference(b)
