@@ -1,5 +1,6 @@
 //! The tests of the endpoint, in one program: what they share is compiled and linked once.
 
+mod ages;
 mod another_leader;
 mod cam;
 mod made_up_sessions;

@@ -1,6 +1,5 @@
 //! What commands answer, and what the repository's pages say.
 
-mod ages;
 mod attack;
 mod check;
 mod ci_example;
