@@ -178,35 +178,6 @@ fn people_who_walk_north_and_a_cyclist_who_goes_east_are_announced_apart() {
 }
 
 #[test]
-fn three_people_far_from_each_other_are_no_rectangle_between_them() {
-    let mut street = Street::new();
-    let places = [[-6.0, 3.0], [0.0, 3.0], [6.0, 3.0]];
-    let people = || {
-        (1..)
-            .zip(places)
-            .map(|(id, place)| person(id, place, [0.0, 0.0]))
-    };
-    let sent = street.perceives(4_000, |_| people().collect());
-    let clusters = clusters(&sent);
-    let unseen = |east_m: f64| Motion {
-        position_m: [east_m, 3.0],
-        ..Motion::default()
-    };
-    for &cluster in &clusters {
-        assert_eq!(cluster.0.cardinality, 1);
-        assert_eq!(device_hears(&unseen(-3.0), cluster), Reaction::Outside);
-        assert_eq!(device_hears(&unseen(3.0), cluster), Reaction::Outside);
-    }
-    // Each of the three finds itself.
-    for place in places {
-        let found = clusters
-            .iter()
-            .any(|&it| device_hears(&unseen(place[0]), it) == Reaction::Suspends);
-        assert!(found, "{place:?}");
-    }
-}
-
-#[test]
 fn a_cluster_whose_members_are_gone_is_said_to_be_over_at_once_told_once_and_repeated() {
     let mut street = Street::new();
     let near = |_| vec![person(1, [3.0, 0.0], NORTH), person(2, [-9.0, 0.0], NORTH)];
@@ -249,25 +220,4 @@ fn a_cluster_whose_members_are_gone_is_said_to_be_over_at_once_told_once_and_rep
         still.is_empty(),
         "a cluster that is over is announced: {still:?}"
     );
-}
-
-#[test]
-fn two_who_part_are_two_clusters_and_the_one_who_turned_off_is_in_the_new_one() {
-    let mut street = Street::new();
-    let together = |_| vec![person(1, [0.0, 5.0], NORTH), person(2, [1.0, 5.0], NORTH)];
-    let before = street.perceives(2_000, together);
-    let (both, _) = *clusters(&before).last().unwrap();
-    assert_eq!(both.cardinality, 2);
-    let after = street.perceives(3_000, |_| {
-        vec![
-            person(1, [0.0, 5.5], NORTH),
-            person(2, [1.5, 5.5], [1.4, 0.0]),
-        ]
-    });
-    for (cluster, [east, _]) in clusters(&after) {
-        assert_eq!(cluster.cardinality, 1);
-        let is_of_the_first = cluster.area.contains([0.0, 5.5]) && east.abs() < 0.05;
-        let is_of_the_second = cluster.area.contains([1.5, 5.5]) && (east - 1.4).abs() < 0.05;
-        assert!(is_of_the_first || is_of_the_second, "{cluster:?} {east}");
-    }
 }
