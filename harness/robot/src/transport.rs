@@ -6,7 +6,7 @@
 //! ```
 //!
 //! [`Link`] is UDP, to peers or to a multicast group, with an Ethernet header in its datagrams or without
-//! ([`Framing`]), an on-board unit ([`attachment`](crate::attachment)), or Ethernet. [`Air`] joins robots in one process. [`WithFaults`] lays
+//! ([`Framing`]), an on-board unit ([`attachment`](crate::attachment)), or Ethernet. [`WithFaults`] lays
 //! seeded faults over any of them: what becomes of a datagram is drawn by a [`Channel`], the one place
 //! where faults are made; the simulator draws from it as well. [`Reopening`] opens one again that has
 //! failed.
@@ -19,7 +19,6 @@ mod faults;
 mod framing;
 mod layer;
 mod link;
-mod memory;
 mod readiness;
 mod reopening;
 mod stamps;
@@ -31,7 +30,6 @@ pub use faults::{Burst, Channel, Delay, Fate, Faults, FaultsError, Outage};
 pub use framing::{Framing, FramingError};
 pub use layer::WithFaults;
 pub use link::Link;
-pub use memory::{Air, Port};
 pub use reopening::Reopening;
 
 use std::io::ErrorKind;
@@ -135,8 +133,6 @@ pub enum Source {
     Address(SocketAddr),
     /// The link-layer address that it came from.
     LinkLayer([u8; 6]),
-    /// The port of the [`Air`] that it came from.
-    Port(usize),
     /// Nobody that the transport could name.
     Unknown,
 }

@@ -2,6 +2,7 @@
 //! on; a list that cannot be read any more changes nothing, and is said.
 
 use std::fs;
+use std::net::{SocketAddr, UdpSocket};
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
@@ -17,19 +18,27 @@ use crossguard_robot::pki::{self, Pki, add_revoked};
 use crossguard_robot::runtime::{Running, Setup};
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::trace::{Entry, Record};
-use crossguard_robot::transport::{Air, Transport};
+use crossguard_robot::transport::{Framing, Link, Transport};
 use nix::sys::stat;
 use nix::unistd::mkfifo;
 
 const PATIENCE: Duration = Duration::from_mins(1);
 
 /// An idle robot, which says a RAM at least once a second, and what it notes.
-fn robot(air: &Air, port: usize, credentials: Credentials) -> (Running, Receiver<Arc<Record>>) {
+fn robot(
+    (own, other): (SocketAddr, SocketAddr),
+    credentials: Credentials,
+) -> (Running, Receiver<Arc<Record>>) {
     let mut journal = Journal::new();
     let records = journal.reader(4_096, WhenFull::Skip, Cause::OutputFull);
     let body = Simulated::new(Build::Quadruped, Site::default(), Place::default(), 1.0, 1);
     let application = Application::new(Box::new(body), None);
-    let (name, link) = (format!("R{port}"), air.port(port).open().unwrap());
+    let link = Link::Peers {
+        address: own,
+        peers: vec![other],
+        framing: Framing::default(),
+    };
+    let (name, link) = (format!("R{}", own.port()), link.open().unwrap());
     let setup = Setup {
         security: Security::new(Mode::Enforce, credentials, None, pki::now()).unwrap(),
         journal,
@@ -72,10 +81,11 @@ fn a_list_that_changes_ends_what_a_robot_believes_and_one_that_cannot_be_read_ch
     let pki = Pki::for_a_day(&ids, now).unwrap();
     let [listens, speaks] = [1, 2].map(|_| pki.credentials(&ids, (1, None), now).unwrap());
     let stolen = speaks.tickets[0].certificate().id();
-    let air = Air::new(2);
-    let (mut listener, records) = robot(&air, 0, listens);
+    let sockets = [(); 2].map(|()| UdpSocket::bind("127.0.0.1:0").unwrap());
+    let [one, other] = sockets.map(|it| it.local_addr().unwrap());
+    let (mut listener, records) = robot((one, other), listens);
     listener.keep_revoked(list.clone());
-    let (speaker, _unread) = robot(&air, 1, speaks);
+    let (speaker, _unread) = robot((other, one), speaks);
     let is_heard = |entry: &Entry| matches!(entry, Entry::Heard { .. });
 
     wait_for(&records, "the other robot", is_heard);

@@ -43,9 +43,6 @@ pub enum LinkError {
         /// The names of the interfaces that exist.
         known: String,
     },
-    /// The port of an [`Air`](super::Air) is open already.
-    #[error("port {0} of the air is open already; each robot needs its own")]
-    PortInUse(usize),
 }
 
 impl LinkError {

@@ -170,25 +170,52 @@ impl Receiver for Faulty {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Air;
+    use super::super::{NotSent, Sender};
     use super::*;
+
+    /// A transport on which these datagrams have come in, each from a sender of its number.
+    #[derive(Clone)]
+    struct CameIn(VecDeque<(u8, Vec<u8>)>);
+
+    impl Transport for CameIn {
+        fn open(&self) -> Result<Halves, LinkError> {
+            let (sender, receiver) = (Box::new(self.clone()), Box::new(self.clone()));
+            Ok(Halves { sender, receiver })
+        }
+    }
+
+    impl Sender for CameIn {
+        fn send(&mut self, _: &[u8]) -> Result<(), NotSent> {
+            Ok(())
+        }
+    }
+
+    impl Receiver for CameIn {
+        fn receive(&mut self, at_most: Duration) -> std::io::Result<Option<Arrival>> {
+            let Some((from, octets)) = self.0.pop_front() else {
+                std::thread::sleep(at_most);
+                return Ok(None);
+            };
+            let (from, at) = (sender(from), Instant::now());
+            Ok(Some(Arrival::Datagram { from, octets, at }))
+        }
+    }
+
+    fn sender(number: u8) -> Source {
+        Source::LinkLayer([number; 6])
+    }
 
     /// What a receiver with these faults takes in of 200 datagrams, by number, and how many are lost; `count` together,
     /// unless more come.
     fn arrivals(faults: &str, by_source: &[(Source, &str)], count: usize) -> (Vec<u8>, usize) {
-        let air = Air::new(3);
         let by_source = by_source.iter().map(|(s, f)| (*s, f.parse().unwrap()));
         let receiving = WithFaults {
-            transport: air.port(2),
+            transport: CameIn((0..200).map(|number| (number % 2, vec![number])).collect()),
             faults: faults.parse().unwrap(),
             by_source: by_source.collect(),
             seed: 7,
         };
         let mut receiver = receiving.open().unwrap().receiver;
-        let mut senders = [0, 1].map(|port| air.port(port).open().unwrap().sender);
-        for number in 0..200_u8 {
-            senders[usize::from(number % 2)].send(&[number]).unwrap();
-        }
         let (mut arrived, mut lost) = (Vec::new(), 0);
         let deadline = Instant::now() + Duration::from_mins(1);
         loop {
@@ -223,14 +250,12 @@ mod tests {
 
     #[test]
     fn a_delayed_datagram_is_on_its_way_until_it_is_due_and_waits_from_then_on() {
-        let air = Air::new(2);
-        let receiving = WithFaults::new(air.port(1), "delay=2000..2000".parse().unwrap(), 7);
+        let transport = CameIn([(0, b"hello".to_vec())].into());
+        let receiving = WithFaults::new(transport, "delay=2000..2000".parse().unwrap(), 7);
         let mut receiver = receiving.open().unwrap().receiver;
-        let mut sender = air.port(0).open().unwrap().sender;
         let before = Instant::now();
-        sender.send(b"hello").unwrap();
-        let after = Instant::now();
         assert_eq!(receiver.receive(Duration::from_millis(1)).unwrap(), None);
+        let after = Instant::now();
         // It is taken late.
         std::thread::sleep(Duration::from_millis(2_100));
         let heard = receiver.receive(Duration::from_millis(1)).unwrap();
@@ -244,7 +269,7 @@ mod tests {
 
     #[test]
     fn a_way_may_be_dead_while_another_is_good() {
-        let (arrived, lost) = arrivals("", &[(Source::Port(0), "loss=1")], 200);
+        let (arrived, lost) = arrivals("", &[(sender(0), "loss=1")], 200);
         assert_eq!(lost, 100);
         assert!(arrived.iter().all(|number| number % 2 == 1));
     }

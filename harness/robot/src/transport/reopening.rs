@@ -85,7 +85,7 @@ mod tests {
     use std::sync::Arc;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    use super::super::Air;
+    use super::super::{Framing, Link};
     use super::*;
 
     /// A transport that never sends, and counts how often it is opened.
@@ -95,7 +95,12 @@ mod tests {
     impl Transport for Failing {
         fn open(&self) -> Result<Halves, LinkError> {
             self.1.fetch_add(1, Ordering::Relaxed);
-            let halves = Air::new(1).port(0).open()?;
+            let halves = Link::Peers {
+                address: "127.0.0.1:0".parse().unwrap(),
+                peers: Vec::new(),
+                framing: Framing::default(),
+            }
+            .open()?;
             let sender = Box::new(self.clone());
             Ok(Halves { sender, ..halves })
         }
