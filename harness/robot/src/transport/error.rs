@@ -1,6 +1,10 @@
 //! Why a link cannot be opened.
 
-use std::net::{IpAddr, Ipv4Addr, SocketAddr, SocketAddrV4};
+use std::net::{Ipv4Addr, SocketAddr, SocketAddrV4};
+
+use nix::ifaddrs::getifaddrs;
+use nix::net::if_::{InterfaceFlags, if_nametoindex};
+use nix::sys::socket::SockaddrStorage;
 
 /// Why a link cannot be opened.
 #[derive(Debug, thiserror::Error)]
@@ -45,21 +49,33 @@ pub enum LinkError {
     },
 }
 
-impl LinkError {
-    /// There is no interface of this name, but there are these.
-    pub(super) fn no_interface<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Self {
-        Self::NoInterface {
-            name: name.to_owned(),
-            known: known.collect::<Vec<_>>().join(", "),
-        }
-    }
-}
-
 /// Whether this is the name of a loopback interface.
 pub(super) fn is_loopback(name: &str) -> bool {
-    let interfaces = if_addrs::get_if_addrs().unwrap_or_default();
-    let mut of_that_name = interfaces.iter().filter(|it| it.name == name);
-    of_that_name.any(if_addrs::Interface::is_loopback)
+    let mut interfaces = getifaddrs().into_iter().flatten();
+    interfaces
+        .any(|it| it.interface_name == name && it.flags.contains(InterfaceFlags::IFF_LOOPBACK))
+}
+
+/// What `of` makes of the first address of an interface of which it makes something.
+///
+/// # Errors
+/// When there is none of that name that has such an address.
+pub(super) fn address_of<T>(
+    name: &str,
+    of: fn(&SockaddrStorage) -> Option<T>,
+) -> Result<T, LinkError> {
+    let interfaces = getifaddrs().into_iter().flatten();
+    let usable = interfaces.filter_map(|it| Some((it.interface_name, of(&it.address?)?)));
+    let mut known = Vec::new();
+    for (interface, address) in usable {
+        if interface == name {
+            return Ok(address);
+        }
+        known.push(interface);
+    }
+    let known = known.join(", ");
+    let name = name.to_owned();
+    Err(LinkError::NoInterface { name, known })
 }
 
 /// The index and the IPv4 address of an interface.
@@ -67,16 +83,10 @@ pub(super) fn is_loopback(name: &str) -> bool {
 /// # Errors
 /// When there is none of that name that has such an address.
 pub(super) fn interface_of(name: &str) -> Result<(u32, Ipv4Addr), LinkError> {
-    let interfaces = if_addrs::get_if_addrs().unwrap_or_default();
-    let ipv4 = interfaces
-        .iter()
-        .filter_map(|interface| match interface.ip() {
-            IpAddr::V4(address) => Some((interface, address)),
-            IpAddr::V6(_) => None,
-        });
-    let found = ipv4.clone().find(|(interface, _)| interface.name == name);
-    let known = ipv4.map(|(interface, _)| &*interface.name);
-    found
-        .and_then(|(interface, address)| Some((interface.index?, address)))
-        .ok_or_else(|| LinkError::no_interface(name, known))
+    let address = address_of(name, |it| Some(it.as_sockaddr_in()?.ip()))?;
+    let index = if_nametoindex(name).map_err(|cause| LinkError::Unusable {
+        address: (address, 0).into(),
+        cause: cause.into(),
+    })?;
+    Ok((index, address))
 }

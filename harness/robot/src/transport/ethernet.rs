@@ -10,12 +10,12 @@ use std::time::Duration;
 use crossguard_codec::geonet::ethernet;
 use crossguard_endpoint::station::listen::link_layer_of;
 use nix::errno::Errno;
-use nix::ifaddrs::getifaddrs;
 use nix::sys::socket::{
-    AddressFamily, LinkAddr, MsgFlags, SockFlag, SockProtocol, SockType, bind, send, socket,
+    AddressFamily, MsgFlags, SockFlag, SockProtocol, SockType, bind, send, socket,
 };
 
 use super::datagrams::Datagrams;
+use super::error::address_of;
 use super::{Arrival, Halves, LinkError, NotSent, Receiver, Sender, Source};
 
 /// Opens a raw socket on an interface.
@@ -27,7 +27,8 @@ pub(super) fn open(interface: &str) -> Result<Halves, LinkError> {
         interface: interface.to_owned(),
         cause: errno.into(),
     };
-    let address = link_address(interface)?;
+    // The address that stands for the interface.
+    let address = address_of(interface, |it| it.as_link_addr().copied())?;
     let socket = socket(
         AddressFamily::Packet,
         SockType::Raw,
@@ -43,23 +44,6 @@ pub(super) fn open(interface: &str) -> Result<Halves, LinkError> {
         sender: Box::new(EthernetSender { socket }),
         receiver: Box::new(receiver),
     })
-}
-
-/// The address that stands for an interface.
-fn link_address(name: &str) -> Result<LinkAddr, LinkError> {
-    let links: Vec<_> = getifaddrs()
-        .into_iter()
-        .flatten()
-        .filter_map(|interface| {
-            let address = *interface.address?.as_link_addr()?;
-            Some((interface.interface_name, address))
-        })
-        .collect();
-    let found = links.iter().find(|(interface, _)| interface == name);
-    let known = links.iter().map(|(name, _)| &**name);
-    found
-        .map(|(_, address)| *address)
-        .ok_or_else(|| LinkError::no_interface(name, known))
 }
 
 struct EthernetSender {
