@@ -1,10 +1,8 @@
 //! The parameters of a simulation: what a file says, then `--set`, then the flags.
 
-use std::fmt::Display;
 use std::fs::File;
 use std::io::Write;
 use std::num::NonZeroUsize;
-use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use crossguard_evaluation::behaviour::Behaviour;
@@ -23,7 +21,7 @@ use crossguard_evaluation::trace::{TraceError, Traces};
 use crossguard_evaluation::vru::VamRule;
 use crossguard_robot::files;
 use serde::Deserialize;
-use toml::Table;
+use toml::{Table, Value};
 
 use super::{Failure, output};
 
@@ -128,7 +126,8 @@ impl Parameters {
                 return Err(Failure::Input(why));
             }
         }
-        let mut parameters: Self = all.try_into().map_err(Failure::input)?;
+        let mut parameters: Self = all.clone().try_into().map_err(Failure::input)?;
+        check_ranges(&all)?;
         let behaviour = &mut parameters.behaviour;
         // 0 is by the rules.
         for interval_ms in [
@@ -145,90 +144,32 @@ impl Parameters {
 
     fn check(&self) -> Result<(), Failure> {
         let (behaviour, radio) = (&self.behaviour, &self.behaviour.radio);
-        within("robots", self.robots.iter().flatten(), 0..=10_000)?;
-        within(
-            "pedestrians",
-            self.pedestrians.iter().flatten(),
-            1..=100_000,
-        )?;
-        within("radii_m", self.radii_m.iter().flatten(), 0.0..=100.0)?;
-        within("seeds", &self.seeds, 1..=100_000)?;
-        within("vehicles", &self.vehicles, 0..=10_000)?;
-        within("duration_s", &self.duration_s, 10..=3_600)?;
-        within("dispatch_interval_s", &self.dispatch_interval_s, 1..=3_600)?;
-        for (name, share) in [
-            ("behaviour.v2x_share", behaviour.v2x_share),
-            ("behaviour.unseen_share", behaviour.unseen_share),
-        ] {
-            within(name, &[share], 0.0..=1.0)?;
-        }
         let vam_ms = match behaviour.vam {
             VamRule::Etsi => None,
             VamRule::Periodic(interval_ms) => Some(interval_ms),
         };
         for (name, interval_ms, most_ms) in [
-            ("behaviour.vam.periodic", vam_ms, 5_000),
+            ("vam.periodic", vam_ms, 5_000),
+            ("ram_interval_ms", behaviour.ram_interval_ms, 1_000),
+            ("cam_interval_ms", behaviour.cam_interval_ms, 1_000),
             (
-                "behaviour.ram_interval_ms",
-                behaviour.ram_interval_ms,
-                1_000,
-            ),
-            (
-                "behaviour.cam_interval_ms",
-                behaviour.cam_interval_ms,
-                1_000,
-            ),
-            (
-                "behaviour.cluster_vam_interval_ms",
+                "cluster_vam_interval_ms",
                 Some(behaviour.cluster_vam_interval_ms),
                 10_000,
             ),
         ] {
-            within(name, &interval_ms, 100..=most_ms)?;
-            if let Some(odd) = interval_ms.filter(|it| it % CHECK_MS != 0) {
-                let why = format!(
-                    "{name} is {odd}: stations check every {CHECK_MS} ms, a multiple is wanted"
-                );
+            let Some(interval_ms) = interval_ms else {
+                continue;
+            };
+            let is = format!("behaviour.{name} is {interval_ms}");
+            if !(100..=most_ms).contains(&interval_ms) {
+                let why = format!("{is}: 100 to {most_ms} is wanted");
                 return Err(Failure::Input(why));
             }
-        }
-        within(
-            "behaviour.cam_path_points",
-            &[behaviour.cam_path_points],
-            0..=40,
-        )?;
-        within(
-            "behaviour.vehicles_leave_s",
-            &behaviour.vehicles_leave_s,
-            0.0..=1e6,
-        )?;
-        for (name, value, range) in [
-            ("power_dbm", radio.power_dbm, -30.0..=50.0),
-            ("loss_at_1_m_db", radio.loss_at_1_m_db, 0.0..=120.0),
-            ("exponent", radio.exponent, 1.0..=6.0),
-            ("sense_dbm", radio.sense_dbm, -110.0..=-40.0),
-            ("noise_dbm", radio.noise_dbm, -120.0..=-40.0),
-            ("sinr_min_db", radio.sinr_min_db, -10.0..=40.0),
-        ] {
-            within(&format!("behaviour.radio.{name}"), &[value], range)?;
-        }
-        within("behaviour.radio.aifsn", &[radio.aifsn], 2..=15)?;
-        within(
-            "behaviour.radio.contention_window",
-            &[radio.contention_window],
-            1..=1_023,
-        )?;
-        for (name, seconds) in [
-            (
-                "behaviour.sessions.hold_s",
-                behaviour.sessions.map(|it| it.hold_s),
-            ),
-            (
-                "behaviour.sessions.pause_s",
-                behaviour.sessions.map(|it| it.pause_s),
-            ),
-        ] {
-            within(name, &seconds, 1.0..=250.0)?;
+            if interval_ms % CHECK_MS != 0 {
+                let why = format!("{is}: stations check every {CHECK_MS} ms, a multiple is wanted");
+                return Err(Failure::Input(why));
+            }
         }
         if !DATA_RATES_MBPS.contains(&radio.data_rate_mbps) {
             return Err(Failure::Input(format!(
@@ -416,25 +357,59 @@ fn parse(text: &str) -> Result<Table, String> {
 fn merge(all: &mut Table, more: Table) {
     for (name, value) in more {
         match (all.get_mut(&name), value) {
-            (Some(toml::Value::Table(all)), toml::Value::Table(more)) => merge(all, more),
+            (Some(Value::Table(all)), Value::Table(more)) => merge(all, more),
             (_, value) => drop(all.insert(name, value)),
         }
     }
 }
 
-fn within<'a, T: PartialOrd + Display + 'a>(
-    name: &str,
-    values: impl IntoIterator<Item = &'a T>,
-    range: RangeInclusive<T>,
-) -> Result<(), Failure> {
-    match values.into_iter().find(|it| !range.contains(it)) {
-        None => Ok(()),
-        Some(value) => {
-            let (least, most) = range.into_inner();
-            let why = format!("{name} is {value}: {least} to {most} is wanted");
-            Err(Failure::Input(why))
+/// The least and the most of each number, by its name in a file.
+const RANGES: [(&str, f64, f64); 21] = [
+    ("robots", 0.0, 10_000.0),
+    ("pedestrians", 1.0, 100_000.0),
+    ("radii_m", 0.0, 100.0),
+    ("seeds", 1.0, 100_000.0),
+    ("vehicles", 0.0, 10_000.0),
+    ("duration_s", 10.0, 3_600.0),
+    ("dispatch_interval_s", 1.0, 3_600.0),
+    ("behaviour.v2x_share", 0.0, 1.0),
+    ("behaviour.unseen_share", 0.0, 1.0),
+    ("behaviour.cam_path_points", 0.0, 40.0),
+    ("behaviour.vehicles_leave_s", 0.0, 1e6),
+    ("behaviour.radio.power_dbm", -30.0, 50.0),
+    ("behaviour.radio.loss_at_1_m_db", 0.0, 120.0),
+    ("behaviour.radio.exponent", 1.0, 6.0),
+    ("behaviour.radio.sense_dbm", -110.0, -40.0),
+    ("behaviour.radio.noise_dbm", -120.0, -40.0),
+    ("behaviour.radio.sinr_min_db", -10.0, 40.0),
+    ("behaviour.radio.aifsn", 2.0, 15.0),
+    ("behaviour.radio.contention_window", 1.0, 1_023.0),
+    ("behaviour.sessions.hold_s", 1.0, 250.0),
+    ("behaviour.sessions.pause_s", 1.0, 250.0),
+];
+
+/// Refuses the first number that is out of its range.
+fn check_ranges(all: &Table) -> Result<(), Failure> {
+    for (name, least, most) in RANGES {
+        let mut parts = name.split('.');
+        let first = parts.next().and_then(|part| all.get(part));
+        let numbers = match parts.fold(first, |value, part| value?.get(part)) {
+            Some(Value::Array(several)) => several,
+            Some(one) => std::slice::from_ref(one),
+            None => &[],
+        };
+        #[expect(clippy::cast_precision_loss, reason = "ranges are far less than 2^53")]
+        let number = |value: &Value| match value {
+            Value::Integer(number) => Some(*number as f64),
+            value => value.as_float(),
+        };
+        let is_out = |number: &f64| !(least..=most).contains(number);
+        if let Some(number) = numbers.iter().filter_map(number).find(is_out) {
+            let why = format!("{name} is {number}: {least} to {most} is wanted");
+            return Err(Failure::Input(why));
         }
     }
+    Ok(())
 }
 
 fn read(path: &PathBuf) -> Result<Traces, Failure> {
