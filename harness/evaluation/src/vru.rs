@@ -72,6 +72,7 @@ pub enum Understands {
     /// RAM.
     Ram,
     /// Cluster VAM, as every ETSI device.
+    #[serde(alias = "cluster-vam")]
     ClusterVam,
 }
 

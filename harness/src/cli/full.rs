@@ -28,6 +28,8 @@ pub(super) enum Command {
     /// Convert logs to what other tools open: facts as JSON lines, sequence charts.
     Export(export::Arguments),
     /// Repeat the paper's evaluation: coverage and channel load on a grid of streets.
+    ///
+    /// Without a subcommand it ranks the intersections by the coverage that a robot there adds to those ranked before.
     Simulate(Box<simulate::Arguments>),
     /// Print what is in a capture, one line per message.
     Sniff(sniff::Arguments),

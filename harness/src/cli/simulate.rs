@@ -18,7 +18,7 @@ use crossguard_evaluation::stationing::Stationing;
 use crossguard_evaluation::trace::{Run, Traces};
 use serde::Serialize;
 
-use self::options::{Air, Assumptions, Matrix, Mobility, Output, Placement};
+use self::options::{Air, Assumptions, Matrix, Mobility, Output};
 use self::parameters::Parameters;
 use super::interrupts::interrupts;
 use super::{Failure, csv, destinations, print, print_json};
@@ -62,12 +62,9 @@ struct Cbr {
     output: Output,
 }
 
-/// Without a subcommand: where robots should stand.
+/// Without a subcommand: the intersections, each ranked by the coverage that a robot there adds to those ranked before.
 #[derive(clap::Args)]
 struct Rank {
-    /// Rank the intersections by the coverage that a robot there adds to those ranked before.
-    #[arg(long, value_name = "HOW", default_value = "greedy")]
-    place: Placement,
     #[command(flatten)]
     matrix: Matrix,
     /// Print the ranking as JSON, and nothing else.
@@ -246,7 +243,6 @@ struct Ranked {
 }
 
 fn place(arguments: &Rank) -> Result<(), Failure> {
-    let Placement::Greedy = arguments.place;
     let chosen = arguments.matrix.parameters(None)?;
     let mut rankings = Vec::new();
     let axes = chosen.axes()?;

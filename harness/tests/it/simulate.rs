@@ -399,7 +399,7 @@ fn channel_load_has_the_shape_that_scripts_read() {
 
 #[test]
 fn intersections_are_ranked_by_what_they_add() {
-    let rankings = json("--place greedy --json --pedestrians 100 --radius 15");
+    let rankings = json("--json --pedestrians 100 --radius 15");
     let ranking = rankings[0]["ranking"].as_array().unwrap();
     assert_eq!(ranking.len(), 9);
     // The middle of the grid is where most people pass.

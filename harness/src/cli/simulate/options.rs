@@ -3,7 +3,6 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use clap::builder::TypedValueParser;
 use crossguard_evaluation::behaviour::Behaviour;
 use crossguard_evaluation::grid::{Grid, Preset, Site};
 use crossguard_evaluation::matrix::Axes;
@@ -12,21 +11,23 @@ use crossguard_evaluation::simulation::CHECK_MS;
 use crossguard_evaluation::statements::Setting;
 use crossguard_evaluation::stationing::Stationing;
 use crossguard_evaluation::trace::{Run, Traces};
-use crossguard_evaluation::vru::{Suppression, Understands, VamRule};
+use crossguard_evaluation::vru::VamRule;
 use serde::{Serialize, Serializer};
 use toml::{Table, Value};
 
 use super::Failure;
 use super::parameters::Parameters;
-use crate::cli::choices::one_of;
 use crate::cli::destinations;
 
 /// How people move, and the parameters that have no flag of their own.
 #[derive(clap::Args, Serialize)]
 pub(super) struct Mobility {
     /// Assumptions on the geometry, which the paper does not state [default: kerb]
-    #[arg(long, value_parser = preset())]
-    preset: Option<Preset>,
+    ///
+    /// kerb has two lanes per direction, sidewalks of 3 m, and robots on the sidewalk at a corner; plain has one lane per
+    /// direction, sidewalks of 2 m, and robots in the middle of the intersection.
+    #[arg(long, value_parser = ["kerb", "plain"])]
+    preset: Option<String>,
     /// Make fresh mobility with SUMO, whose programs are in this folder
     #[arg(long, value_name = "FOLDER")]
     sumo: Option<PathBuf>,
@@ -87,9 +88,11 @@ pub(super) struct Matrix {
     #[serde(rename = "radii_m")]
     radius: Option<Vec<f64>>,
     /// Where at an intersection robots stand [default: by the preset]
-    #[arg(long, value_parser = site())]
+    ///
+    /// In its middle, or on the sidewalk of this corner.
+    #[arg(long, value_parser = ["center", "north-east", "north-west", "south-east", "south-west"])]
     #[serde(rename = "robot_site")]
-    site: Option<Site>,
+    site: Option<String>,
 }
 
 impl Matrix {
@@ -226,13 +229,6 @@ impl Assumptions {
     }
 }
 
-/// How robots are placed.
-#[derive(Clone, Copy, clap::ValueEnum)]
-pub(super) enum Placement {
-    /// The best intersection first, then the best one besides it, and so on.
-    Greedy,
-}
-
 /// Where results go.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Results")]
@@ -256,11 +252,16 @@ pub(super) struct Air {
     #[arg(long, value_name = "rules|HZ")]
     ram: Option<String>,
     /// Which announcements devices understand [default: ram]
-    #[arg(long, value_parser = devices())]
-    devices: Option<Understands>,
+    ///
+    /// RAM: they fall silent when one covers them. Cluster VAM, as every ETSI device: robots send them besides RAM.
+    #[arg(long, value_parser = ["ram", "cluster-vam"])]
+    devices: Option<String>,
     /// When devices fall silent [default: strict]
-    #[arg(long, value_parser = suppression())]
-    suppression: Option<Suppression>,
+    ///
+    /// strict: only if it was perceived itself, so that it is where a cluster is and moves as that does. loose: wherever the
+    /// bounding shape of a cluster covers it, perceived or not.
+    #[arg(long, value_parser = ["strict", "loose"])]
+    suppression: Option<String>,
     /// Packets are signed
     #[arg(long)]
     signed: bool,
@@ -298,24 +299,8 @@ impl Air {
             "ram_interval_ms",
             ram.map(|it| Value::Integer(it.unwrap_or(0))),
         );
-        put(
-            "understands",
-            self.devices.map(|it| {
-                words(match it {
-                    Understands::Ram => "ram",
-                    Understands::ClusterVam => "clusterVam",
-                })
-            }),
-        );
-        put(
-            "suppression",
-            self.suppression.map(|it| {
-                words(match it {
-                    Suppression::Strict => "strict",
-                    Suppression::Loose => "loose",
-                })
-            }),
-        );
+        put("understands", self.devices.as_deref().map(words));
+        put("suppression", self.suppression.as_deref().map(words));
         put("signed", self.signed.then_some(Value::Boolean(true)));
         put("dcc", self.dcc.then_some(Value::Boolean(true)));
         Ok(behaviour)
@@ -361,81 +346,6 @@ fn per_second(interval_ms: u64) -> String {
     let text = format!("{hz:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     format!("{text} per second, one every {interval_ms} ms")
-}
-
-/// Assumptions on the geometry of the street grid.
-fn preset() -> impl TypedValueParser<Value = Preset> {
-    one_of(&[
-        (
-            "kerb",
-            Preset::Kerb,
-            "Two lanes per direction, sidewalks of 3 m, robots on the sidewalk at a corner",
-        ),
-        (
-            "plain",
-            Preset::Plain,
-            "One lane per direction, sidewalks of 2 m, robots in the middle of the intersection",
-        ),
-    ])
-}
-
-/// Which announcements of a robot people's devices understand.
-fn devices() -> impl TypedValueParser<Value = Understands> {
-    one_of(&[
-        (
-            "ram",
-            Understands::Ram,
-            "RAM; they fall silent when one covers them",
-        ),
-        (
-            "cluster-vam",
-            Understands::ClusterVam,
-            "Cluster VAM, as every ETSI device; robots send them besides RAM",
-        ),
-    ])
-}
-
-/// When a device that understands RAM falls silent.
-fn suppression() -> impl TypedValueParser<Value = Suppression> {
-    one_of(&[
-        (
-            "strict",
-            Suppression::Strict,
-            "Only if it was perceived itself: it is where a cluster is, and moves as that does",
-        ),
-        (
-            "loose",
-            Suppression::Loose,
-            "Wherever the bounding shape of a cluster covers it, perceived or not",
-        ),
-    ])
-}
-
-/// Where at an intersection a robot stands.
-fn site() -> impl TypedValueParser<Value = Site> {
-    one_of(&[
-        ("center", Site::Center, "In its middle"),
-        (
-            "north-east",
-            Site::NorthEast,
-            "On the sidewalk of its north-eastern corner",
-        ),
-        (
-            "north-west",
-            Site::NorthWest,
-            "On the sidewalk of its north-western corner",
-        ),
-        (
-            "south-east",
-            Site::SouthEast,
-            "On the sidewalk of its south-eastern corner",
-        ),
-        (
-            "south-west",
-            Site::SouthWest,
-            "On the sidewalk of its south-western corner",
-        ),
-    ])
 }
 
 #[cfg(test)]
