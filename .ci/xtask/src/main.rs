@@ -1,66 +1,68 @@
-//! The developer commands of this repository: `cargo xtask --help`.
+//! `cargo xtask bless [PART]` writes every generated and golden file anew, or those whose paths contain PART. Look at the
+//! difference before you commit it.
 //!
-//! Exit codes: 0 passed, 1 a check failed, 2 wrong arguments, 3 a program could not be started.
-
-mod bless;
-mod steps;
+//! A test compares each file with what it should be. With `CROSSGUARD_BLESS=1` in its environment, the test writes the
+//! file instead. Exit codes: 0 all are written, 1 a test failed, 2 wrong arguments, 3 a program could not be started.
 
 use std::path::Path;
-use std::process::ExitCode;
+use std::process::{Command, ExitCode};
 
-use clap::{Parser, Subcommand};
-
-use steps::NotStarted;
-
-/// Checks and tools for work on this repository.
-///
-/// Exit codes: 0 passed, 1 a check failed, 2 wrong arguments, 3 a program could not be started.
-#[derive(Parser)]
-#[command(name = "cargo xtask", bin_name = "cargo xtask")]
-struct Arguments {
-    #[command(subcommand)]
-    command: Command,
-}
-
-#[derive(Subcommand)]
-enum Command {
-    /// Writes every generated and golden file anew; look at the difference before you commit it.
-    Bless {
-        /// Only paths that contain this text.
-        #[arg(value_parser = bless::part)]
-        part: Option<String>,
-    },
-    /// Checks what fails most often, in less than two minutes after a build.
-    Quick,
-    /// Runs .ci/run, which checks everything.
-    Full,
-    /// Makes what a release consists of, into target/dist: archives, a Debian package, a wheel, bills of material, checksums.
-    Dist {
-        /// Install and use each of them in a Debian without Rust and without network. Wants root.
-        #[arg(long = "try")]
-        is_tried: bool,
-    },
-}
+/// Files, folders and parts of files, and the command that writes each. Sources first: what follows from other files comes
+/// after them.
+const GENERATED: &str = "\
+protocol/src: words and named tasks, in other languages <- cargo test -p crossguard-protocol --test languages
+protocol/words.md <- cargo test -p crossguard-protocol --test words
+protocol/tests/scripts/ <- cargo test -p crossguard-protocol --test it interpreter
+codec/src/asn1/generated.rs <- cargo test -p crossguard-codec --test it generated
+codec/tests/golden/messages.json <- cargo test -p crossguard-codec --test it golden_messages
+codec/tests/golden/security.json <- cargo test -p crossguard-codec --features security --test it security::vectors
+codec/wireshark/crossguard.lua: the types <- codec/judges/run
+harness/robot/tests/beside.json <- codec/judges/run
+harness/c/include/crossguard.h <- cargo test -p crossguard-c --test header
+model-check/doc/paper-literal.md <- cargo test -p crossguard-model-check --test it paper_literal::
+harness/conform/src/cases.txt <- cargo test -p crossguard-conform --test generated
+protocol/doc/protocol.md: the state diagram <- cargo test -p crossguard-harness --test it pages::the_state_diagram
+protocol/doc/protocol.md: the index of rules <- cargo test -p crossguard-harness --test it pages::the_index_of_rules
+harness/tests/cmd/ <- cargo test -p crossguard-harness --test it cmd::
+README.md: the sum of states <- cargo test -p crossguard-harness --test it pages::the_readmes_sum_of_states";
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse().command) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::from(3)
+    let arguments: Vec<_> = std::env::args().skip(1).collect();
+    let arguments: Vec<_> = arguments.iter().map(String::as_str).collect();
+    let part = match arguments[..] {
+        ["bless"] => "",
+        ["bless", part] => part,
+        _ => {
+            eprintln!("usage: cargo xtask bless [PART OF A PATH]");
+            return ExitCode::from(2);
         }
+    };
+    let rows = || GENERATED.lines().filter_map(|row| row.split_once(" <- "));
+    let named: Vec<_> = rows().filter(|(path, _)| path.contains(part)).collect();
+    if named.is_empty() {
+        let paths: Vec<_> = rows().map(|(path, _)| path).collect();
+        let paths = paths.join("\n    ");
+        eprintln!("no generated file is named so; there are:\n    {paths}");
+        return ExitCode::from(2);
     }
-}
-
-/// Whether the command found everything in order.
-fn run(command: &Command) -> Result<bool, NotStarted> {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let root = here.ancestors().nth(2).expect("the crate is in .ci/xtask");
-    match command {
-        Command::Bless { part } => bless::bless(root, part.as_deref().unwrap_or_default()),
-        Command::Quick => steps::quick(root),
-        Command::Full => steps::full(root),
-        Command::Dist { is_tried } => steps::dist(root, *is_tried),
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let (mut done, mut is_ok) = (Vec::new(), true);
+    for (path, by) in named {
+        if done.contains(&by) {
+            continue;
+        }
+        println!("== {path}: {by}");
+        let mut words = by.split(' ');
+        let mut command = Command::new(words.next().unwrap_or_default());
+        command.args(words).current_dir(&root);
+        match command.env("CROSSGUARD_BLESS", "1").status() {
+            Ok(status) => is_ok &= status.success(),
+            Err(cause) => {
+                eprintln!("could not start {by}: {cause}");
+                return ExitCode::from(3);
+            }
+        }
+        done.push(by);
     }
+    ExitCode::from(u8::from(!is_ok))
 }

@@ -1,5 +1,5 @@
 //! Writes the man pages and completions of the command, from its one definition: `pages FOLDER`. The folder is laid out like
-//! `/usr/local`. `cargo xtask dist` packs it.
+//! `/usr/local`. `.ci/dist` packs it.
 
 use std::fs::create_dir_all;
 use std::path::PathBuf;
