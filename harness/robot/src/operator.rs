@@ -13,7 +13,8 @@ use crate::perception::{self, Observation};
 use crate::runtime::Order;
 use crate::site::Site;
 
-use commands::{COMMANDS, Command, Scope};
+pub use commands::Command;
+use commands::{COMMANDS, Scope};
 
 /// A line that was typed.
 #[derive(Clone, PartialEq, Debug)]

@@ -4,7 +4,7 @@
 
 use std::fmt;
 use std::io::{BufRead, BufReader, Error, ErrorKind, Read, Write};
-use std::net::Shutdown;
+use std::net::{IpAddr, Shutdown, SocketAddr, TcpStream};
 use std::os::unix::fs::{FileTypeExt as _, MetadataExt as _};
 use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::{Path, PathBuf};
@@ -94,7 +94,52 @@ pub(crate) fn prepare(stream: UnixStream) -> std::io::Result<(Stream, UnixStream
 fn stranger(stream: &UnixStream) -> Option<u32> {
     // A user that the kernel does not name is nobody's.
     let uid = getsockopt(stream, PeerCredentials).map_or(u32::MAX, |peer| peer.uid());
-    (uid != geteuid().as_raw() && uid != 0).then_some(uid)
+    (!is_own(uid)).then_some(uid)
+}
+
+fn is_own(uid: u32) -> bool {
+    uid == geteuid().as_raw() || uid == 0
+}
+
+/// Whether a client of this machine is of the user of this process, or root, as clients of ports are. The kernel names the
+/// users of established connections in `/proc/net`; a client without a name there is nobody's.
+#[must_use]
+pub fn is_own_client(client: &TcpStream) -> bool {
+    let user = || {
+        let (theirs, ours) = (client.peer_addr().ok()?, client.local_addr().ok()?);
+        let version = if theirs.is_ipv4() { "" } else { "6" };
+        let table = std::fs::read_to_string(format!("/proc/net/tcp{version}")).ok()?;
+        let ends = format!("{} {} 01 ", end(theirs), end(ours));
+        let mut lines = table.lines().filter_map(|line| line.split_once(": "));
+        let rest = lines.find_map(|(_, line)| line.strip_prefix(&ends));
+        rest?.split_whitespace().nth(3)?.parse().ok()
+    };
+    user().is_some_and(is_own)
+}
+
+/// An end of a connection as `/proc/net` spells it: the words of the address as this machine has them in memory.
+fn end(address: SocketAddr) -> String {
+    let octets = match address.ip() {
+        IpAddr::V4(ip) => ip.octets().to_vec(),
+        IpAddr::V6(ip) => ip.octets().to_vec(),
+    };
+    let (words, _) = octets.as_chunks();
+    let words = words.iter().map(|word| u32::from_ne_bytes(*word));
+    let ip: String = words
+        .map(|word| hex::encode_upper(word.to_be_bytes()))
+        .collect();
+    format!("{ip}:{:04X}", address.port())
+}
+
+/// Connects to a port, and waits so long for room among those who wait there: a robot that hangs takes nobody in.
+///
+/// # Errors
+/// When nobody listens there, or takes this connection.
+pub fn connect(port: &PortAddress, patience: Duration) -> std::io::Result<UnixStream> {
+    let socket = Socket::new(Domain::UNIX, Type::STREAM, None)?;
+    socket.set_write_timeout(Some(patience))?;
+    socket.connect(&SockAddr::unix(&port.0)?)?;
+    Ok(UnixStream::from(std::os::fd::OwnedFd::from(socket)))
 }
 
 /// What comes in by a port. Connections are numbered.
@@ -300,6 +345,43 @@ mod tests {
         let _owner = UnixStream::connect(&path).unwrap();
         let heard = port.heard.recv_timeout(Duration::from_mins(1)).unwrap();
         assert!(matches!(heard, Heard::Connected(..)), "{heard:?}");
+    }
+
+    /// Hazard: the studio, which is on TCP, opens the operator port to every account of the machine.
+    #[test]
+    fn a_tcp_client_of_another_user_is_no_own_client() {
+        let python = "import socket, sys; it = socket.create_connection(('127.0.0.1', int(sys.argv[1]))); \
+                      it.settimeout(60); it.recv(1)";
+        for listen in ["127.0.0.1:0", "[::1]:0"] {
+            let Ok(listener) = std::net::TcpListener::bind(listen) else {
+                println!("SKIPPED a_tcp_client_of_another_user_is_no_own_client at {listen}");
+                continue;
+            };
+            let address = listener.local_addr().unwrap();
+            let own = TcpStream::connect(address).unwrap();
+            let client = listener.accept().unwrap().0;
+            assert!(is_own_client(&client), "{listen}");
+            // The kernel names no user of a connection that its client has closed.
+            drop(own);
+            while is_own_client(&client) {
+                std::thread::yield_now();
+            }
+        }
+        if !geteuid().is_root() {
+            println!("SKIPPED a_tcp_client_of_another_user_is_no_own_client: it takes root");
+            return;
+        }
+        let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+        let port = listener.local_addr().unwrap().port().to_string();
+        let mut stranger = Command::new("/usr/bin/python3");
+        let Ok(mut child) = stranger.args(["-c", python, &port]).uid(12_345).spawn() else {
+            println!("SKIPPED a_tcp_client_of_another_user_is_no_own_client: there is no python3");
+            return;
+        };
+        let client = listener.accept().unwrap().0;
+        assert!(!is_own_client(&client));
+        drop(client);
+        child.wait().unwrap();
     }
 
     #[test]

@@ -24,17 +24,28 @@ pub(super) struct Scope<'a> {
     pub(super) planned: Option<HelpRequest>,
 }
 
-/// A command.
-pub(super) struct Command {
-    pub(super) name: &'static str,
-    /// What follows its name, for people.
-    pub(super) usage: &'static str,
-    /// What it does, for people.
-    pub(super) meaning: &'static str,
+/// A command, with its words for people.
+#[derive(serde::Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Command {
+    /// Its name, the first word of a line.
+    pub name: &'static str,
+    /// The words after its name; empty where there are none.
+    pub usage: &'static str,
+    /// Its effect.
+    pub meaning: &'static str,
+    /// Its consequence for a person on the road; `None` for a command of the console alone.
+    pub on_road: Option<&'static str>,
+    #[serde(skip)]
     pub(super) parse: fn(&[&str], &Scope<'_>) -> Result<Line, Misunderstood>,
 }
 
 impl Command {
+    /// The commands that [the port](super::port) takes from other programs.
+    pub fn of_programs() -> impl Iterator<Item = &'static Self> {
+        COMMANDS.iter().filter(|it| it.on_road.is_some())
+    }
+
     pub(super) fn named(name: &str) -> Option<&'static Self> {
         COMMANDS.iter().find(|it| it.name == name)
     }
@@ -48,12 +59,20 @@ impl Command {
             name,
             usage: "",
             meaning,
+            on_road: None,
             parse,
         }
     }
 
     const fn taking(self, usage: &'static str) -> Self {
         Self { usage, ..self }
+    }
+
+    const fn on_road(self, consequence: &'static str) -> Self {
+        Self {
+            on_road: Some(consequence),
+            ..self
+        }
     }
 }
 
@@ -63,97 +82,118 @@ pub(super) const COMMANDS: &[Command] = &[
         "a pedestrian needs help; what the plan asks for by default, or else 1 follower for initialPos and move",
         detect,
     )
-    .taking("[FOLLOWERS] [low|medium|high|emergency] [TASK ...]"),
+    .taking("[FOLLOWERS] [low|medium|high|emergency] [TASK ...]")
+    .on_road("the sign shows go only once every guard is engaged"),
     Command::new(
         "order",
         "have a follower do a maneuver, in metres and m/s, at this road segment or intersection of the map; \
          map_place or crossing of the configuration by default",
         order,
     )
-    .taking("STATION TASK [EAST NORTH [SPEED]] [segment|intersection [REGION:]NUMBER]"),
+    .taking("STATION TASK [EAST NORTH [SPEED]] [segment|intersection [REGION:]NUMBER]")
+    .on_road("a leader orders no guard away while somebody may be on the road"),
     Command::new(
         "show",
         "the signals to vehicles and to pedestrians that its RAM tells of: none, stop, go, caution; only an open corridor \
          shows go to pedestrians; the means are those of the configuration by default",
         show,
     )
-    .taking("VEHICLES [PEDESTRIANS] [gesture] [display] [lights] [speech]"),
+    .taking("VEHICLES [PEDESTRIANS] [gesture] [display] [lights] [speech]")
+    .on_road("a RAM that shows go to vehicles while a person is on the road invites them to drive at the person"),
     Command::new(
         "in-position",
         "the body is at the place from which it guards",
         |words, _| nothing(words).map(|()| Line::Order(Order::InPosition)),
-    ),
+    )
+    .on_road("the leader lets people on the road by it: say it only when the body is there"),
     Command::new(
         "out-of-position",
         "the body is not at that place any more",
         |words, _| nothing(words).map(|()| Line::Order(Order::OutOfPosition)),
-    ),
+    )
+    .on_road("the corridor closes; a person who is on the road crosses without this guard in its place"),
     Command::new(
         "person-on-road",
         "this robot itself sees somebody on the road: it stays until 'clear', however the session ends",
         |words, _| event(words, Event::PersonOnRoad),
-    ),
+    )
+    .on_road("this robot guards the person until 'clear'"),
     Command::new(
         "done",
         "the maneuver that runs is finished, or the fallback that runs",
         |words, _| nothing(words).map(|()| Line::Order(Order::Finish { well: true })),
-    ),
+    )
+    .on_road("a guard that has finished guards nobody, and its leader closes the corridor"),
     Command::new("fail", "the maneuver that runs cannot be finished", |words, _| {
         nothing(words).map(|()| Line::Order(Order::Finish { well: false }))
-    }),
+    })
+    .on_road("a guard that has failed guards nobody, and its leader closes the corridor"),
     Command::new("open", "open the corridor", |words, _| {
         event(words, Event::OpenCorridor)
-    }),
+    })
+    .on_road("the sign shows go while every guard is engaged: people step on the road"),
     Command::new("close", "close the corridor", |words, _| {
         event(words, Event::CloseCorridor)
-    }),
+    })
+    .on_road("the sign shows stop; the guards stay for people who are on the road"),
     Command::new(
         "task-completed",
         "the pedestrian has crossed, and nobody is on the road",
         |words, _| event(words, Event::TaskCompleted),
-    ),
+    )
+    .on_road("it takes the guards off the road: say it only when you see nobody on the road"),
     Command::new(
         "clear",
         "nobody is on the road any more: ends the duty of a robot that fell back or gave up, once its body has \
          finished its fallback",
         |words, _| nothing(words).map(|()| Line::Order(Order::Clear)),
-    ),
+    )
+    .on_road("the robot counts the road as clear, ends its duty and may leave: say it only when you see nobody on the road"),
     Command::new("tell", "an event of the protocol that comes with nothing, by its name in JSON", told)
-        .taking("EVENT"),
+        .taking("EVENT")
+    .on_road("that of the event; roadClear and taskCompleted take guards off the road"),
     Command::new("leave", "leave the session", |words, _| {
         event(words, Event::LeaveRequested)
-    }),
+    })
+    .on_road("the corridor closes; guards hold or bring the person to the kerb, and are on duty until 'clear'"),
     Command::new(
         "unavailable",
-        "low-battery, teleoperated, emergency-stop, local-fault, not-safe",
+        "take part in nothing, because of: low-battery, teleoperated, emergency-stop, local-fault, not-safe",
         |words, _| {
             let reason = unavailability(only(words, "unavailable", "a reason")?)?;
             let availability = Availability::Unavailable(reason);
             Ok(tell(Event::AvailabilityChanged(availability)))
         },
     )
-    .taking("REASON"),
+    .taking("REASON")
+    .on_road("the corridor closes. After emergency-stop, teleoperated or local-fault a guard stands still where it is and guards \
+         nobody; after the others it holds or brings the person to the kerb, and is on duty until 'clear'"),
     Command::new("available", "take part again", |words, _| {
         event(words, Event::AvailabilityChanged(Availability::Available))
-    }),
+    })
+    .on_road("nothing changes; the robot may be asked to guard again"),
     Command::new(
         "battery",
         "how full the battery is; below the limit of its robot file a robot is unavailable",
         battery,
     )
-    .taking("PERCENT [charging]"),
+    .taking("PERCENT [charging]")
+    .on_road("below the limit of its robot file the robot is unavailable: the corridor closes, and a guard holds or brings the \
+         person to the kerb"),
     Command::new(
         "job",
         "the job that its RAM says it is there for: none, traffic-guard, escort, patrol, delivery, maintenance, other",
         |words, _| Ok(Line::Order(Order::Job(job(only(words, "job", "a job")?)?))),
     )
-    .taking("ROLE"),
+    .taking("ROLE")
+    .on_road("nothing changes"),
     Command::new(
         "serve",
         "the road segment or intersection that its RAM says it serves, and that the commands of its plan name",
         serve,
     )
-    .taking("segment|intersection [REGION:]NUMBER | none"),
+    .taking("segment|intersection [REGION:]NUMBER | none")
+    .on_road("nothing changes"),
     Command::new(
         "status",
         "what the robot is doing, what it heard, who is around, and how link, security and channel are",
@@ -173,7 +213,8 @@ pub(super) const COMMANDS: &[Command] = &[
         .taking("[COMMAND]"),
     Command::new("quit", "leave the session and stop", |words, _| {
         nothing(words).map(|()| Line::Quit)
-    }),
+    })
+    .on_road("the corridor closes; a guard ends its fallback first. Then the program ends, forgets its duty and guards nobody"),
 ];
 
 /// The application tells its robot so.

@@ -160,6 +160,22 @@ fn each_line_is_an_order_or_is_refused_and_counted() {
     }
 }
 
+#[test]
+fn the_port_takes_the_commands_that_say_what_they_mean_for_somebody_on_the_road() {
+    let (counter, _) = counter();
+    for command in super::super::COMMANDS {
+        let words = match command.name {
+            "wait" => "wait 1",
+            "until" => "until idle",
+            name => name,
+        };
+        let line = serde_json::json!({"type": "command", "line": words}).to_string();
+        let why = counter.understand(&line).err().unwrap_or_default();
+        let is_of_console = why.ends_with("is for the console");
+        assert_eq!(is_of_console, command.on_road.is_none(), "{words}: {why}");
+    }
+}
+
 /// A line that is refused, and why.
 const REFUSED: &str = r#"
 {"type": "frame", "people": []}                           | a frame wants either 'at_s'
