@@ -12,6 +12,8 @@ use std::net::{IpAddr, Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use crossguard_robot::port::is_own_client;
+
 /// How long a client may take to ask, and to take the answer.
 const PATIENCE: Duration = Duration::from_secs(2);
 
@@ -32,6 +34,20 @@ pub(crate) struct Request<'a> {
     pub(crate) query: &'a str,
     /// What is sent along with POST; nothing with GET.
     pub(crate) body: &'a [u8],
+    content_type: Option<&'a str>,
+    client: &'a TcpStream,
+}
+
+impl Request<'_> {
+    /// Why this request may not do anything, if so: it may be of a page of another origin, for which a browser sends no JSON
+    /// unasked, or of another user of the machine.
+    pub(crate) fn foreign(&self) -> Option<&'static str> {
+        if self.content_type != Some("application/json") {
+            return Some("a POST of application/json is wanted\n");
+        }
+        let cause = "another user of this machine asks, or the kernel does not name the user in /proc/net\n";
+        (!is_own_client(self.client)).then_some(cause)
+    }
 }
 
 /// What it gets.
@@ -123,7 +139,16 @@ fn converse(
     let is_open = body_max == 0 && !address.ip().is_loopback();
     let same_origin = |origin: &str| origin.split_once("://").map(|(_, it)| it) == host;
     let length = field("content-length").map_or(Some(0), |length| length.parse().ok());
-    let ask = |body| answer(&Request { path, query, body });
+    let content_type = field("content-type");
+    let ask = |body| {
+        answer(&Request {
+            path,
+            query,
+            body,
+            content_type,
+            client,
+        })
+    };
     let Answer {
         status,
         content_type,

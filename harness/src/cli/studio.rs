@@ -4,6 +4,7 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use crossguard_robot::port::PortAddress;
 use crossguard_robot::site_file::SiteFile;
 
 use super::interrupts::interrupts_that;
@@ -22,6 +23,9 @@ pub(super) struct Arguments {
     /// Follow the logs while robots write them, on the page Live; a log may come later.
     #[arg(long, requires = "logs")]
     follow: bool,
+    /// Command a robot that is followed by its operator port, as its robot file and `run` name it; the page asks first.
+    #[arg(long, value_name = "unix:FILE", requires = "follow", value_parser = operator_port)]
+    operator: Vec<PortAddress>,
     /// A run through a scenario, as `check --charts` and pages of the studio write it, for the page Explore.
     #[arg(long, value_name = "FILE")]
     replay: Vec<PathBuf>,
@@ -44,6 +48,7 @@ Examples:
   crossguard demo --log crossing.jsonl && crossguard studio crossing.jsonl --site street
   crossguard studio ari.jsonl go2.jsonl --no-browser --port 0
   crossguard studio --follow crossing.jsonl --site street    while `crossguard demo --log crossing.jsonl` runs
+  crossguard studio --follow go2.jsonl --operator unix:go2-operator.sock    commands Go2 from the page
   crossguard check my.toml --charts found; crossguard studio --replay found/my-I2.json
 
 Without files, the pages Play and Explore are there: the protocol to play with, and scenarios step by step. The page After \
@@ -56,6 +61,10 @@ Exit codes: 0 it was ended, 2 bad usage, a log that is missing or holds no recor
 fn address(text: &str) -> Result<IpAddr, String> {
     let wanted = "an address of this machine like 127.0.0.1 is wanted";
     text.parse().map_err(|_| wanted.to_owned())
+}
+
+fn operator_port(text: &str) -> Result<PortAddress, String> {
+    PortAddress::parse(text, Path::new("")).map_err(|error| error.to_string())
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -77,6 +86,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let is_own = arguments.address.is_loopback();
     let study =
         is_own.then(|| Box::new(move |logs: &[(String, &[u8])]| opened(logs, street.clone())) as _);
+    if !is_own && !arguments.operator.is_empty() {
+        let cause =
+            "--operator: others than this machine would command the robot; leave --address out";
+        return Err(Failure::input(cause.to_owned()));
+    }
     let wanted = SocketAddr::new(arguments.address, arguments.port);
     let given = arguments.replay.iter().map(|path| given(path));
     let given = given.collect::<Result<_, _>>()?;
@@ -146,5 +160,6 @@ fn followed(arguments: &Arguments, street: Option<SiteFile>) -> Result<Followed,
     Ok(Followed {
         logs: arguments.logs.clone(),
         street,
+        operators: arguments.operator.clone(),
     })
 }

@@ -1,5 +1,6 @@
 //! Robots while they run, by the logs that they write.
 
+mod operator;
 mod state;
 mod tail;
 
@@ -7,9 +8,11 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
+use crossguard_robot::port::PortAddress;
 use crossguard_robot::site_file::SiteFile;
 
 use super::shell::{Page, Refusal, Skip, View, json};
+use operator::Operators;
 use state::State;
 use tail::Tail;
 
@@ -29,6 +32,7 @@ static PAGE: Page = Page {
     files: &[
         ("live.css", include_str!("live/live.css")),
         ("live.js", include_str!("live/live.js")),
+        ("operator.js", include_str!("live/operator.js")),
     ],
 };
 
@@ -39,19 +43,26 @@ pub struct Followed {
     pub logs: Vec<PathBuf>,
     /// The street that the map shows.
     pub street: Option<SiteFile>,
+    /// The operator ports by which the page commands robots.
+    pub operators: Vec<PortAddress>,
 }
 
 /// The view of robots that run.
-pub(super) struct Live(Option<Arc<Mutex<State>>>);
+pub(super) struct Live(Option<(Arc<Mutex<State>>, Operators)>);
 
 impl Live {
     pub(super) fn new(followed: Option<Followed>) -> Self {
-        Self(followed.map(|Followed { logs, street }| {
+        Self(followed.map(|followed| {
+            let Followed {
+                logs,
+                street,
+                operators,
+            } = followed;
             let state = Arc::new(Mutex::new(State::new(&logs, street)));
             let shared = Arc::clone(&state);
             // It ends with the process. A log is read by one thread: what it has read of a line stays there.
             std::thread::spawn(move || follow(logs, &shared));
-            state
+            (state, Operators::new(operators))
         }))
     }
 }
@@ -83,8 +94,12 @@ impl View for Live {
         self.0.is_none().then_some(wants)
     }
 
-    fn ask(&self, what: &str, _query: &str, _body: &[u8]) -> Result<String, Refusal> {
-        let Some(state) = &self.0 else {
+    fn commands(&self) -> Option<&'static str> {
+        Some("operator")
+    }
+
+    fn ask(&self, what: &str, _query: &str, body: &[u8]) -> Result<String, Refusal> {
+        let Some((state, operators)) = &self.0 else {
             let cause = "this studio follows no log: crossguard studio --follow LOG...";
             return Err(Refusal::Wrong(cause.to_owned()));
         };
@@ -93,6 +108,8 @@ impl View for Live {
                 let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
                 json(&state.now())
             }
+            "operators" => json(&operators.offered()),
+            "operator" => operators.ask(body).map_err(Refusal::Wrong),
             _ => Err(Refusal::Unknown),
         }
     }

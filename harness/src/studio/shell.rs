@@ -84,6 +84,10 @@ pub(super) trait View: Send + Sync {
     fn fixed(&self) -> &'static [&'static str] {
         &[]
     }
+    /// The question that commands robots: only a page of this server tells it, for the user of this process.
+    fn commands(&self) -> Option<&'static str> {
+        None
+    }
     /// The answer, in JSON, to `/NAME/api/WHAT?QUERY`, with the body of a POST.
     fn ask(&self, what: &str, query: &str, body: &[u8]) -> Result<String, Refusal>;
 }
@@ -145,6 +149,10 @@ fn respond(request: &Request, views: &[Box<dyn View>]) -> Answer {
     let Some(what) = file.strip_prefix("api/") else {
         return find(view.page().files, file);
     };
+    let foreign = || request.foreign().filter(|_| view.commands() == Some(what));
+    if let Some(cause) = foreign() {
+        return answer("403 Forbidden", TEXT, cause);
+    }
     match view.ask(what, request.query, request.body) {
         Ok(json) => answer("200 OK", "application/json", json),
         Err(Refusal::Unknown) => nothing(),

@@ -4,6 +4,7 @@ mod attack;
 mod check;
 mod ci_example;
 mod cmd;
+mod commanded;
 mod cut_short;
 mod demo;
 mod full_disk;

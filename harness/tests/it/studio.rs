@@ -10,13 +10,13 @@ use crossguard_testkit::command::*;
 use crate::sim::log_of;
 
 /// A studio that is served.
-struct Studio {
+pub(crate) struct Studio {
     _child: Killed,
-    address: String,
+    pub(crate) address: String,
 }
 
 impl Studio {
-    fn of(logs: &[&Path]) -> Self {
+    pub(crate) fn of(logs: &[&Path]) -> Self {
         let mut command = crossguard(&["studio", "--no-browser", "--port", "0"]);
         let mut child = command.args(logs).stdout(Stdio::piped()).spawn().unwrap();
         let mut line = String::new();
@@ -31,11 +31,11 @@ impl Studio {
     }
 
     /// What it answers to a request, by its own name or another one.
-    fn ask(&self, request: &str, host: &str, rest: &str) -> String {
+    pub(crate) fn ask(&self, request: &str, host: &str, rest: &str) -> String {
         self.send(request, host, rest, &[])
     }
 
-    fn send(&self, request: &str, host: &str, rest: &str, body: &[u8]) -> String {
+    pub(crate) fn send(&self, request: &str, host: &str, rest: &str, body: &[u8]) -> String {
         let mut client = TcpStream::connect(&self.address).unwrap();
         write!(client, "{request} HTTP/1.1\r\nHost: {host}\r\n{rest}\r\n").unwrap();
         client.write_all(body).unwrap();
@@ -124,7 +124,7 @@ fn open_logs(studio: &Studio, files: &[&Path], more: &str) -> (String, String) {
     parts(&answer)
 }
 
-fn parts(answer: &str) -> (String, String) {
+pub(crate) fn parts(answer: &str) -> (String, String) {
     let (head, body) = answer.split_once("\r\n\r\n").unwrap();
     let code = head.split(' ').nth(1).unwrap();
     (code.to_owned(), body.to_owned())

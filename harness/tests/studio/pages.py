@@ -577,11 +577,79 @@ def live(studio, folder):
         crossing.kill()
 
 
+def commanded(studio, folder):
+    """Live commands a robot by its operator port, by keys alone: asked first by the robot's name, answered by the robot."""
+    sockets = [f"unix:{folder}/{name}.sock" for name in ("ari", "absent")]
+    (folder / "ari.toml").write_text(
+        f'name = "<b>ARI"\nstation = 1\nbuild = "humanoid"\nboot_file = "ari.boot"\n\n[operator]\nlisten = "{sockets[0]}"\n\n'
+        f'[link]\naddress = "127.0.0.1:{free_port()}"\npeers = []\n')
+    log = folder / "ari.jsonl"
+    command = [PROGRAM, "run", "--config", str(folder / "ari.toml"), "--json"]
+    robot = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=log.open("w"), stderr=subprocess.DEVNULL)
+    try:
+        at = studio("--follow", log, "--operator", sockets[0], "--operator", sockets[1])
+        page = at.open()
+        asked, newest = page.locator("#asked"), page.locator("#answers > li").first
+        expect(page.locator("#chip")).to_have_text("● Live")
+        expect(page.locator("#keys button").first).to_have_text("Stop <b>ARI… (s)")
+        at.errors.clear()  # The other robot is not there: the browser reports the answer as an error.
+        at.assert_reached_by_tab(18, "skip", "hold", "port", "word", "order")
+        page.evaluate("document.activeElement.blur()")
+        told = lambda: [it["input"]["local"] for it in map(json.loads, log.read_text().splitlines()[:-1]) if "local" in it.get("input", {})]
+        # Asked first; what is not confirmed is not told.
+        for leaves in ("Escape", "Enter"):
+            page.keyboard.press("c")
+            expect(page.locator("#asked-title")).to_have_text("Tell <b>ARI: clear?")
+            expect(page.locator("#asked-road")).to_contain_text("say it only when you see nobody on the road")
+            expect(page.locator("#asked-now")).to_contain_text("Idle. It knows of nobody on the road.")
+            expect(page.locator("#cancel")).to_be_focused()
+            if leaves == "Escape":
+                at.assert_fits()
+            page.keyboard.press(leaves)
+            expect(asked).to_be_hidden()
+            expect(newest).to_contain_text("<b>ARI was told nothing")
+        assert told() == []
+        page.keyboard.press("s")
+        expect(page.locator("#tell")).to_be_focused()
+        expect(page.locator("#asked-title")).to_have_text("Tell <b>ARI: unavailable emergency-stop?")
+        page.keyboard.press("Enter")
+        expect(newest).to_contain_text("it has not answered yet")
+        expect(newest).to_contain_text("<b>ARI then: Idle, unavailable: emergencyStop.")
+        assert told() == [{"availabilityChanged": {"unavailable": "emergencyStop"}}], told()
+        # Any command; what the robot refuses is said as it says it.
+        page.select_option("#word", "battery")
+        page.fill("#words", "full")
+        page.press("#words", "Enter")
+        expect(page.locator("#asked-title")).to_have_text("Tell <b>ARI: battery full?")
+        page.click("#tell")
+        expect(newest).to_contain_text("<b>ARI refuses it: 'full' is not a charge from 0 to 100 percent")
+        at.assert_fits()
+        at.assert_clean()
+        # While it is asked the robot hangs: it can not be confirmed. A robot that is not there is not asked about.
+        page.select_option("#word", "quit")
+        page.click("#order")
+        expect(page.locator("#tell")).to_be_enabled()
+        robot.send_signal(signal.SIGSTOP)
+        expect(page.locator("#tell")).to_be_disabled()
+        expect(page.locator("#asked-now")).to_contain_text("it hangs, or has just ended")
+        robot.send_signal(signal.SIGCONT)
+        expect(page.locator("#tell")).to_be_enabled()
+        page.keyboard.press("Escape")
+        page.select_option("#port", "1")
+        page.click("#keys button")
+        expect(newest).to_contain_text("absent.sock: no robot is reached")
+        expect(asked).to_be_hidden()
+        assert len(told()) == 1, told()
+    finally:
+        robot.kill()
+        robot.wait()
+
+
 def main():
     passed = failed = 0
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
-        for test in (after, opened, report, hostile_log, play, guide, published, explore, live):
+        for test in (after, opened, report, hostile_log, play, guide, published, explore, live, commanded):
             with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as closing:
                 def studio(*arguments):
                     at = Studio(browser, *arguments)

@@ -4,6 +4,7 @@ import { html, id, ms } from "../shell/dom.js";
 import { StreetMap } from "../shell/map.js";
 import { Messages } from "../shell/messages.js";
 import * as panels from "../shell/panels.js";
+import "./operator.js";
 
 const EVERY_MS = 500;
 const PATIENCE_MS = 3000;
@@ -104,7 +105,7 @@ function hold() {
 
 id("hold").addEventListener("click", hold);
 document.addEventListener("keydown", (event) => {
-  if (event.key !== " " || event.target.closest("button, a, .rows, .scroll")) return;
+  if (event.key !== " " || event.target.closest("button, a, input, select, dialog, .rows, .scroll")) return;
   event.preventDefault();
   hold();
 });
