@@ -12,6 +12,7 @@
 mod lines;
 
 use std::collections::BTreeMap;
+use std::io::ErrorKind;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::thread::JoinHandle;
@@ -269,9 +270,9 @@ impl<O: Obeys> Counter<O> {
         let Some(client) = self.clients.get_mut(&number) else {
             return;
         };
-        let is_heard = client.stream.say(&refused).is_ok();
-        if !is_heard || !client.has_greeted {
-            self.dismiss(number, (!is_heard).then_some(Cause::OperatorSlow));
+        let said = client.stream.say(&refused);
+        if said.is_err() || !client.has_greeted {
+            self.dismiss(number, said.err().as_ref().and_then(slowness));
         }
     }
 
@@ -352,12 +353,14 @@ impl<O: Obeys> Counter<O> {
     fn tell(&mut self, line: &ToOperator<'_>) {
         let mut lost = Vec::new();
         for (number, client) in &mut self.clients {
-            if client.has_greeted && client.stream.say(line).is_err() {
-                lost.push(*number);
+            if client.has_greeted
+                && let Err(error) = client.stream.say(line)
+            {
+                lost.push((*number, slowness(&error)));
             }
         }
-        for number in lost {
-            self.dismiss(number, Some(Cause::OperatorSlow));
+        for (number, cause) in lost {
+            self.dismiss(number, cause);
         }
     }
 
@@ -380,6 +383,11 @@ impl<O: Obeys> Counter<O> {
             client.stream.close();
         }
     }
+}
+
+/// What a client did wrong that does not take a line: nothing, if it has gone away.
+fn slowness(error: &std::io::Error) -> Option<Cause> {
+    (error.kind() == ErrorKind::WouldBlock).then_some(Cause::OperatorSlow)
 }
 
 /// Whether a first line is what it has to be.
