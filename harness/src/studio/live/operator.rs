@@ -17,6 +17,9 @@ use serde_json::{Value, json};
 /// How long a robot may take to say who and how it is, and how long it is heard after an order.
 const PATIENCE: Duration = Duration::from_secs(1);
 
+/// How often a question looks whether it has its turn.
+const LOOK: Duration = Duration::from_millis(10);
+
 /// The longest line that is read of a robot, and the longest order, in octets.
 const LINE_MAX: u64 = 1 << 20;
 const ORDER_MAX: usize = 512;
@@ -69,7 +72,7 @@ enum Trouble {
     Garbled(#[from] serde_json::Error),
     #[error("this studio has no such port")]
     NoPort,
-    #[error("another question to this robot is under way: ask again")]
+    #[error("another question to this robot is under way. Nothing was sent: ask again")]
     Busy,
     #[error("an order has {ORDER_MAX} octets at most: nothing was sent")]
     Long,
@@ -116,11 +119,17 @@ impl Operators {
     fn answer(&self, question: &[u8]) -> Result<Answer, Trouble> {
         let Question { port, order } = serde_json::from_slice(question)?;
         let (port, turn) = self.0.get(port).ok_or(Trouble::NoPort)?;
-        // An order that waits for its turn would come late.
-        let turn = turn.try_lock();
-        if matches!(turn, Err(TryLockError::WouldBlock)) {
-            return Err(Trouble::Busy);
-        }
+        // An order that waits longer for its turn would come late.
+        let until = Instant::now() + PATIENCE;
+        let turn = loop {
+            match turn.try_lock() {
+                Err(TryLockError::WouldBlock) if Instant::now() >= until => {
+                    return Err(Trouble::Busy);
+                }
+                Err(TryLockError::WouldBlock) => std::thread::sleep(LOOK),
+                turn => break turn,
+            }
+        };
         if order.as_ref().is_some_and(|it| it.line.len() > ORDER_MAX) {
             return Err(Trouble::Long);
         }
