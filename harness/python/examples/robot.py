@@ -51,6 +51,8 @@ from crossguard.body import RobotCategory, Target, ToPosition
 from crossguard.types import Maneuver
 
 MANEUVER_MS = 1_500
+# Longer than people of harness/examples/ari.toml are on the road: an escort stays until they are off it.
+ESCORT_MS = 8_000
 PATIENCE_MS = 60_000
 # How often the application looks what there is to do.
 PERIOD_MS = 20
@@ -242,7 +244,8 @@ class Application:
                     self.maneuver = maneuver
                     self.target = parameters.target
                     self.doing = Doing.UNDER_WAY
-                    self.arrives_ms = at.now_ms + MANEUVER_MS
+                    is_escort = maneuver.task is TaskType.MOVE
+                    self.arrives_ms = at.now_ms + (ESCORT_MS if is_escort else MANEUVER_MS)
                     self.say(f"starts {maneuver.task.name} of request {maneuver.id.request}")
                 case outputs.StopManeuver():
                     self.doing = Doing.STANDS

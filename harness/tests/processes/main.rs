@@ -4,5 +4,4 @@
 mod body_port;
 mod conform;
 mod embedded;
-mod embedded_rust;
 mod operator_port;

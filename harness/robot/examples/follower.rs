@@ -9,7 +9,7 @@
 //! Usage: follower STATION PORT PEER_PORT BOOT_FILE [LOG_FILE]
 //! ```
 //!
-//! The body is a stand-in that takes three seconds for everything. Yours goes to the same places.
+//! The body is a stand-in that takes three seconds for everything, and eight for an escort. Yours goes to the same places.
 
 use std::error::Error;
 use std::fs::File;
@@ -20,7 +20,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use crossguard_codec::{Identifiers, Position, RobotState, Target, si};
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{Config, Event, ManeuverId, Notice, Robot, StationId};
+use crossguard_protocol::{Config, Event, ManeuverId, Notice, Robot, StationId, TaskType};
 use crossguard_robot::boot;
 use crossguard_robot::trace::{self, Entry, Record};
 
@@ -28,6 +28,8 @@ use crossguard_robot::trace::{self, Entry, Record};
 const DATAGRAM_MAX: usize = 2_048;
 /// How long the stand-in takes for a maneuver.
 const MANEUVER: Duration = Duration::from_secs(3);
+/// And for an escort, which stays until its person is off the road: people of `harness/examples/ari.toml` are on it for less.
+const ESCORT: Duration = Duration::from_secs(8);
 
 struct Follower {
     endpoint: Endpoint,
@@ -82,7 +84,9 @@ impl Follower {
         println!("{act:?}");
         match act {
             Act::Start(maneuver, parameters) => {
-                self.running = Some((maneuver.id, parameters.target, Instant::now() + MANEUVER));
+                let is_escort = maneuver.task == TaskType::MOVE;
+                let takes = if is_escort { ESCORT } else { MANEUVER };
+                self.running = Some((maneuver.id, parameters.target, Instant::now() + takes));
             }
             // A body that falls back takes its time. Until the application tells `Event::RoadClear`, once the
             // body is where the policy wants it and nobody is on the road, the robot helps nobody else.
@@ -177,12 +181,9 @@ fn unix_ms() -> i64 {
     })
 }
 
-/// Follows through one crossing; how many maneuvers were completed.
-///
-/// # Errors
-/// Wrong usage, or what a file or the socket says.
-pub(crate) fn follow(arguments: &[String]) -> Result<usize, Box<dyn Error>> {
-    let [station, port, peer, boot_file, rest @ ..] = arguments else {
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<_> = std::env::args().skip(1).collect();
+    let [station, port, peer, boot_file, rest @ ..] = &arguments[..] else {
         return Err("usage: follower STATION PORT PEER_PORT BOOT_FILE [LOG_FILE]".into());
     };
     // Counted up and on the disk before anything is sent; held until the end.
@@ -196,18 +197,12 @@ pub(crate) fn follow(arguments: &[String]) -> Result<usize, Box<dyn Error>> {
         peer: peer.parse()?,
         log: rest.first().map(File::create).transpose()?,
         began: Instant::now(),
-        position: Position::at(48.765_41, 9.123_46),
+        position: Position::at(49.010_1, 8.412_4),
         running: None,
         completed: 0,
         is_released: false,
     };
     follower.run()?;
-    Ok(follower.completed)
-}
-
-#[allow(dead_code, reason = "a test calls what is above")]
-fn main() -> Result<(), Box<dyn Error>> {
-    let arguments: Vec<_> = std::env::args().skip(1).collect();
-    println!("{} maneuvers completed", follow(&arguments)?);
+    println!("{} maneuvers completed", follower.completed);
     Ok(())
 }
