@@ -1,14 +1,11 @@
-//! The verification page says what the scenario files say, and the scenario on the page for verifiers is one.
+//! The verification page says what the scenario files say.
 
-use crossguard_model_check::check::{Options, check};
-use crossguard_model_check::model::Model;
 use crossguard_model_check::properties::{Claim, PropertyId};
 use crossguard_model_check::scenario::Scenario;
 
 use crate::{timed_weakenings, weakenings};
 
 const PAGE: &str = include_str!("../doc/verification.md");
-const GUIDE: &str = include_str!("../doc/verifying.md");
 
 /// `1234567` as `1,234,567`.
 fn grouped(number: usize) -> String {
@@ -80,13 +77,4 @@ fn every_claim_names_a_weakening_that_a_test_shows_to_break_it() {
         assert_shown(id, id.untimed(), weakenings::BREAKS);
         assert_shown(id, id.timed(), timed_weakenings::BREAKS);
     }
-}
-
-#[test]
-fn the_scenario_of_the_guide_can_be_checked_and_holds() {
-    let (_, text) = GUIDE.split_once("```toml\n").expect("a scenario");
-    let (text, _) = text.split_once("```").expect("it ends");
-    let scenario = Scenario::parse("my.toml", text).unwrap();
-    let report = check(&Model::new(scenario), &Options::default(), &mut |_| ());
-    assert!(report.exhaustive && !report.failed(), "{report:#?}");
 }

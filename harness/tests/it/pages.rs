@@ -171,17 +171,6 @@ fn the_commands_that_pages_tell_to_type_can_be_typed() {
     assert!(typed > 40, "{typed}");
 }
 
-/// The Rust in the README is that of a page which is compiled.
-#[test]
-fn the_readmes_example_is_the_one_of_the_state_machines_crate() {
-    let text = |path: &str| std::fs::read_to_string(repository().join(path)).unwrap();
-    let readme = text("README.md");
-    let (_, code) = readme.split_once("```rust\n").expect("a block of Rust");
-    let (code, rest) = code.split_once("```").expect("it ends");
-    assert!(text("protocol/README.md").contains(code));
-    assert!(!rest.contains("```rust"), "a second one is not compiled");
-}
-
 #[test]
 fn the_state_diagram_of_the_protocols_page_is_the_one_that_the_code_makes() {
     let diagram = stdout(&run_line("fsm"));

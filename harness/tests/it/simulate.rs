@@ -328,18 +328,6 @@ fn parameters_of_a_file_are_taken_and_flags_win() {
         .must_have(&["p.toml: line 10: unknown field `powr_dbm`, expected one of `power_dbm`"]);
 }
 
-/// The page's file has every parameter at its default.
-#[test]
-fn the_file_of_the_page_is_the_documented_setting() {
-    let page = include_str!("../../doc/evaluation.md");
-    let file = page.split("```toml\n").nth(1).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("page.toml");
-    std::fs::write(&path, file.split("```").next().unwrap()).unwrap();
-    let report = json(&format!("obs --json --parameters {}", path.display()));
-    assert_eq!(report["documented"], true);
-}
-
 /// Rare options come from a file, so that the others are seen at a glance.
 #[test]
 fn the_options_of_a_simulation_fit_on_a_screen() {
