@@ -41,19 +41,11 @@ fn the_robot_of_the_front_page_compiles() {
 
 #[test]
 fn a_whole_crossing_fits_in_sixty_lines() {
-    let readme = include_str!("../README.md");
-    let (c, cpp) = (
-        include_str!("../examples/crossing.c"),
-        include_str!("../examples/crossing.cpp"),
-    );
-    assert!(
-        readme.contains(&format!("```c\n{c}```")),
-        "the README shows it"
-    );
-    for (language, file, code) in [
-        (Language::C, "examples/crossing.c", c),
-        (Language::Cpp, "examples/crossing.cpp", cpp),
+    for (language, file) in [
+        (Language::C, "examples/crossing.c"),
+        (Language::Cpp, "examples/crossing.cpp"),
     ] {
+        let code = std::fs::read_to_string(file).unwrap();
         assert!(code.lines().count() <= 60, "{file}");
         if let Some(program) = compile("a_whole_crossing", language, file) {
             assert!(Command::new(program).status().unwrap().success(), "{file}");
