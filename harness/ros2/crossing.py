@@ -5,6 +5,7 @@ import contextlib
 import json
 import os
 import random
+import shlex
 import signal
 import socket
 import subprocess
@@ -15,7 +16,8 @@ import time
 import traceback
 from pathlib import Path
 
-CROSSGUARD, BIN = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
+CROSSGUARD, BIN = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+README = (Path(__file__).parent / "README.md").read_text()
 os.environ |= {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "ROS_DOMAIN_ID": str(random.randint(1, 100))}
 for name in ("ROS_STATIC_PEERS", "ROS_LOCALHOST_ONLY"):
     os.environ.pop(name, None)
@@ -97,8 +99,8 @@ class Robot:
         config.write_text(
             f'{lines}\nname = "{name}"\nstation = {station}\nbuild = "{build}"\nboot_file = "{name}.boot"\n'
             f'autopilot = true\n\n[link]\naddress = "127.0.0.1:{link[0]}"\npeers = ["127.0.0.1:{link[1]}"]\n\n'
-            f'[body]\nlisten = "unix:{name}.sock"\nsilence_ms = {1000 * SILENCE_S:.0f}\n\n'
-            f'[operator]\nlisten = "unix:{name}-operator.sock"\n{zone}')
+            + README.split("```toml\n")[1].split("```")[0].replace("go2", name)
+            .replace("[body]", f"[body]\nsilence_ms = {1000 * SILENCE_S:.0f}") + zone)
         self.corridor = Heard(street, Corridor, f"{space}/corridor")
         self.status = Heard(street, Status, f"{space}/status")
         self.events = Heard(street, Event, f"{space}/event")
@@ -111,13 +113,15 @@ class Robot:
         until(f"the node of {name}", lambda: self.commands.get_subscription_count() == 1)
 
     def start(self, program, *parameters):
+        """By its line in the README, with more parameters."""
+        [line] = [it for it in README.splitlines() if it.startswith(f"ros2 run crossguard_ros {program} ")]
+        words = shlex.split(line.replace("go2", self.name), comments=True)[4:]
         parameters = [word for it in (*parameters, f"silence:={SILENCE_S}") for word in ("-p", it)]
-        command = [BIN / program, "--ros-args", "-r", f"__ns:=/{self.name}", *parameters]
-        return Process(self.street.stack, self.street.folder, f"{self.name}-{program}", command)
+        command, folder = [BIN / program, *words, *parameters], self.street.folder
+        return Process(self.street.stack, folder, f"{self.name}-{program}", command, cwd=folder)
 
     def start_node(self):
-        socket = f"unix:{self.street.folder / self.name}"
-        return self.start("crossguard_node", f"body:={socket}.sock", f"operator:={socket}-operator.sock")
+        return self.start("crossguard_node")
 
     def start_body(self):
         return self.start("simulated_body", f"place:=[{self.place[0]}, {self.place[1]}]", f"pace:={self.pace}")
@@ -244,7 +248,7 @@ def the_readme_has_the_graph(street):
         "client": get_action_client_names_and_types_by_node(node, *at)}
     found = {(name.replace("/go2/crossguard", "~"), kind, way) for way, rows in told.items() for name, [kind] in rows}
     found = {it for it in found if not it[0].startswith(("/rosout", "/parameter_events", "~/_")) and "/_action/" not in it[0]}
-    rows = (line.split("|") for line in (Path(__file__).parent / "README.md").read_text().splitlines())
+    rows = (line.split("|") for line in README.splitlines())
     rows = ([cell.strip(" `") for cell in row[1:4]] for row in rows if len(row) == 6)
     page = {tuple(row) for row in rows if row[0].startswith(("~/", "/"))}
     assert page == found, (page - found, found - page)
