@@ -88,6 +88,8 @@ impl<'a> Told<'a> {
                 Act::OpenCorridor(time) => Self::CorridorOpened(time),
                 Act::ExtendCorridor(time) => Self::CorridorExtended(time),
                 Act::CloseCorridor(why) => Self::CorridorClosed(why),
+                // Nobody asks a vehicle here.
+                Act::VehicleAnswered(..) => return None,
                 Act::LockIdentity(true) => Self::LockIdentity,
                 Act::LockIdentity(false) => Self::UnlockIdentity,
                 Act::RenewEpoch => Self::RenewEpoch,

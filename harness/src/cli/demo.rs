@@ -165,29 +165,27 @@ fn lines(chart: &mut Chart, first: &str, seen: Seen<'_>) -> Vec<String> {
     }
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+/// Whether these options can be had of this scenario.
+fn check(arguments: &Arguments, scenario: &Scenario) -> Result<(), Failure> {
     #[cfg(not(feature = "full"))]
-    if arguments.report.is_some() || arguments.etsi.are_given() {
+    if arguments.report.is_some() || arguments.etsi.are_given() || scenario.car().is_some() {
         return Err(super::small::build_all());
     }
-    let scenario = scenario(arguments)?;
-    #[cfg(not(feature = "full"))]
-    if scenario.car().is_some() {
-        return Err(super::small::build_all());
-    }
-    if let Some(car) = scenario
-        .car()
-        .filter(|_| arguments.security.mode() != Mode::Off)
-    {
-        let what = format!("{} signs nothing: leave --security away", car.name);
-        return Err(Failure::Input(what));
-    }
-    if let Some(victim) = scenario.victim().filter(|_| arguments.trials > 1) {
-        return Err(Failure::Input(format!(
+    let is_signed = arguments.security.mode() != Mode::Off;
+    let why = match (scenario.car(), scenario.victim()) {
+        (Some(car), _) if is_signed => format!("{} signs nothing: leave --security away", car.name),
+        (_, Some(victim)) if arguments.trials > 1 => format!(
             "--trials {}: {victim} loses power in this scenario, so there is one crossing",
             arguments.trials
-        )));
-    }
+        ),
+        _ => return Ok(()),
+    };
+    Err(Failure::Input(why))
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let scenario = scenario(arguments)?;
+    check(arguments, &scenario)?;
     let followers = followers(arguments, &scenario)?;
     destinations::files([&arguments.report])?;
     let interrupted = interrupts();

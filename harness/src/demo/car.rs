@@ -130,7 +130,7 @@ impl Drive {
 
     fn tick(&mut self) {
         let now_ms = self.clock.now_us() / 1_000;
-        self.drive((now_ms - self.at_ms) as f64 / 1e3);
+        self.drive(Duration::from_millis(now_ms - self.at_ms).as_secs_f64());
         self.at_ms = now_ms;
         let state = self.state();
         let now_its = self.clock.moment().timestamp_its;
