@@ -77,6 +77,8 @@ pub(crate) struct Bench<S> {
     pub(crate) exchange: Exchange,
     /// Where the robot under test says that it is.
     position: Position,
+    /// The newest command that was sent, with its parameters: one that comes again has the same, wherever the robot is by then.
+    sent: Option<(Command, TaskParameters)>,
     /// The newest heartbeat of the robot under test.
     newest: Option<Heartbeat>,
     /// What could not be told to the robot.
@@ -121,6 +123,7 @@ impl<S: Subject> Bench<S> {
             stations,
             exchange,
             position: Position::at(49.01, 8.41),
+            sent: None,
             newest: None,
             not_told: None,
             // Not at 0, so that there are older ones.
@@ -205,6 +208,11 @@ impl<S: Subject> Bench<S> {
     /// Has a station say something.
     pub(crate) fn send(&mut self, player: Player, message: Message) -> Result<(), Gone> {
         let (state, its) = (self.state_of(player), self.subject.timestamp_its());
+        if let Message::Rmcm(Rmcm::Command(command)) = message
+            && self.sent.is_none_or(|(sent, _)| sent != command)
+        {
+            self.sent = Some((command, self.parameters(command.task)));
+        }
         let (ids, position) = (self.terms.identifiers, &state.position);
         let time = generation_delta_time(its);
         let pdu = match &message {
@@ -212,7 +220,8 @@ impl<S: Subject> Bench<S> {
                 ram, availability, ..
             }) => ram_from(&ids, &state, ram, *availability, time, true).map(Pdu::Ram),
             Message::Rmcm(Rmcm::Command(command)) => {
-                let commands = [(*command, self.parameters(command.task))];
+                let parameters = self.sent.map(|(_, parameters)| parameters);
+                let commands = [(*command, parameters.unwrap_or_default())];
                 rmcm_from_commands(&ids, position, &commands, time).map(Pdu::Rmcm)
             }
             Message::Rmcm(Rmcm::Answer(answer)) => {

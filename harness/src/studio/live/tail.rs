@@ -92,6 +92,10 @@ impl Tail {
     /// Reads on. The number of whole lines that came, how long ago the file was written, and whether there is more.
     fn grow(&mut self) -> std::io::Result<(usize, Duration, bool)> {
         let named = std::fs::metadata(&self.path)?;
+        // To open a pipe would wait for somebody who writes.
+        if !named.is_file() {
+            return Err(std::io::Error::other("it is no regular file"));
+        }
         let is_other = match &self.file {
             Some(file) => !is_same(&named, &file.metadata()?) || named.len() < self.read,
             None => self.read > 0,
@@ -234,6 +238,8 @@ mod tests {
         let mut tail = Tail::new(path.clone(), 0);
         assert!(tail.take().records.is_empty());
         assert!(matches!(tail.state, TailState::Missing(_)));
+        let mut device = Tail::new("/dev/zero".into(), 0);
+        assert!(device.take().records.is_empty() && device.read == 0);
 
         let mut file = OpenOptions::new()
             .create(true)
