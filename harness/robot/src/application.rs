@@ -16,7 +16,9 @@ use std::collections::VecDeque;
 
 use crossguard_codec::{PublicSignal, TaskParameters};
 use crossguard_crossing::tracks::Conduct;
-use crossguard_crossing::{Crossing, Hindrance, Input, Leg, Output, Outputs, Sensors, Setup};
+use crossguard_crossing::{
+    Crossing, FrameDrop, Hindrance, Input, Leg, Output, Outputs, Sensors, Setup,
+};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::{Act, Stimulus};
 use crossguard_protocol::{
@@ -222,6 +224,8 @@ impl Application {
                 Output::Wait => self.act_by_body(BodyAct::Wait),
                 Output::GoOn => self.act_by_body(BodyAct::GoOn),
                 Output::Release => self.body.release(),
+                // It was counted when it came, with what is wrong with it.
+                Output::Dropped(FrameDrop::Malformed) => {}
                 Output::Dropped(why) => self.trouble(Cause::FrameDropped(why.name()), "a frame"),
                 Output::Hindered(why) => self.is_hindered(why),
             }

@@ -96,8 +96,8 @@ pub enum Order {
     Perceived(PerceivedVru),
     /// A sensor source looked at this moment.
     Looked(Arc<SensorFrame>, Instant),
-    /// A sensor source delivered something that is no frame.
-    LookedInVain,
+    /// A sensor source delivered something that is no frame, and why.
+    LookedInVain(String),
     /// The battery is like this now.
     Battery(Battery),
     /// Show this to people, which RAM tell; without means, by those of the robot's configuration.
@@ -397,8 +397,8 @@ impl Loop {
                 seen = people.map(|vru| seen_from(place, vru)).collect();
                 Stimulus::Perceived(&seen)
             }
-            Order::LookedInVain => {
-                self.machine.application_mut().look_in_vain();
+            Order::LookedInVain(why) => {
+                self.machine.application_mut().look_in_vain(why);
                 Stimulus::Time
             }
             Order::Battery(battery) => {

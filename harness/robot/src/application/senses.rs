@@ -1,11 +1,13 @@
 //! What the crossing machine takes in of a robot: its body, its sensors, a simulated street, and other stations.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use crossguard_codec::{Identity, Kind, Position, TaskParameters};
 use crossguard_crossing::{
-    BodyReport, Coverage, Frame, Input, Point, Pose, RoadUser, Sighting, Vehicle, Way,
+    BodyReport, Coverage, Frame, FrameDrop, Input, Point, Pose, RoadUser, Sighting, Vehicle, Way,
 };
+use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::station::{LocalDynamicMap, Neighbour};
 use crossguard_protocol::{Millis, Phase, Robot, StationId};
@@ -137,8 +139,9 @@ impl Application {
         }));
     }
 
-    /// A sensor source delivered something that is no frame.
-    pub fn look_in_vain(&mut self) {
+    /// A sensor source delivered something that is no frame, for this reason.
+    pub fn look_in_vain(&mut self, why: impl Into<Cow<'static, str>>) {
+        self.trouble(Cause::FrameDropped(FrameDrop::Malformed.name()), why);
         self.step(Input::BadFrame);
     }
 

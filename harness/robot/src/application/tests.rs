@@ -139,11 +139,13 @@ fn a_late_frame_is_no_sight_of_now() {
         dropped(&mut application),
         Some(Cause::FrameDropped("stale"))
     );
-    application.look_in_vain();
+    application.look_in_vain("line 7 is no frame");
+    let malformed = Cause::FrameDropped("malformed");
     assert_eq!(
-        dropped(&mut application),
-        Some(Cause::FrameDropped("malformed"))
+        application.next_trouble(),
+        Some((malformed, "line 7 is no frame".into()))
     );
+    assert_eq!(application.next_trouble(), None, "it is counted once");
     application.look(&nobody, Millis(40));
     application.look(&person, Millis(100));
     assert_eq!(application.next_sight(), None, "a newer one has nobody");

@@ -1,7 +1,7 @@
 //! How many drops of one cause are recorded one by one: a flood must not fill the disk.
 //!
-//! Datagrams come from anybody, and whatever is dropped of them would be in the log with its octets. Of each cause so
-//! many are recorded in a second; the others are counted, and the counts are recorded.
+//! Datagrams come from anybody, and whatever is dropped of them would be in the log with its octets. A sensor may deliver
+//! nothing but garbage. Of each cause so many are recorded in a second; the others are counted, and the counts are recorded.
 
 use std::collections::BTreeMap;
 
@@ -63,7 +63,8 @@ fn is_of_others(cause: &CauseName) -> bool {
         | Layer::Service
         | Layer::Syntax
         | Layer::Semantics
-        | Layer::Protocol => true,
+        | Layer::Protocol
+        | Layer::Perception => true,
         Layer::Link => {
             let own = [Cause::NotSent, Cause::LinkFailed];
             !own.into_iter().any(|own| *cause == own.into())
@@ -81,12 +82,16 @@ mod tests {
         let mut sampler = Sampler::default();
         let garbage = CauseName::from(Cause::Undecodable("truncated"));
         let forged = CauseName::from(Cause::Rejected("wrong signature"));
-        let admitted = (0..1_000).filter(|_| sampler.admits(&garbage)).count();
-        assert_eq!(admitted, RECORDED as usize);
+        let no_frame = CauseName::from(Cause::FrameDropped("malformed"));
+        for of_flood in [&garbage, &no_frame] {
+            let admitted = (0..1_000).filter(|_| sampler.admits(of_flood)).count();
+            assert_eq!(admitted, RECORDED as usize, "{of_flood}");
+        }
         assert!(sampler.admits(&forged));
         assert_eq!(sampler.elapse(999_999), None);
         let counts = sampler.elapse(1_000_000).unwrap();
         assert_eq!(counts.of(&garbage), 1_000 - u64::from(RECORDED));
+        assert_eq!(counts.of(&no_frame), counts.of(&garbage));
         assert_eq!(counts.of(&forged), 0);
         assert!(sampler.admits(&garbage));
         assert_eq!(sampler.elapse(3_000_000), None);

@@ -193,7 +193,7 @@ impl World<'_> {
         let own = machine.application().body().place();
         let application = machine.application_mut();
         let Some(frame) = frame else {
-            application.look_in_vain();
+            application.look_in_vain("a frame");
             return self.handle(place, Stimulus::Time);
         };
         let age = u32::try_from(now_ms - taken_ms).unwrap_or(u32::MAX);
