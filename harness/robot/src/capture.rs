@@ -47,7 +47,7 @@ enum Item {
 #[derive(Debug, thiserror::Error)]
 pub enum Incomplete {
     /// The file could not be written to; nothing was after that.
-    #[error("{0}")]
+    #[error(transparent)]
     Failed(#[from] PcapError),
     /// The disk was too slow.
     #[error("there was no time for {0} of them")]

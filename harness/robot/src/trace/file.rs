@@ -8,9 +8,11 @@
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, ErrorKind, Write};
+use std::os::unix::fs::FileTypeExt as _;
 use std::path::{Path, PathBuf};
 
 use super::{Log, Record};
+use crate::files::Unfit;
 
 /// How much of the disk logs of one name may take.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -44,10 +46,11 @@ impl LogFile {
     /// A new log at `path`. A file that is there already, and not empty, is kept under another name.
     ///
     /// # Errors
-    /// When it cannot be created, or the older ones cannot be given other names.
+    /// When it is a FIFO, it cannot be created, or the older ones cannot be given other names.
     pub fn create(path: &Path, limits: LogLimits) -> io::Result<Self> {
-        // A pipe or device is no file with an older log in it.
+        // A device is no file with an older log in it, and to open a FIFO could wait for its reader.
         let is_older = match std::fs::metadata(path) {
+            Ok(there) if there.file_type().is_fifo() => return Err(Unfit::Kind("a FIFO").into()),
             Ok(there) => there.is_file() && there.len() > 0,
             Err(_) => false,
         };
@@ -158,6 +161,18 @@ mod tests {
         assert_eq!(times(&older(&path, 1)).unwrap(), [3]);
         assert_eq!(times(&older(&path, 2)).unwrap(), [2]);
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3);
+    }
+
+    #[test]
+    fn a_log_in_a_fifo_is_refused_and_its_reader_not_waited_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("r.jsonl");
+        nix::unistd::mkfifo(&path, nix::sys::stat::Mode::S_IRWXU).unwrap();
+        let (tell, refused) = std::sync::mpsc::channel();
+        let create = move || LogFile::create(&path, LogLimits::default()).err();
+        std::thread::spawn(move || tell.send(create()));
+        let error = refused.recv_timeout(std::time::Duration::from_secs(30));
+        assert_eq!(error.unwrap().unwrap().to_string(), "is a FIFO, not a file");
     }
 
     #[test]
