@@ -58,6 +58,7 @@ mod studio;
 mod validate;
 #[cfg(feature = "full")]
 mod watch;
+mod writing;
 
 #[cfg(not(feature = "full"))]
 use std::ffi::OsString;
@@ -72,6 +73,7 @@ use crossguard_robot::perception::Feed;
 use crossguard_robot::robot_file::RobotFile;
 use crossguard_robot::trace::Log;
 use printable::{Printable, printable_json};
+use writing::{complain, finish_complaints};
 
 /// A formally verified coordination kit for robots that work as crossing guards in V2X traffic.
 #[derive(Parser)]
@@ -183,7 +185,7 @@ pub fn main(version: &'static str) -> ExitCode {
         #[cfg(not(feature = "full"))]
         Command::Other(_) => Err(small::build_all()),
     };
-    match done {
+    let code = match done {
         Ok(()) | Err(Failure::NobodyReads) => ExitCode::SUCCESS,
         Err(Failure::Wrong) => ExitCode::from(1),
         Err(Failure::Input(message)) => {
@@ -191,17 +193,14 @@ pub fn main(version: &'static str) -> ExitCode {
             ExitCode::from(2)
         }
         Err(Failure::Incomplete) => ExitCode::from(3),
-    }
+    };
+    finish_complaints();
+    code
 }
 
 /// Prints a line to standard output.
 fn print(line: impl std::fmt::Display) -> Result<(), Failure> {
     Ok(writeln!(std::io::stdout(), "{}", Printable(line))?)
-}
-
-/// Tells on standard error. If that is gone as well, there is nobody to tell.
-fn complain(what: impl std::fmt::Display) {
-    let _ = writeln!(std::io::stderr(), "crossguard: {}", Printable(what));
 }
 
 /// Prints a value as JSON.
@@ -232,14 +231,14 @@ fn cause(error: &dyn std::error::Error) -> String {
     source.unwrap_or_else(|| error.to_string())
 }
 
-/// Looks whether every packet was written.
-fn finish_capture(capture: Option<Capture>) -> Result<(), Failure> {
-    match capture.map(Capture::finish) {
-        Some(Err(error)) => Err(Failure::Input(format!(
-            "not all packets were written: {error}"
-        ))),
-        _ => Ok(()),
+/// Looks whether every packet was written to this file, and tells why not.
+fn finish_capture(path: Option<&Path>, capture: Option<Capture>) -> Result<(), Failure> {
+    if let (Some(path), Some(Err(error))) = (path, capture.map(Capture::finish)) {
+        let (path, why) = (path.display(), cause(&error));
+        complain(format_args!("{path}: not all packets were written: {why}"));
+        return Err(Failure::Incomplete);
     }
+    Ok(())
 }
 
 /// The protocol's configuration in a robot's file; the default one without a file.

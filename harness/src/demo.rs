@@ -35,7 +35,7 @@ use crossguard_robot::boot::Boot;
 use crossguard_robot::capture::Capture;
 use crossguard_robot::journal::{Journal, WhenFull};
 use crossguard_robot::machine::is_at_rest;
-use crossguard_robot::perception::{Feed, Perception};
+use crossguard_robot::perception::Feed;
 use crossguard_robot::runtime::{Clock, Order, Running, Setup};
 use crossguard_robot::sign::Sign;
 use crossguard_robot::street::{Road, Street};
@@ -375,9 +375,6 @@ impl Demo<'_> {
     /// Tells all robots what their sensors report.
     fn tell_perceived(&mut self) {
         for perception in self.perceived.iter().flat_map(Feed::due) {
-            if let Perception::Garbled(why) = &perception {
-                eprintln!("{why}");
-            }
             for (_, robot) in &self.robots {
                 robot.order(perception.order());
             }

@@ -14,6 +14,9 @@
 //! - [`studio`] serves a page on which logs are looked at.
 //! - [`metrics`] serves what Prometheus wants to know of a running robot.
 
+// A standard error that cannot be written to ends nothing.
+#![deny(clippy::print_stderr)]
+
 #[doc(hidden)]
 pub mod cli;
 pub mod demo;

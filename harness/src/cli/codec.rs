@@ -148,7 +148,7 @@ fn convert_lines(
             Ok(result) => print(result)?,
             Err(Failure::Input(error)) => {
                 bad += 1;
-                eprintln!("line {}: {error}", place + 1);
+                let _ = writeln!(std::io::stderr(), "line {}: {error}", place + 1);
                 print(on_error(place + 1, &error))?;
             }
             Err(other) => return Err(other),

@@ -1,6 +1,5 @@
 //! `crossguard demo`.
 
-use std::io::Write;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -262,7 +261,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (None, None) if !arguments.json => print(NEXT),
         _ => Ok(()),
     });
-    let captured = super::finish_capture(options.capture);
+    let captured = super::finish_capture(arguments.pcap.as_deref(), options.capture);
     let written = match &arguments.report {
         Some(path) => write_page(path, options.scenario.street(), &log, arguments.json),
         None => Ok(()),
@@ -303,11 +302,10 @@ impl DemoLog {
         let written = self.file.write(record);
         if let Err(error) = written.and_then(|()| self.file.flush()) {
             self.has_failed = true;
-            let _ = writeln!(
-                std::io::stderr(),
-                "crossguard: {}: {error}; the demonstration goes on, and nothing more is written there",
+            super::complain(format_args!(
+                "{}: {error}; the demonstration goes on, and nothing more is written there",
                 self.path.display()
-            );
+            ));
         }
     }
 }

@@ -3,6 +3,7 @@
 
 use std::fs::{self, OpenOptions};
 use std::io;
+use std::os::unix::fs::MetadataExt as _;
 use std::path::{Path, PathBuf};
 
 use super::Failure;
@@ -12,6 +13,29 @@ pub(super) fn files<'a>(
     paths: impl IntoIterator<Item = &'a Option<PathBuf>>,
 ) -> Result<(), Failure> {
     paths.into_iter().flatten().try_for_each(|path| file(path))
+}
+
+/// Whether none of the files to write is a file that is read, or another one that is written: a log takes the place of an
+/// older file.
+pub(super) fn others<'a>(
+    written: impl IntoIterator<Item = &'a PathBuf>,
+    read: impl IntoIterator<Item = &'a PathBuf>,
+) -> Result<(), Failure> {
+    let is_one = |one: &Path, other: &Path| match (fs::metadata(one), fs::metadata(other)) {
+        (Ok(one), Ok(other)) => {
+            one.is_file() && (one.dev(), one.ino()) == (other.dev(), other.ino())
+        }
+        _ => one == other,
+    };
+    let mut taken: Vec<_> = read.into_iter().collect();
+    for path in written {
+        if taken.iter().any(|it| is_one(path, it)) {
+            let why = "this robot reads it, or writes something else there; choose another name";
+            return Err(cannot(path, why));
+        }
+        taken.push(path);
+    }
+    Ok(())
 }
 
 /// Whether files can be written into these folders, or into folders that are still to be made.

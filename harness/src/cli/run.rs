@@ -16,7 +16,6 @@ mod output;
 mod typed;
 
 use std::collections::{BTreeMap, VecDeque};
-use std::io::IsTerminal;
 use std::net::SocketAddrV4;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -36,19 +35,20 @@ use crossguard_robot::attachment::Sends;
 use crossguard_robot::boot;
 use crossguard_robot::journal::{RECORDS, WhenFull};
 use crossguard_robot::operator::port::Desk;
-use crossguard_robot::operator::{self, Line, help};
-use crossguard_robot::perception::{Announced, Feed, Perception};
+use crossguard_robot::operator::{Line, help};
+use crossguard_robot::perception::{Announced, Feed};
 use crossguard_robot::port::{self, Listening};
 use crossguard_robot::robot_file::{Besides, RobotFile};
 use crossguard_robot::runtime::{Order, Panicked, Running};
 use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Faults, Halves, Link, Reopening, Transport, WithFaults};
 use drops::Drops;
-use output::{Lines, Outputs};
+use output::Outputs;
 use typed::TYPED;
 
 use super::interrupts::interrupts;
 use super::ranges::{any, group, station};
+use super::writing::Lines;
 use super::{Failure, destinations, print};
 
 /// What a robot says when a duty begins.
@@ -156,6 +156,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         plan_file: arguments.plan.as_deref(),
     };
     let file = RobotFile::read_with(config, besides).map_err(Failure::input)?;
+    let read = [&arguments.site, &arguments.plan, &arguments.perceived];
+    let read = read.into_iter().flatten().chain([config, &file.boot_file]);
+    let written = [&arguments.log, &arguments.pcap].into_iter().flatten();
+    destinations::others(written, read)?;
     if arguments.check {
         return print(can_be_run(config, &file));
     }
@@ -207,9 +211,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         };
         desk.serve(port.port, port.records, running.orders(), clock)
     });
-    if let Some(list) = &file.revoked {
-        running.keep_revoked(list.clone());
-    }
+    let revoked = file.revoked.iter().cloned();
+    revoked.for_each(|list| running.keep_revoked(list));
     let mut console = Console {
         file: &file,
         lines: outputs.lines,
@@ -239,13 +242,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let missing = console.missing;
     drop(console);
     let written = outputs.writings.finish(missing);
-    super::finish_capture(capture)?;
-    outcome?;
-    if let Err(panicked) = ended.and(served.map_err(|_| Panicked)) {
+    let captured = super::finish_capture(arguments.pcap.as_deref(), capture);
+    let ended = ended.and(served.map_err(|_| Panicked)).map_err(|panicked| {
         super::complain(panicked);
-        return Err(Failure::Wrong);
-    }
-    written
+        Failure::Wrong
+    });
+    // The worst comes first.
+    ended.and(outcome).and(captured).and(written)
 }
 
 /// The operator port, open, and the records for it.
@@ -401,15 +404,13 @@ impl Console<'_> {
             while self.pending.len() < TYPED
                 && let Ok(text) = lines.try_recv()
             {
-                self.type_in(&text)?;
-            }
-            if let Some(feed) = &self.perceived {
-                for perception in feed.due() {
-                    if let Perception::Garbled(why) = &perception {
-                        eprintln!("{why}");
-                    }
-                    running.order(perception.order());
+                match typed::understood(&text, self.file, typed::is_by_person())? {
+                    Ok(line) => self.pending.push_back(line),
+                    Err(mistake) => self.say(&mistake),
                 }
+            }
+            for perception in self.perceived.iter().flat_map(Feed::due) {
+                running.order(perception.order());
             }
             if !quits && (interrupted.load(Ordering::Relaxed) || self.next_line(running)?) {
                 quits = true;
@@ -493,9 +494,15 @@ impl Console<'_> {
                 if cause.layer != Layer::Simulated
                     && !cause.is_own_packet()
                     // Others differ by what is in them.
-                    && (cause.layer != Layer::Inbox || self.drops.is_news(record.at_us, cause)) =>
+                    && (!matches!(cause.layer, Layer::Inbox | Layer::Perception)
+                        || self.drops.is_news(record.at_us, cause)) =>
             {
                 texts.push(format!("dropped, {cause}: {detail}"));
+            }
+            Entry::Unrecorded { counters } => {
+                for (cause, count) in counters.iter() {
+                    self.drops.add(record.at_us, &cause, count);
+                }
             }
             Entry::Hindered { why } => texts.push(format!("people may not cross: {why}")),
             // That it trusts its clock goes without saying, unless it did not.
@@ -550,17 +557,6 @@ impl Console<'_> {
         ];
         let news: Vec<_> = news.into_iter().flatten().collect();
         (!news.is_empty()).then(|| format!("station {from} {}", news.join(" and ")))
-    }
-
-    fn type_in(&mut self, text: &str) -> Result<(), Failure> {
-        let request = self.file.plan().map(|plan| plan.request());
-        match operator::parse_with(text, &self.file.site, request) {
-            Ok(line) => self.pending.push_back(line),
-            // A person tries again; a script is wrong from here on.
-            Err(error) if std::io::stdin().is_terminal() => self.say(&error.to_string()),
-            Err(error) => return Err(Failure::Input(format!("'{text}': {error}"))),
-        }
-        Ok(())
     }
 
     /// Takes the next line up if nothing holds it back. Whether it is to quit.

@@ -1,6 +1,5 @@
 //! What commands that run robots have for security.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 #[cfg(feature = "full")]
@@ -11,7 +10,7 @@ use crossguard_robot::pki;
 use crossguard_robot::transport::Link;
 
 use super::ranges::whole;
-use super::{Failure, choices};
+use super::{Failure, choices, complain};
 
 /// How many pseudonyms a robot of a demonstration has.
 #[cfg(feature = "full")]
@@ -38,11 +37,10 @@ impl SecurityArguments {
     /// Says on standard error that anybody can forge what a robot without security hears on this link.
     pub(super) fn warn_if_unsigned(&self, link: &Link) {
         if self.security == Mode::Off && link.leaves_machine() {
-            let _ = writeln!(
-                std::io::stderr(),
+            complain(format_args!(
                 "warning: packets on {link} are neither signed nor verified: anybody in reach can command \
                  this robot; --security enforce takes signed packets only"
-            );
+            ));
         }
     }
 

@@ -1,6 +1,10 @@
-//! A disk that is full: without a boot counter on it a robot does not start, and does when there is room again.
+//! A disk that is full: without a boot counter on it a robot does not start, and does when there is room again. What it writes
+//! besides is incomplete.
 
 use std::fs;
+use std::io::Read as _;
+use std::process::Stdio;
+use std::time::Duration;
 
 use crossguard_testkit::command::*;
 
@@ -40,4 +44,26 @@ fn on_a_disk_that_is_full_a_robot_does_not_start_and_does_when_there_is_room_aga
     ]);
     let counters = "crossguard boot counter 1\ncrossguard boot counter 2\n";
     assert_eq!(stdout(&output), counters);
+}
+
+#[test]
+fn a_capture_for_which_there_is_no_room_is_incomplete_and_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let port = two_free_ports();
+    let config = robot_file(folder.path(), "ARI", 1, port, port + 1);
+    let pcap = folder.path().join("ari.pcap").display().to_string();
+    // Half a KiB for each file: a header, and the first packets.
+    let small = "trap '' XFSZ; ulimit -f 1; exec \"$@\"";
+    let mut shell = std::process::Command::new("sh");
+    let run = [env!("CARGO_BIN_EXE_crossguard"), "run", "--config", &config];
+    let robot = shell.args(["-c", small, "sh"]).args(run);
+    let robot = robot.args(["--pcap", &pcap]).stdin(Stdio::piped());
+    let mut robot = Killed(robot.stderr(Stdio::piped()).spawn().unwrap());
+    type_to(&mut robot.0, "detect\nwait 3\nquit\n");
+    let ended = wait_for(&mut robot.0, Duration::from_mins(1));
+    let mut said = String::new();
+    let mut told = robot.0.stderr.take().unwrap();
+    told.read_to_string(&mut said).unwrap();
+    said.must_have(&["ari.pcap: not all packets were written: File too large"]);
+    assert_eq!(ended.code(), Some(3), "{said}");
 }

@@ -199,13 +199,13 @@ pub(super) const COMMANDS: &[Command] = &[
         "what the robot is doing, what it heard, who is around, and how link, security and channel are",
         |words, _| nothing(words).map(|()| Line::Status),
     ),
-    Command::new("wait", "before the next line", |words, _| {
+    Command::new("wait", "in a script: before the next line", |words, _| {
         Ok(Line::Wait(seconds(only(words, "wait", "seconds")?)?))
     })
     .taking("SECONDS"),
     Command::new(
         "until",
-        "wait for idle, help-requested, role-established or maneuver-executing",
+        "in a script: wait for idle, help-requested, role-established or maneuver-executing",
         until,
     )
     .taking("STATE [SECONDS]"),

@@ -3,7 +3,7 @@
 use crossguard_endpoint::counters::CauseName;
 
 /// How long an instant is.
-const INSTANT_US: u64 = 100_000;
+const INSTANT_US: u64 = 1_000_000;
 
 /// The drops that were said last, one of each cause.
 #[derive(Default)]
@@ -19,13 +19,19 @@ struct Said {
 impl Drops {
     /// Whether a drop at this time is to be said: it is not the same thing again.
     pub(super) fn is_news(&mut self, at_us: u64, cause: &CauseName) -> bool {
+        let is_news = self.0.iter().all(|said| said.cause != *cause);
+        self.add(at_us, cause, u64::from(!is_news));
+        is_news
+    }
+
+    /// Counts drops that nothing else tells of.
+    pub(super) fn add(&mut self, at_us: u64, cause: &CauseName, count: u64) {
         if let Some(said) = self.0.iter_mut().find(|said| said.cause == *cause) {
-            said.more += 1;
-            return false;
+            said.more += count;
+        } else {
+            let (cause, more) = (cause.clone(), count);
+            self.0.push(Said { cause, at_us, more });
         }
-        let (cause, more) = (cause.clone(), 0);
-        self.0.push(Said { cause, at_us, more });
-        true
     }
 
     /// What is to be said of instants that are over by this time.
@@ -52,12 +58,14 @@ mod tests {
         // Another cause in the same instant takes nothing away.
         let other = Cause::InboxFull.into();
         assert!(drops.is_news(28, &other));
-        assert_eq!((said, drops.over(99_999)), (vec![0], vec![]));
-        let over = drops.over(100_000);
-        assert_eq!(over, ["dropped, inbox: waited too long: 27 more"]);
+        // Those without a record count as well.
+        drops.add(29, &late, 1_000);
+        assert_eq!((said, drops.over(999_999)), (vec![0], vec![]));
+        let over = drops.over(1_000_000);
+        assert_eq!(over, ["dropped, inbox: waited too long: 1027 more"]);
         // One alone is not said again, and the next one is.
-        assert!(drops.is_news(200_000, &late));
-        assert_eq!(drops.over(400_000), [""; 0]);
-        assert!(drops.is_news(400_000, &late));
+        assert!(drops.is_news(2_000_000, &late));
+        assert_eq!(drops.over(4_000_000), [""; 0]);
+        assert!(drops.is_news(4_000_000, &late));
     }
 }
