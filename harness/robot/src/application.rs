@@ -168,9 +168,9 @@ impl Application {
 
     /// Lets time pass until `now_s`, in seconds on any clock that never goes back.
     pub fn advance(&mut self, now_s: f64) {
-        let report = self.body.advance((now_s - self.at_s).max(0.0));
+        let reports = self.body.advance((now_s - self.at_s).max(0.0));
         self.at_s = now_s;
-        if let Some(report) = report {
+        for report in reports {
             self.learn_of_body(report);
         }
         self.watch_body();
@@ -226,7 +226,7 @@ impl Application {
                 Output::Release => self.body.release(),
                 // It was counted when it came, with what is wrong with it.
                 Output::Dropped(FrameDrop::Malformed) => {}
-                Output::Dropped(why) => self.trouble(Cause::FrameDropped(why.name()), "a frame"),
+                Output::Dropped(why) => self.trouble(Cause::FrameDropped(why.name()), "a frame", 1),
                 Output::Hindered(why) => self.is_hindered(why),
             }
         }
@@ -393,10 +393,8 @@ impl Application {
         let Err(error) = self.body.act(act) else {
             return;
         };
-        self.trouble(Cause::BodyFault, error.to_string());
-        let fault = Availability::Unavailable(Unavailability::LocalFault);
-        self.wishes
-            .push_front(Stimulus::Event(Event::AvailabilityChanged(fault)));
+        self.trouble(Cause::BodyFault, error.to_string(), 1);
+        self.wish_available(Availability::Unavailable(Unavailability::LocalFault));
     }
 }
 

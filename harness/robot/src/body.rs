@@ -17,6 +17,7 @@ use crossguard_codec::{
     ControlMode, Dimensions, JobRole, Position, RobotCategory, RobotState, SignalMeans, SlowState,
     TaskParameters,
 };
+use crossguard_endpoint::cause::Cause;
 use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId, StopReason};
 use serde::{Deserialize, Serialize};
 
@@ -136,8 +137,8 @@ pub trait Body: fmt::Debug + Send {
     /// When nobody will do it. The robot then says that it has a fault.
     fn act(&mut self, act: BodyAct) -> Result<(), NotTaken>;
 
-    /// Lets `seconds` pass. Returns what the body reports meanwhile.
-    fn advance(&mut self, seconds: f64) -> Option<Report>;
+    /// Lets `seconds` pass. Returns all that the body reports meanwhile, in order.
+    fn advance(&mut self, seconds: f64) -> Vec<Report>;
 
     /// What the body's sensors say.
     fn state(&self) -> RobotState;
@@ -207,14 +208,12 @@ pub enum Report {
     Absent,
     /// It is there.
     Here,
-    /// It fell silent.
-    Silent,
+    /// It is lost, for this reason.
+    Silent(String),
     /// It has a fault: this.
     Fault(String),
-    /// It said something that was not understood, for this reason.
-    Garbled(String),
-    /// This user, who is not the robot's, wanted to be it.
-    Stranger(u32),
+    /// Lines or connections were dropped: for which cause, what the first of them was, and how many there were.
+    Dropped(Cause, String, u64),
 }
 
 /// How far a body is with its fallback.

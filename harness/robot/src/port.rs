@@ -23,7 +23,7 @@ use socket2::{Domain, SockAddr, Socket, Type};
 const LINE_MAX: u64 = 65_536;
 
 /// How many lines may wait; after that who says them has to.
-const LINES: usize = 256;
+pub(crate) const LINES: usize = 256;
 
 /// How long a line may wait for room in the socket: who reads has room.
 const WRITE_TIMEOUT: Duration = Duration::from_millis(5);

@@ -506,8 +506,12 @@ impl Loop {
         for effect in effects {
             self.carry_out(effect);
         }
-        while let Some((cause, detail)) = self.machine.application_mut().next_trouble() {
+        while let Some((cause, detail, count)) = self.machine.application_mut().next_trouble() {
             self.drop(cause, detail.into_owned(), Vec::new());
+            for _ in 1..count {
+                self.machine.endpoint_mut().count(cause);
+                self.sampler.count(&cause.into());
+            }
         }
         if let Some(why) = self.machine.application_mut().next_hindrance() {
             let why = why.to_string();

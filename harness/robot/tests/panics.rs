@@ -25,7 +25,7 @@ impl Body for Mistaken {
         self.body.act(act)
     }
 
-    fn advance(&mut self, seconds: f64) -> Option<Report> {
+    fn advance(&mut self, seconds: f64) -> Vec<Report> {
         assert!(!self.shows.load(Ordering::Relaxed), "the mistake");
         self.body.advance(seconds)
     }

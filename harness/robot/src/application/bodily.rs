@@ -1,6 +1,7 @@
 //! What is wrong with a body that is another process: one that is silent is an emergency stop of its robot.
 
 use std::borrow::Cow;
+use std::collections::VecDeque;
 
 use crossguard_endpoint::cause::Cause;
 use crossguard_protocol::{Availability, Event, Unavailability};
@@ -8,20 +9,21 @@ use crossguard_protocol::{Availability, Event, Unavailability};
 use super::{Application, Stimulus};
 use crate::body::Report;
 
-/// How many troubles wait to be counted; a body that makes more of them at a time is counted for these.
-const TROUBLES: usize = 64;
+/// A cause, what it was about, and how often it happened.
+pub(crate) type Trouble = (Cause, Cow<'static, str>, u64);
 
 #[derive(Debug, Default)]
 pub(super) struct Bodily {
     /// What its robot has to be unavailable for while the body is not there.
     missing: Option<Unavailability>,
-    troubles: Vec<(Cause, Cow<'static, str>)>,
+    /// What waits to be counted, and how often it happened.
+    troubles: VecDeque<Trouble>,
 }
 
 impl Application {
     /// Takes in what the body says besides how maneuvers go.
     pub(super) fn learn_of_body(&mut self, report: Report) {
-        let (cause, what): (_, Cow<'static, str>) = match report {
+        let (cause, what, count) = match report {
             Report::InPosition(_) | Report::Completed(_) => return self.feel_maneuver(&report),
             Report::Failed(id) => return self.wish(Stimulus::Event(Event::ManeuverFailed(id))),
             // Nothing is wrong with a body that was not started yet, but its robot takes no part.
@@ -36,29 +38,26 @@ impl Application {
                 }
                 return;
             }
-            Report::Silent => {
+            Report::Silent(ref why) => {
                 self.feel_maneuver(&report);
                 self.bodily.missing = Some(Unavailability::EmergencyStop);
-                let what = "nothing was heard of the body: emergency stop";
-                (Cause::BodySilent, what.into())
+                (Cause::BodySilent, format!("{why}: emergency stop"), 1)
             }
             Report::Fault(what) => {
                 self.wish_available(Availability::Unavailable(Unavailability::LocalFault));
-                (Cause::BodyFault, what.into())
+                (Cause::BodyFault, what, 1)
             }
-            Report::Garbled(why) => (Cause::BodyGarbled, why.into()),
-            Report::Stranger(uid) => (
-                Cause::BodyStranger,
-                format!("user {uid} is not the robot's: refused").into(),
-            ),
+            Report::Dropped(cause, what, count) => (cause, what, count),
         };
-        self.trouble(cause, what);
+        self.trouble(cause, what, count);
     }
 
-    /// Something is to be counted.
-    pub(super) fn trouble(&mut self, cause: Cause, what: impl Into<Cow<'static, str>>) {
-        if self.bodily.troubles.len() < TROUBLES {
-            self.bodily.troubles.push((cause, what.into()));
+    /// Something is to be counted. What happens again has one entry.
+    pub(super) fn trouble(&mut self, cause: Cause, what: impl Into<Cow<'static, str>>, count: u64) {
+        let (troubles, what) = (&mut self.bodily.troubles, what.into());
+        match troubles.iter_mut().find(|it| it.0 == cause && it.1 == what) {
+            Some((.., counted)) => *counted += count,
+            None => troubles.push_back((cause, what, count)),
         }
     }
 
@@ -74,13 +73,15 @@ impl Application {
     }
 
     /// Before anything else that it wants.
-    fn wish_available(&mut self, availability: Availability) {
-        self.wishes
-            .push_front(Stimulus::Event(Event::AvailabilityChanged(availability)));
+    pub(super) fn wish_available(&mut self, availability: Availability) {
+        let wish = Stimulus::Event(Event::AvailabilityChanged(availability));
+        if self.wishes.front() != Some(&wish) {
+            self.wishes.push_front(wish);
+        }
     }
 
     /// The next thing that went wrong with the body, to be counted.
-    pub(crate) fn next_trouble(&mut self) -> Option<(Cause, Cow<'static, str>)> {
-        self.bodily.troubles.pop()
+    pub(crate) fn next_trouble(&mut self) -> Option<Trouble> {
+        self.bodily.troubles.pop_front()
     }
 }

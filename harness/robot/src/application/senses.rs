@@ -181,7 +181,7 @@ impl Application {
         let report = match *report {
             Report::InPosition(id) => BodyReport::InPosition(id),
             Report::Completed(id) => BodyReport::Completed(id),
-            Report::Silent => BodyReport::Gone,
+            Report::Silent(_) => BodyReport::Gone,
             _ => return,
         };
         self.step(Input::Body(report));

@@ -31,8 +31,8 @@ impl Body for Broken {
         }
     }
 
-    fn advance(&mut self, _: f64) -> Option<Report> {
-        None
+    fn advance(&mut self, _: f64) -> Vec<Report> {
+        Vec::new()
     }
 
     fn state(&self) -> RobotState {
@@ -74,9 +74,35 @@ fn a_body_that_does_not_take_a_stop_is_a_fault_that_is_told_at_once() {
     let fault = Availability::Unavailable(Unavailability::LocalFault);
     let told = Stimulus::Event(Event::AvailabilityChanged(fault));
     assert_eq!(application.next_wish(), Some(told));
-    let (cause, why) = application.next_trouble().unwrap();
+    let (cause, why, _) = application.next_trouble().unwrap();
     assert_eq!(cause, Cause::BodyFault);
     assert!(why.ends_with("the bus is down"), "{why}");
+}
+
+/// Hazard: what a body says again and again fills a queue, or takes the place of the news that it is lost.
+#[test]
+fn what_a_body_repeats_is_counted_and_takes_one_place() {
+    let mut application = Application::new(Box::new(Broken::default()), None);
+    for _ in 0..1_000 {
+        application.learn_of_body(Report::Fault("hot".to_owned()));
+        let dropped = Report::Dropped(Cause::BodyGarbled, "no line".to_owned(), 7);
+        application.learn_of_body(dropped);
+    }
+    application.learn_of_body(Report::Silent("the body fell over".to_owned()));
+    let counted = std::iter::from_fn(|| application.next_trouble());
+    let counted: Vec<_> = counted
+        .map(|(cause, what, count)| (cause, what.into_owned(), count))
+        .collect();
+    let expected = [
+        (Cause::BodyFault, "hot", 1_000),
+        (Cause::BodyGarbled, "no line", 7_000),
+        (Cause::BodySilent, "the body fell over: emergency stop", 1),
+    ];
+    assert_eq!(
+        counted,
+        expected.map(|(cause, what, count)| (cause, what.to_owned(), count))
+    );
+    assert_eq!(application.wishes.len(), 1);
 }
 
 /// Hazard: the crossing machine closes, and the sign goes on showing go; it holds a guard, and its body moves.

@@ -8,22 +8,23 @@
 //! ```
 //!
 //! The body sends at least a line in each `silence`, and so does the kit. A body that falls silent is an emergency
-//! stop of its robot; that ends by the word of a person, and not by a body that connects again.
+//! stop of its robot; that ends by the word of a person, and not by a body that connects again. So is a body that says
+//! more than is taken in for as long: its last line would wait behind the others.
 
 mod lines;
 
-use std::collections::VecDeque;
 use std::fmt;
 use std::time::Duration;
 
 use crossguard_codec::RobotState;
+use crossguard_endpoint::cause::Cause;
 use crossguard_protocol::{FallbackPolicy, Maneuver, TaskSet};
 
 pub use self::lines::VERSION;
 use self::lines::{At, FromBody, Start, ToBody, policy};
 use super::{Body, BodyAct, Build, Fallback, NotTaken, Pose, Report, state_of};
 use crate::located::is_on_site;
-use crate::port::{Heard, Listening, PortAddress, Stream, listen};
+use crate::port::{Heard, LINES, Listening, PortAddress, Stream, listen};
 use crate::site::{Place, Site};
 
 /// For how long a body is where it said that it is, in seconds.
@@ -35,8 +36,8 @@ const ERROR_MAX_M: f64 = 1_000.0;
 /// How often the kit says something at least, in seconds.
 const BEAT_S: f64 = 0.1;
 
-/// How many lines are taken in at a time.
-const LINES_AT_A_TIME: usize = 64;
+/// How many lines are taken in at a time: as many as may wait.
+const LINES_AT_A_TIME: usize = LINES;
 
 /// How a body is reached.
 #[derive(Clone, PartialEq, Debug)]
@@ -72,11 +73,13 @@ pub struct Ported {
     /// Since when nothing was heard, and nothing was said, in seconds.
     silent_s: f64,
     beat_s: f64,
+    /// For how long more lines have waited than are taken in at a time, while any do.
+    behind_s: Option<f64>,
     pose: Pose,
     known_s: f64,
     maneuver: Option<Maneuver>,
     fallback: Option<Fallback>,
-    reports: VecDeque<Report>,
+    reports: Vec<Report>,
 }
 
 impl fmt::Debug for Ported {
@@ -117,11 +120,12 @@ impl Ported {
             presence: Presence::Absent,
             silent_s: 0.0,
             beat_s: 0.0,
+            behind_s: None,
             pose,
             known_s: 0.0,
             maneuver: None,
             fallback: None,
-            reports: VecDeque::from([Report::Absent]),
+            reports: vec![Report::Absent],
         })
     }
 
@@ -135,7 +139,7 @@ impl Ported {
         let (_, stream) = self.stream.as_mut().ok_or_else(nobody)?;
         let said = stream.say(what);
         said.map_err(|error| {
-            self.lose();
+            self.lose("the body does not take what it is told");
             NotTaken(error.to_string())
         })
     }
@@ -147,15 +151,15 @@ impl Ported {
         }
     }
 
-    /// The body is not there any more.
-    fn lose(&mut self) {
+    /// The body is not there any more, for this reason.
+    fn lose(&mut self, why: &str) {
         if let Some((_, stream)) = self.stream.take() {
             stream.close();
         }
         self.known_s = 0.0;
         if self.presence == Presence::Here {
             self.presence = Presence::Silent;
-            self.reports.push_back(Report::Silent);
+            self.reports.push(Report::Silent(why.to_owned()));
         }
     }
 
@@ -169,14 +173,21 @@ impl Ported {
             }
             Heard::Connected(number, stream) => {
                 (self.stream, self.silent_s) = (Some((number, stream)), 0.0);
+                self.behind_s = None;
                 let crossguard = VERSION;
                 // One that is gone again is lost by that.
                 let _ = self.say(&ToBody::Hello { crossguard });
             }
             Heard::Line(number, line) if self.is_current(number) => self.read(&line),
-            Heard::Closed(number) if self.is_current(number) => self.lose(),
-            Heard::Line(..) | Heard::Closed(_) => {}
-            Heard::Stranger(uid) => self.reports.push_back(Report::Stranger(uid)),
+            Heard::Closed(number) if self.is_current(number) => {
+                self.lose("the body closed its connection");
+            }
+            Heard::Line(..) => self.misunderstand("said on a connection that does not count"),
+            Heard::Closed(_) => {}
+            Heard::Stranger(uid) => {
+                let who = format!("user {uid} is not the robot's: refused");
+                self.drop(Cause::BodyStranger, who);
+            }
         }
     }
 
@@ -200,7 +211,7 @@ impl Ported {
             } => {
                 if self.presence != Presence::Here {
                     self.presence = Presence::Here;
-                    self.reports.push_back(Report::Here);
+                    self.reports.push(Report::Here);
                 }
             }
             FromBody::Hello { crossguard } => {
@@ -208,7 +219,7 @@ impl Ported {
                 self.misunderstand(why.clone());
                 // It is refused whether it hears that or not.
                 let _ = self.say(&ToBody::Refused { why });
-                self.lose();
+                self.lose("the body says hello in another version");
             }
             FromBody::Pose {
                 east_m,
@@ -237,7 +248,7 @@ impl Ported {
             FromBody::Completed { id } => self.report(&id, Report::Completed),
             FromBody::Failed { id } => self.report(&id, Report::Failed),
             FromBody::FallenBack => self.finish_fallback(),
-            FromBody::Fault { text } => self.reports.push_back(Report::Fault(text)),
+            FromBody::Fault { text } => self.reports.push(Report::Fault(text)),
             FromBody::Beat => {}
         }
     }
@@ -245,13 +256,32 @@ impl Ported {
     /// Takes in what it says of a maneuver, if that is the current one.
     fn report(&mut self, id: &str, report: fn(crossguard_protocol::ManeuverId) -> Report) {
         match self.maneuver.filter(|it| it.id.to_string() == id) {
-            Some(maneuver) => self.reports.push_back(report(maneuver.id)),
+            Some(maneuver) => {
+                let report = report(maneuver.id);
+                // One that is repeated in a turn is no news.
+                if !self.reports.contains(&report) {
+                    self.reports.push(report);
+                }
+            }
             None => self.misunderstand(format!("maneuver {id} is not the current one")),
         }
     }
 
     fn misunderstand(&mut self, why: impl Into<String>) {
-        self.reports.push_back(Report::Garbled(why.into()));
+        self.drop(Cause::BodyGarbled, why);
+    }
+
+    /// Counts what is dropped: one report of each cause in a turn, however much is said.
+    fn drop(&mut self, cause: Cause, what: impl Into<String>) {
+        for report in &mut self.reports {
+            if let Report::Dropped(its, _, count) = report
+                && *its == cause
+            {
+                *count += 1;
+                return;
+            }
+        }
+        self.reports.push(Report::Dropped(cause, what.into(), 1));
     }
 }
 
@@ -288,24 +318,30 @@ impl Body for Ported {
         }
     }
 
-    fn advance(&mut self, seconds: f64) -> Option<Report> {
+    fn advance(&mut self, seconds: f64) -> Vec<Report> {
         self.known_s = (self.known_s - seconds).max(0.0);
         self.silent_s += seconds;
         self.beat_s += seconds;
-        for _ in 0..LINES_AT_A_TIME {
-            let Ok(heard) = self.listening.heard.try_recv() else {
-                break;
-            };
+        let heard = self.listening.heard.try_iter().take(LINES_AT_A_TIME);
+        let heard: Vec<_> = heard.collect();
+        // The time before the first of these turns is not the body's: the robot may have been suspended.
+        let behind_s = self.behind_s.map_or(0.0, |it| it + seconds);
+        self.behind_s = (heard.len() == LINES_AT_A_TIME).then_some(behind_s);
+        for heard in heard {
             self.hear(heard);
         }
-        if self.stream.is_some() && self.silent_s > self.port.silence.as_secs_f64() {
-            self.lose();
+        let silence_s = self.port.silence.as_secs_f64();
+        if self.stream.is_some() && self.silent_s > silence_s {
+            self.lose("nothing was heard of the body");
+        }
+        if self.behind_s.is_some_and(|it| it > silence_s) {
+            self.lose("the body says more than is taken in");
         }
         if self.beat_s >= BEAT_S {
             self.beat_s = 0.0;
             self.mention(&ToBody::Beat);
         }
-        self.reports.pop_front()
+        std::mem::take(&mut self.reports)
     }
 
     fn state(&self) -> RobotState {

@@ -205,17 +205,17 @@ impl Body for Simulated {
         Ok(())
     }
 
-    fn advance(&mut self, seconds: f64) -> Option<Report> {
+    fn advance(&mut self, seconds: f64) -> Vec<Report> {
         let mut left = seconds * self.time_scale;
         // Short enough that speed and place change smoothly.
         while left > 0.0 && self.motion.is_some() {
             let slice = left.min(0.02);
             left -= slice;
             if let Some(report) = self.advance_slice(slice) {
-                return Some(report);
+                return vec![report];
             }
         }
-        None
+        Vec::new()
     }
 
     fn state(&self) -> RobotState {
@@ -324,7 +324,7 @@ mod tests {
 
     fn seconds_until_done(body: &mut Simulated) -> f64 {
         let mut seconds = 0.0;
-        while body.advance(0.01).is_none() {
+        while body.advance(0.01).is_empty() {
             seconds += 0.01;
             assert!(seconds < 60.0, "never arrives");
         }
@@ -352,7 +352,7 @@ mod tests {
     #[test]
     fn a_body_never_exceeds_the_speed_it_is_allowed() {
         let mut body = walking(1.0);
-        while body.advance(0.05).is_none() {
+        while body.advance(0.05).is_empty() {
             let speed = body.state().speed.unwrap().value;
             assert!(speed <= 0.5 * (1.0 + GAIT_VARIATION), "{speed}");
         }
@@ -370,27 +370,30 @@ mod tests {
             ..TaskParameters::default()
         };
         body.start(block, parameters);
-        assert_eq!(body.advance(2.0), None, "it is under way");
-        assert_eq!(body.advance(60.0), Some(Report::InPosition(block.id)));
-        assert_eq!(body.advance(600.0), None);
+        assert_eq!(body.advance(2.0).pop(), None, "it is under way");
+        assert_eq!(body.advance(60.0).pop(), Some(Report::InPosition(block.id)));
+        assert_eq!(body.advance(600.0).pop(), None);
         assert!(body.place().distance(Place::new(0.0, 5.0)) < 0.01);
     }
 
     #[test]
     fn an_escort_that_waits_stands_until_it_goes_on_with_the_same_maneuver() {
         let mut body = walking(1.0);
-        assert_eq!(body.advance(4.0), None);
+        assert_eq!(body.advance(4.0).pop(), None);
         let before = body.place();
         body.act(BodyAct::Wait).unwrap();
-        assert_eq!(body.advance(60.0), None);
+        assert_eq!(body.advance(60.0).pop(), None);
         let waits_at = body.place();
         let braking_m = before.distance(waits_at);
         assert!((0.05..0.2).contains(&braking_m), "{braking_m}");
         assert!(body.state().speed.unwrap().value < 0.01);
-        assert_eq!(body.advance(60.0), None);
+        assert_eq!(body.advance(60.0).pop(), None);
         assert_eq!(body.place(), waits_at);
         body.act(BodyAct::GoOn).unwrap();
-        assert_eq!(body.advance(60.0), Some(Report::Completed(maneuver().id)));
+        assert_eq!(
+            body.advance(60.0).pop(),
+            Some(Report::Completed(maneuver().id))
+        );
         assert!(body.place().distance(Place::new(0.0, 5.0)) < 0.01);
     }
 
@@ -410,12 +413,15 @@ mod tests {
         assert!(body.place().distance(Place::default()) < 0.01);
         let mut body = waiting();
         body.start(maneuver(), TaskParameters::default());
-        assert_eq!(body.advance(1.0), Some(Report::Completed(maneuver().id)));
+        assert_eq!(
+            body.advance(1.0).pop(),
+            Some(Report::Completed(maneuver().id))
+        );
     }
 
     fn fallen_back(after_s: f64, policy: FallbackPolicy) -> Simulated {
         let mut body = walking(1.0);
-        assert_eq!(body.advance(after_s), None);
+        assert_eq!(body.advance(after_s).pop(), None);
         body.fall_back(policy);
         body
     }
@@ -423,9 +429,9 @@ mod tests {
     #[test]
     fn going_to_safety_takes_its_time_and_finishes_no_maneuver() {
         let mut body = fallen_back(4.0, FallbackPolicy::GoToSafePosition);
-        assert_eq!(body.advance(0.5), None);
+        assert_eq!(body.advance(0.5).pop(), None);
         assert_eq!(body.fallback(), Some(Fallback::UnderWay));
-        assert_eq!(body.advance(30.0), None);
+        assert_eq!(body.advance(30.0).pop(), None);
         assert_eq!(body.fallback(), Some(Fallback::Finished));
         assert!(body.place().distance(Place::default()) < 0.01);
     }

@@ -33,8 +33,13 @@ impl Sampler {
             *recorded += 1;
             return true;
         }
-        self.unrecorded.add(cause, 1);
+        self.count(cause);
         false
+    }
+
+    /// Counts a drop that has no record of its own.
+    pub(super) fn count(&mut self, cause: &CauseName) {
+        self.unrecorded.add(cause, 1);
     }
 
     /// The counts of a second that is over at `now_us`, if anything was not recorded in it.

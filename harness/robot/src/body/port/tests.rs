@@ -2,6 +2,7 @@
 
 use std::io::{BufRead, BufReader, Write};
 use std::os::unix::net::UnixStream;
+use std::sync::mpsc::{SyncSender, sync_channel};
 
 use crossguard_codec::geonet::EgoPosition;
 use crossguard_codec::{
@@ -49,13 +50,18 @@ fn open(hello: &str) -> (Ported, UnixStream, tempfile::TempDir) {
 fn report(body: &mut Ported) -> Option<Report> {
     (0..60_000).find_map(|_| {
         std::thread::sleep(Duration::from_millis(1));
-        body.advance(0.0)
+        body.advance(0.0).pop()
     })
 }
 
 /// What the body reports within a second of its clock, while nothing comes from it.
 fn report_of_silence(body: &mut Ported) -> Option<Report> {
-    (0..10).find_map(|_| body.advance(0.1))
+    (0..10).find_map(|_| body.advance(0.1).pop())
+}
+
+/// What a body that is lost reports.
+fn silent(why: &str) -> Report {
+    Report::Silent(format!("the body {why}"))
 }
 
 fn heard(from: &mut impl BufRead) -> serde_json::Value {
@@ -107,7 +113,8 @@ fn a_body_that_says_nothing_is_silent_once_and_the_end_of_its_connection_is_sile
     let (mut body, _other, folder) = open(HELLO);
     assert_eq!(report(&mut body), Some(Report::Here));
     // It hangs.
-    assert_eq!(report_of_silence(&mut body), Some(Report::Silent));
+    let hangs = Some(Report::Silent("nothing was heard of the body".to_owned()));
+    assert_eq!(report_of_silence(&mut body), hangs);
     assert_eq!(report_of_silence(&mut body), None);
     let stop = BodyAct::Stop(maneuver(TaskType::MOVE), StopReason::Superseded);
     assert_eq!(body.act(stop), Ok(()), "it was told that it is silent");
@@ -117,7 +124,7 @@ fn a_body_that_says_nothing_is_silent_once_and_the_end_of_its_connection_is_sile
     writeln!(again, "{HELLO}").unwrap();
     assert_eq!(report(&mut body), Some(Report::Here));
     drop(again);
-    assert_eq!(report(&mut body), Some(Report::Silent));
+    assert_eq!(report(&mut body), Some(silent("closed its connection")));
 }
 
 #[test]
@@ -135,15 +142,80 @@ fn a_body_is_told_to_wait_and_to_go_on_in_its_maneuver() {
     assert_eq!(said, ["hello", "start", "wait", "go-on"]);
     writeln!(other, "{{\"type\": \"completed\", \"id\": \"1#1.0/0\"}}").unwrap();
     assert_eq!(report(&mut body), Some(Report::Completed(escort.id)));
-    assert_eq!(report_of_silence(&mut body), Some(Report::Silent));
+    assert!(matches!(
+        report_of_silence(&mut body),
+        Some(Report::Silent(_))
+    ));
     assert_eq!(body.act(BodyAct::Wait), Ok(()), "it stands by itself");
     assert!(body.act(BodyAct::GoOn).is_err());
+}
+
+/// A body that is there, and what the port hears of it from now on, by hand.
+fn open_by_hand() -> (Ported, SyncSender<Heard>, UnixStream) {
+    let (mut body, other, _) = open(HELLO);
+    assert_eq!(report(&mut body), Some(Report::Here));
+    let (tell, heard) = sync_channel(1 << 14);
+    body.listening.heard = heard;
+    (body, tell, other)
+}
+
+/// Hazard: a body that also says what the kit does not know dies on the road, and is missed seconds later.
+#[test]
+fn what_is_said_besides_is_counted_and_delays_no_end() {
+    let closed = silent("closed its connection");
+    let too_much = silent("says more than is taken in");
+    for (lines, silent, silent_at) in [
+        (5, &closed, 600),
+        (250, &closed, 600),
+        (270, &too_much, 101),
+    ] {
+        let (mut body, tell, _other) = open_by_hand();
+        let escort = maneuver(TaskType::MOVE);
+        body.act(BodyAct::Start(escort, TaskParameters::default()))
+            .unwrap();
+        let say = |line: &str| tell.send(Heard::Line(0, line.to_owned())).unwrap();
+        let (mut dropped, mut others) = (0, Vec::new());
+        for turn in 0..700_i32 {
+            if turn < 600 {
+                (0..lines).for_each(|_| say(r#"{"type": "imu", "x": 1}"#));
+                say(r#"{"type": "beat"}"#);
+            } else if turn == 600 {
+                say(r#"{"type": "completed", "id": "1#1.0/0"}"#);
+                say(r#"{"type": "fault", "text": "hot"}"#);
+                tell.send(Heard::Closed(0)).unwrap();
+            }
+            for report in body.advance(0.005) {
+                match report {
+                    Report::Dropped(Cause::BodyGarbled, _, count) => dropped += count,
+                    report => others.push((turn, report)),
+                }
+            }
+        }
+        let (turn, last) = others.pop().unwrap();
+        assert_eq!(&last, silent);
+        assert!(turn.abs_diff(silent_at) <= 1, "{turn}");
+        if silent == &closed {
+            let before = [
+                Report::Completed(escort.id),
+                Report::Fault("hot".to_owned()),
+            ];
+            assert_eq!(others, before.map(|it| (turn, it)));
+            assert_eq!(dropped, 600 * lines);
+        } else {
+            // What it says after that is dropped, too: two lines in the end, and beats.
+            let beats = 600 * 271 + 2 - dropped;
+            assert!((1..=100).contains(&beats), "{beats} beats were taken in");
+        }
+    }
 }
 
 #[test]
 fn a_body_of_the_version_without_wait_is_refused() {
     let (mut body, other, _folder) = open(r#"{"type": "hello", "crossguard": 1}"#);
-    assert!(matches!(report(&mut body), Some(Report::Garbled(_))));
+    assert!(matches!(
+        report(&mut body),
+        Some(Report::Dropped(Cause::BodyGarbled, ..))
+    ));
     let mut lines = BufReader::new(other);
     assert_eq!(heard(&mut lines)["type"], "hello");
     let refused = heard(&mut lines);
@@ -189,7 +261,7 @@ fn point_5_what_a_body_does_not_know_of_its_pose_is_unavailable() {
         .unwrap();
         while body.place() != Place::new(f64::from(at), 0.0) {
             std::thread::sleep(Duration::from_millis(1));
-            assert_eq!(body.advance(0.0), None, "{more}");
+            assert_eq!(body.advance(0.0).pop(), None, "{more}");
         }
         let sent = ram_of(&body.state());
         let number = |value: Option<f64>| value.map_or("none".to_owned(), |it| it.to_string());
@@ -216,7 +288,7 @@ fn point_5_what_a_body_does_not_know_of_its_pose_is_unavailable() {
         .unwrap();
         let said = report(&mut body);
         assert!(
-            matches!(said, Some(Report::Garbled(_))),
+            matches!(said, Some(Report::Dropped(Cause::BodyGarbled, ..))),
             "{wrong}: {said:?}"
         );
     }
