@@ -1,7 +1,8 @@
 //! How many drops of one cause are recorded one by one: a flood must not fill the disk.
 //!
-//! Datagrams come from anybody, and whatever is dropped of them would be in the log with its octets. A sensor may deliver
-//! nothing but garbage. Of each cause so many are recorded in a second; the others are counted, and the counts are recorded.
+//! Datagrams come from anybody, and lines from sensors, bodies and operators that may have a mistake in them. Whatever is
+//! dropped of them would be in the log, datagrams with their octets. Of each cause so many are recorded in a second; the
+//! others are counted, and the counts are recorded.
 
 use std::collections::BTreeMap;
 
@@ -62,19 +63,12 @@ impl Sampler {
 /// Whether others bring it about: what the robot drops of its own is rare, and of use one by one.
 fn is_of_others(cause: &CauseName) -> bool {
     match cause.layer {
-        Layer::Inbox
-        | Layer::Packet
-        | Layer::Security
-        | Layer::Service
-        | Layer::Syntax
-        | Layer::Semantics
-        | Layer::Protocol
-        | Layer::Perception => true,
+        Layer::Simulated | Layer::Storage | Layer::Log | Layer::Output => false,
         Layer::Link => {
             let own = [Cause::NotSent, Cause::LinkFailed];
             !own.into_iter().any(|own| *cause == own.into())
         }
-        _ => false,
+        _ => true,
     }
 }
 
@@ -85,27 +79,33 @@ mod tests {
     #[test]
     fn a_flood_is_counted_and_other_causes_are_recorded() {
         let mut sampler = Sampler::default();
-        let garbage = CauseName::from(Cause::Undecodable("truncated"));
+        let flooded = [
+            Cause::Undecodable("truncated"),
+            Cause::FrameDropped("malformed"),
+            Cause::BodyGarbled,
+            Cause::OperatorGarbled,
+        ];
+        let flooded = flooded.map(CauseName::from);
         let forged = CauseName::from(Cause::Rejected("wrong signature"));
-        let no_frame = CauseName::from(Cause::FrameDropped("malformed"));
-        for of_flood in [&garbage, &no_frame] {
-            let admitted = (0..1_000).filter(|_| sampler.admits(of_flood)).count();
-            assert_eq!(admitted, RECORDED as usize, "{of_flood}");
+        for cause in &flooded {
+            let admitted = (0..1_000).filter(|_| sampler.admits(cause)).count();
+            assert_eq!(admitted, RECORDED as usize, "{cause}");
         }
         assert!(sampler.admits(&forged));
         assert_eq!(sampler.elapse(999_999), None);
         let counts = sampler.elapse(1_000_000).unwrap();
-        assert_eq!(counts.of(&garbage), 1_000 - u64::from(RECORDED));
-        assert_eq!(counts.of(&no_frame), counts.of(&garbage));
+        for cause in &flooded {
+            assert_eq!(counts.of(cause), 1_000 - u64::from(RECORDED), "{cause}");
+            assert!(sampler.admits(cause));
+        }
         assert_eq!(counts.of(&forged), 0);
-        assert!(sampler.admits(&garbage));
         assert_eq!(sampler.elapse(3_000_000), None);
     }
 
     #[test]
     fn what_the_robot_does_not_send_is_always_recorded() {
         let mut sampler = Sampler::default();
-        for own in [Cause::NotSent, Cause::LinkFailed, Cause::BodySilent] {
+        for own in [Cause::NotSent, Cause::LinkFailed, Cause::TimeNotKept] {
             assert!((0..1_000).all(|_| sampler.admits(&own.into())));
         }
         assert_eq!(sampler.finish(), None);
