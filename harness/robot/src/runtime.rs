@@ -31,9 +31,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver as Inbox, RecvTimeoutError, sync_channel};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use crossguard_codec::{Battery, Identifiers, JobRole, MapPlace, SignalsShown};
+use crossguard_codec::Identifiers;
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
@@ -45,7 +45,7 @@ pub use self::clock::Clock;
 use self::clock::{moment_at, unix_us};
 use self::keeper::Keeper;
 use self::reader::{Reader, Waiting};
-pub use self::running::{Orders, Panicked, Running};
+pub use self::running::{Order, Orders, Panicked, Running};
 use self::sampler::Sampler;
 use crate::application::Application;
 use crate::around::Around;
@@ -54,7 +54,7 @@ use crate::channel::Monitored;
 use crate::clock::ClockState;
 use crate::journal::Journal;
 use crate::machine::Machine;
-use crate::perception::{Newest, SensorFrame, seen_from};
+use crate::perception::{Newest, seen_from};
 use crate::trace::{Entry, Record, recorded};
 use crate::transport::{Arrival, Halves, Sender};
 
@@ -75,46 +75,6 @@ const BODY_PERIOD: Duration = Duration::from_millis(5);
 
 /// How often the log says who is around.
 const AROUND_PERIOD_US: u64 = 1_000_000;
-
-/// What a running robot can be told from outside.
-#[derive(Clone, PartialEq, Debug)]
-pub enum Order {
-    /// Something for its endpoint.
-    Wish(Stimulus<'static>),
-    /// The body holds the place from which the maneuver that runs guards.
-    InPosition,
-    /// It does not hold that place any more.
-    OutOfPosition,
-    /// A person says that the road is clear.
-    Clear,
-    /// The maneuver that runs is finished, well or not; or the fallback that runs.
-    Finish {
-        /// Whether it was completed.
-        well: bool,
-    },
-    /// The sensors have this person now, at this place on the site.
-    Perceived(PerceivedVru),
-    /// A sensor source looked at this moment.
-    Looked(Arc<SensorFrame>, Instant),
-    /// A sensor source delivered something that is no frame, and why.
-    LookedInVain(String),
-    /// The battery is like this now.
-    Battery(Battery),
-    /// Show this to people, which RAM tell; without means, by those of the robot's configuration.
-    Show(SignalsShown),
-    /// Be there for this job.
-    Job(JobRole),
-    /// Serve this road segment or intersection, or none of a map.
-    Serve(Option<MapPlace>),
-    /// Count this, which happened outside of it, and log it with a detail.
-    Count(Cause, &'static str),
-    /// Carry the body back to where it began.
-    Reset,
-    /// Leave whatever session it is in, say farewell, and stop.
-    Stop,
-    /// Lose power: end at once and say nothing.
-    Die,
-}
 
 enum Delivery {
     Arrived(std::io::Result<Arrival>),
@@ -172,6 +132,7 @@ impl Setup {
     #[must_use]
     pub fn start(mut self) -> Running {
         let (deliveries, inbox) = sync_channel(DATAGRAMS + OF_PARTNERS + ORDERS);
+        let (places, places_taken) = sync_channel(ORDERS);
         let stop = Arc::new(AtomicBool::new(false));
         let waiting = Arc::new(Waiting::default());
         let reader = Reader {
@@ -203,6 +164,7 @@ impl Setup {
             journal: self.journal,
             clock: self.clock,
             waiting: Arc::clone(&waiting),
+            places_taken,
             boot,
             keeper: Keeper::start(self.boot, memory),
             clock_state: None,
@@ -228,7 +190,7 @@ impl Setup {
             }),
         ];
         Running {
-            orders: Orders(deliveries),
+            orders: Orders { deliveries, places },
             waiting,
             threads,
             stop,
@@ -245,6 +207,8 @@ struct Loop {
     journal: Journal,
     clock: Clock,
     waiting: Arc<Waiting>,
+    /// One for each order that waits.
+    places_taken: Inbox<()>,
     /// The boot counter that it started with.
     boot: u16,
     keeper: Keeper,
@@ -291,7 +255,11 @@ impl Loop {
             self.log(Entry::Zone(outline));
         }
         while !self.is_done() {
-            match inbox.recv_timeout(self.patience()) {
+            let delivery = inbox.recv_timeout(self.patience());
+            if let Ok(Delivery::Order(_) | Delivery::Revoked(_)) = delivery {
+                let _ = self.places_taken.try_recv();
+            }
+            match delivery {
                 Ok(Delivery::Order(order)) => self.obey(order),
                 Ok(Delivery::Revoked(list)) => self.revoke(list),
                 Ok(Delivery::Arrived(arrival)) => {

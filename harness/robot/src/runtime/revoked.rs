@@ -4,13 +4,12 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::SyncSender;
 use std::time::{Duration, Instant};
 
 use crossguard_codec::security::HashedId8;
 use crossguard_endpoint::cause::Cause;
 
-use super::{Delivery, Loop, Running};
+use super::{Delivery, Loop, Orders, Running};
 use crate::pki::{PkiError, RevokedList};
 
 /// How often the file is looked at.
@@ -27,20 +26,20 @@ impl Running {
     /// signed with a certificate on it. A list that cannot be read any more is counted, and the one before it stays.
     pub fn keep_revoked(&mut self, list: PathBuf) {
         let (list, stop) = (RevokedList::new(list), Arc::clone(&self.stop));
-        let deliveries = self.orders.0.clone();
-        let watch = move || watch(list, &deliveries, &stop);
+        let orders = self.orders();
+        let watch = move || watch(list, &orders, &stop);
         self.threads.push(std::thread::spawn(watch));
     }
 }
 
 /// Delivers the list whenever its file has changed, until the robot has stopped.
-fn watch(mut list: RevokedList, deliveries: &SyncSender<Delivery>, stop: &AtomicBool) {
+fn watch(mut list: RevokedList, orders: &Orders, stop: &AtomicBool) {
     let mut due = Instant::now();
     while !stop.load(Ordering::Relaxed) {
         if Instant::now() >= due {
             due = Instant::now() + PERIOD;
             if let Some(read) = list.read_if_changed()
-                && deliveries.send(Delivery::Revoked(read)).is_err()
+                && !orders.deliver(Delivery::Revoked(read))
             {
                 return;
             }

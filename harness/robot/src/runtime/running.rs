@@ -4,18 +4,74 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::SyncSender;
 use std::thread::JoinHandle;
+use std::time::Instant;
 
+use crossguard_codec::{Battery, JobRole, MapPlace, SignalsShown};
+use crossguard_endpoint::Stimulus;
+use crossguard_endpoint::cause::Cause;
+use crossguard_endpoint::ras::clustering::PerceivedVru;
+
+use super::Delivery;
 use super::reader::Waiting;
-use super::{Delivery, Order};
+use crate::perception::SensorFrame;
+
+/// What a running robot can be told from outside.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Order {
+    /// Something for its endpoint.
+    Wish(Stimulus<'static>),
+    /// The body holds the place from which the maneuver that runs guards.
+    InPosition,
+    /// It does not hold that place any more.
+    OutOfPosition,
+    /// A person says that the road is clear.
+    Clear,
+    /// The maneuver that runs is finished, well or not; or the fallback that runs.
+    Finish {
+        /// Whether it was completed.
+        well: bool,
+    },
+    /// The sensors have this person now, at this place on the site.
+    Perceived(PerceivedVru),
+    /// A sensor source looked at this moment.
+    Looked(Arc<SensorFrame>, Instant),
+    /// A sensor source delivered something that is no frame, and why.
+    LookedInVain(String),
+    /// The battery is like this now.
+    Battery(Battery),
+    /// Show this to people, which RAM tell; without means, by those of the robot's configuration.
+    Show(SignalsShown),
+    /// Be there for this job.
+    Job(JobRole),
+    /// Serve this road segment or intersection, or none of a map.
+    Serve(Option<MapPlace>),
+    /// Count this, which happened outside of it, and log it with a detail.
+    Count(Cause, &'static str),
+    /// Carry the body back to where it began.
+    Reset,
+    /// Leave whatever session it is in, say farewell, and stop.
+    Stop,
+    /// Lose power: end at once and say nothing.
+    Die,
+}
 
 /// Where a robot takes orders.
 #[derive(Clone)]
-pub struct Orders(pub(super) SyncSender<Delivery>);
+pub struct Orders {
+    pub(super) deliveries: SyncSender<Delivery>,
+    /// An order takes one of these before it takes a place among the datagrams, so that it never takes one of theirs.
+    pub(super) places: SyncSender<()>,
+}
 
 impl Orders {
-    /// Tells the robot something. It has no effect on a robot that has stopped.
+    /// Tells the robot something, as soon as there is a place for it. It has no effect on a robot that has stopped.
     pub fn give(&self, order: Order) {
-        let _ = self.0.send(Delivery::Order(order));
+        self.deliver(Delivery::Order(order));
+    }
+
+    /// Delivers something that takes the place of an order. Whether the robot still runs.
+    pub(super) fn deliver(&self, delivery: Delivery) -> bool {
+        self.places.send(()).is_ok() && self.deliveries.send(delivery).is_ok()
     }
 }
 
@@ -82,3 +138,34 @@ impl Running {
     "a thread of the robot panicked: it ended without a farewell, and its body was halted. Report this with the log"
 )]
 pub struct Panicked;
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::AtomicUsize;
+    use std::sync::mpsc::sync_channel;
+
+    use super::super::{DATAGRAMS, OF_PARTNERS, ORDERS};
+    use super::*;
+
+    /// Hazard: a program at the operator port repeats itself, and the heartbeats of the session find no place.
+    #[test]
+    fn a_flood_of_orders_takes_no_place_of_a_datagram() {
+        let (deliveries, inbox) = sync_channel(DATAGRAMS + OF_PARTNERS + ORDERS);
+        let (places, places_taken) = sync_channel(ORDERS);
+        let orders = Orders { deliveries, places };
+        let given = Arc::new(AtomicUsize::new(0));
+        let counted = Arc::clone(&given);
+        let flood = std::thread::spawn(move || {
+            for _ in 0..1_000 {
+                orders.give(Order::Reset);
+                counted.fetch_add(1, Ordering::Relaxed);
+            }
+        });
+        while given.load(Ordering::Relaxed) < ORDERS {
+            std::thread::yield_now();
+        }
+        assert_eq!(inbox.try_iter().count(), ORDERS);
+        drop((inbox, places_taken));
+        flood.join().unwrap();
+    }
+}
