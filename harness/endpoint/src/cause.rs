@@ -84,8 +84,10 @@ pub enum Cause {
     BodySilent,
     /// The body has a fault.
     BodyFault,
-    /// The body said something that is no line of the port, or of a maneuver that does not run.
+    /// The body said something that is no line of the port, or of a maneuver that does not run; or it said no hello.
     BodyGarbled,
+    /// A body wanted to connect while another one is connected.
+    BodiesFull,
     /// Another user wanted to connect to the body port.
     BodyStranger,
     /// A program said something that is no line of the operator port, or never said hello.
@@ -123,9 +125,11 @@ impl Cause {
             Self::Contradictory(_) => Layer::Semantics,
             Self::Ignored(_) | Self::NotYielding => Layer::Protocol,
             Self::Unplaced | Self::FrameDropped(_) => Layer::Perception,
-            Self::BodySilent | Self::BodyFault | Self::BodyGarbled | Self::BodyStranger => {
-                Layer::Body
-            }
+            Self::BodySilent
+            | Self::BodyFault
+            | Self::BodyGarbled
+            | Self::BodiesFull
+            | Self::BodyStranger => Layer::Body,
             Self::OperatorGarbled
             | Self::OperatorSlow
             | Self::OperatorsFull
@@ -171,7 +175,7 @@ impl Display for Reason {
             Cause::BodyFault => "fault",
             Cause::BodyGarbled | Cause::OperatorGarbled => "not understood",
             Cause::OperatorSlow => "too slow",
-            Cause::OperatorsFull => "too many",
+            Cause::BodiesFull | Cause::OperatorsFull => "too many",
             Cause::BodyStranger | Cause::OperatorStranger => "another user",
             Cause::EpochNotRenewed => "boot counter not renewed",
             Cause::TimeNotKept => "time not kept",

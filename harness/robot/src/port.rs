@@ -22,6 +22,10 @@ use socket2::{Domain, SockAddr, Socket, Type};
 /// Longest line that comes in, in octets: a frame with as many people as are possible fits.
 const LINE_MAX: u64 = 65_536;
 
+/// Why a line cannot be read.
+const TOO_LONG: &str = "a line has more than 65,536 octets";
+const TORN: &str = "the connection ended in the middle of a line";
+
 /// How many lines may wait; after that who says them has to.
 pub(crate) const LINES: usize = 256;
 
@@ -147,6 +151,8 @@ pub fn connect(port: &PortAddress, patience: Duration) -> std::io::Result<UnixSt
 pub(crate) enum Heard {
     Connected(u64, Stream),
     Line(u64, String),
+    /// The connection ends with a line that cannot be read, for this reason; it is closed after that.
+    Unread(u64, &'static str),
     Closed(u64),
     /// Another user wanted to connect, and was refused.
     Stranger(u32),
@@ -271,8 +277,14 @@ fn read(half: UnixStream, number: u64, tell: &SyncSender<Heard>) {
     let mut half = BufReader::new(half);
     loop {
         let mut line = Vec::new();
-        let read = half.by_ref().take(LINE_MAX).read_until(b'\n', &mut line);
-        if !matches!(read, Ok(1..)) || line.last() != Some(&b'\n') {
+        // What was read before an error is a line without an end, too.
+        let _ = half.by_ref().take(LINE_MAX).read_until(b'\n', &mut line);
+        if line.last() != Some(&b'\n') {
+            if !line.is_empty() {
+                let is_too_long = line.len() as u64 == LINE_MAX;
+                let why = if is_too_long { TOO_LONG } else { TORN };
+                let _ = tell.send(Heard::Unread(number, why));
+            }
             return;
         }
         let line = String::from_utf8_lossy(&line).into_owned();
@@ -382,6 +394,25 @@ mod tests {
         assert!(!is_own_client(&client));
         drop(client);
         child.wait().unwrap();
+    }
+
+    #[test]
+    fn a_line_that_cannot_be_read_is_told_of_before_the_connection_ends() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("port.sock");
+        let port = listen(&PortAddress(path.clone())).unwrap();
+        let heard = || port.heard.recv_timeout(Duration::from_mins(1)).unwrap();
+        let longest = usize::try_from(LINE_MAX).unwrap();
+        for (length, expected) in [(longest, TOO_LONG), (longest - 1, TORN)] {
+            let mut other = UnixStream::connect(&path).unwrap();
+            assert!(matches!(heard(), Heard::Connected(..)));
+            other.write_all(b"{}\n").unwrap();
+            assert!(matches!(heard(), Heard::Line(..)));
+            other.write_all(&vec![b'a'; length]).unwrap();
+            drop(other);
+            assert!(matches!(heard(), Heard::Unread(_, why) if why == expected));
+            assert!(matches!(heard(), Heard::Closed(_)));
+        }
     }
 
     #[test]

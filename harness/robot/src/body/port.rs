@@ -39,6 +39,9 @@ const BEAT_S: f64 = 0.1;
 /// How many lines are taken in at a time: as many as may wait.
 const LINES_AT_A_TIME: usize = LINES;
 
+/// How many characters of a text of the body are in a report.
+const TEXT_CHARS: usize = 256;
+
 /// How a body is reached.
 #[derive(Clone, PartialEq, Debug)]
 pub struct BodyPort {
@@ -153,13 +156,16 @@ impl Ported {
 
     /// The body is not there any more, for this reason.
     fn lose(&mut self, why: &str) {
-        if let Some((_, stream)) = self.stream.take() {
-            stream.close();
-        }
+        let Some((_, stream)) = self.stream.take() else {
+            return;
+        };
+        stream.close();
         self.known_s = 0.0;
         if self.presence == Presence::Here {
             self.presence = Presence::Silent;
             self.reports.push(Report::Silent(why.to_owned()));
+        } else {
+            self.misunderstand(format!("no hello: {why}"));
         }
     }
 
@@ -170,6 +176,7 @@ impl Ported {
                 // Who does not hear it sees that the connection ends.
                 let _ = stream.say(&ToBody::Refused { why });
                 stream.close();
+                self.drop(Cause::BodiesFull, "another body wanted to connect: refused");
             }
             Heard::Connected(number, stream) => {
                 (self.stream, self.silent_s) = (Some((number, stream)), 0.0);
@@ -181,6 +188,12 @@ impl Ported {
             Heard::Line(number, line) if self.is_current(number) => self.read(&line),
             Heard::Closed(number) if self.is_current(number) => {
                 self.lose("the body closed its connection");
+            }
+            Heard::Unread(number, why) => {
+                self.misunderstand(why);
+                if self.is_current(number) {
+                    self.lose(why);
+                }
             }
             Heard::Line(..) => self.misunderstand("said on a connection that does not count"),
             Heard::Closed(_) => {}
@@ -216,10 +229,10 @@ impl Ported {
             }
             FromBody::Hello { crossguard } => {
                 let why = format!("version {crossguard}: {VERSION} is spoken here");
-                self.misunderstand(why.clone());
+                let refused = ToBody::Refused { why: why.clone() };
                 // It is refused whether it hears that or not.
-                let _ = self.say(&ToBody::Refused { why });
-                self.lose("the body says hello in another version");
+                let _ = self.say(&refused);
+                self.lose(&why);
             }
             FromBody::Pose {
                 east_m,
@@ -248,7 +261,7 @@ impl Ported {
             FromBody::Completed { id } => self.report(&id, Report::Completed),
             FromBody::Failed { id } => self.report(&id, Report::Failed),
             FromBody::FallenBack => self.finish_fallback(),
-            FromBody::Fault { text } => self.reports.push(Report::Fault(text)),
+            FromBody::Fault { text } => self.reports.push(Report::Fault(in_a_line(&text))),
             FromBody::Beat => {}
         }
     }
@@ -281,8 +294,23 @@ impl Ported {
                 return;
             }
         }
-        self.reports.push(Report::Dropped(cause, what.into(), 1));
+        let what = in_a_line(&what.into());
+        self.reports.push(Report::Dropped(cause, what, 1));
     }
+}
+
+/// The beginning of a text that may be the body's, with control characters spelled out: it must not look like a line
+/// that the kit says.
+fn in_a_line(text: &str) -> String {
+    let mut shown = String::new();
+    for char in text.chars().take(TEXT_CHARS) {
+        if char.is_control() {
+            shown.extend(char.escape_unicode());
+        } else {
+            shown.push(char);
+        }
+    }
+    shown
 }
 
 impl Body for Ported {

@@ -237,7 +237,8 @@ impl<O: Obeys> Counter<O> {
                     },
                 );
             }
-            Heard::Line(number, line) => self.hear_line(number, &line, now_us),
+            Heard::Line(number, line) => self.hear_line(number, Ok(&line), now_us),
+            Heard::Unread(number, why) => self.hear_line(number, Err(why), now_us),
             Heard::Stranger(_) => self.count(Cause::OperatorStranger, "refused"),
             Heard::Closed(number) => {
                 if let Some(client) = self.clients.remove(&number) {
@@ -247,22 +248,24 @@ impl<O: Obeys> Counter<O> {
         }
     }
 
-    fn hear_line(&mut self, number: u64, line: &str, now_us: u64) {
+    fn hear_line(&mut self, number: u64, line: Result<&str, &str>, now_us: u64) {
         let Some(client) = self.clients.get_mut(&number) else {
             return;
         };
         client.lines += 1;
         let nth = client.lines;
-        let outcome = if client.has_greeted {
-            self.understand(line).map(|order| {
+        let outcome = match line {
+            Ok(line) if client.has_greeted => self.understand(line).map(|order| {
                 if let Some(order) = order {
                     self.orders.order(order);
                 }
-            })
-        } else {
-            let greeting = greeting(line);
-            client.has_greeted = greeting.is_ok();
-            greeting.map(|()| self.tell_state(now_us, true))
+            }),
+            Ok(line) => {
+                let greeting = greeting(line);
+                client.has_greeted = greeting.is_ok();
+                greeting.map(|()| self.tell_state(now_us, true))
+            }
+            Err(why) => Err(why.to_owned()),
         };
         let Err(why) = outcome else { return };
         self.count(Cause::OperatorGarbled, "a line at the operator port");

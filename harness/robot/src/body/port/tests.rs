@@ -209,6 +209,52 @@ fn what_is_said_besides_is_counted_and_delays_no_end() {
     }
 }
 
+/// Hazard: a text of the body looks like a line of the kit on the console, and fills the log.
+#[test]
+fn what_does_not_count_is_counted_and_texts_of_a_body_stay_in_a_line() {
+    let (mut body, tell, _other) = open_by_hand();
+    let (ours, mut theirs) = UnixStream::pair().unwrap();
+    let (stream, _) = crate::port::prepare(ours).unwrap();
+    let fault = format!(
+        r#"{{"type": "fault", "text": "hot\n 12.000 ARI: now Idle\u001b[2J{}"}}"#,
+        "!".repeat(1_000)
+    );
+    let too_long = "a line has more than 65,536 octets";
+    for heard in [
+        Heard::Connected(1, stream),
+        Heard::Line(0, fault),
+        Heard::Unread(0, too_long),
+        Heard::Line(0, HELLO.to_owned()),
+    ] {
+        tell.send(heard).unwrap();
+    }
+    let text = r"hot\u{a} 12.000 ARI: now Idle\u{1b}[2J";
+    let expected = [
+        Report::Dropped(
+            Cause::BodiesFull,
+            "another body wanted to connect: refused".to_owned(),
+            1,
+        ),
+        Report::Fault(format!("{text}{}", "!".repeat(TEXT_CHARS - 29))),
+        Report::Dropped(Cause::BodyGarbled, too_long.to_owned(), 2),
+        Report::Silent(too_long.to_owned()),
+    ];
+    assert_eq!(body.advance(0.0), expected);
+    let mut refused = String::new();
+    std::io::Read::read_to_string(&mut theirs, &mut refused).unwrap();
+    assert!(refused.contains("another body is connected"), "{refused}");
+    // One that connects and says no hello.
+    let (ours, _mute) = UnixStream::pair().unwrap();
+    let (stream, _) = crate::port::prepare(ours).unwrap();
+    tell.send(Heard::Connected(2, stream)).unwrap();
+    assert_eq!(body.advance(0.0), []);
+    let mute = "no hello: nothing was heard of the body".to_owned();
+    assert_eq!(
+        report_of_silence(&mut body),
+        Some(Report::Dropped(Cause::BodyGarbled, mute, 1))
+    );
+}
+
 #[test]
 fn a_body_of_the_version_without_wait_is_refused() {
     let (mut body, other, _folder) = open(r#"{"type": "hello", "crossguard": 1}"#);

@@ -146,7 +146,10 @@ fn each_line_is_an_order_or_is_refused_and_counted() {
         assert_eq!(told.take(), Vec::from_iter(expected), "{line}");
     }
     for (nth, [line, why]) in (first_refused..).zip(rows(REFUSED)) {
-        say(&mut counter, 0, &line);
+        match line.as_str() {
+            "" => counter.hear(Heard::Unread(0, "a line has more"), 0),
+            line => say(&mut counter, 0, line),
+        }
         let orders = told.take();
         let is_counted = matches!(orders[..], [Order::Count(Cause::OperatorGarbled, _)]);
         assert!(is_counted, "{line}: {orders:?}");
@@ -186,6 +189,7 @@ const REFUSED: &str = r#"
 {"type": "person", "id": 7, "position_m": [1e9, 0]}       | position_m is
 {"type": "dance"}                                         | a 'type' is wanted
 no json                                                   | expected ident
+                                                          | a line has more
 "#;
 
 #[test]
