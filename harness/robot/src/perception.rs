@@ -7,7 +7,8 @@
 //!
 //! A frame has everybody in sight of its source, and says when the source looked: `at_s` in seconds from the beginning, or `unix_s`
 //! in seconds since 1970. Its age counts from then, however long it waited in a pipe. `covers_m` is the polygon that the source
-//! could see at that time; without it, the whole crossing. Sources are numbered from 0 to 3; without a number it is source 0.
+//! could see at that time; without it, the whole carriageway. A [part](crate::zone::Zone::covered) of the carriageway is covered if
+//! all of it is in that polygon. Sources are numbered from 0 to 3; without a number it is source 0.
 //! Vehicles are among the people, with `"class": "vehicle"`. `velocity_mps` is unknown, `class` a pedestrian,
 //! `confidence` 1 and `error_m` 0.2 where they are left out. Places are metres to the east and to the north of the site's
 //! origin, as everywhere in the command.
@@ -91,14 +92,14 @@ impl From<PerceivedVru> for Perceived {
 pub struct SensorFrame {
     /// The source.
     pub source: u8,
-    /// What it covers; `None` for the whole crossing.
+    /// What it covers; `None` for the whole carriageway.
     pub covers: Option<Area>,
     /// Everybody it saw there.
     pub people: Vec<Perceived>,
 }
 
 impl SensorFrame {
-    /// A frame of the first source that covers the whole crossing, with these people.
+    /// A frame of the first source that covers the whole carriageway, with these people.
     #[must_use]
     pub fn of(people: &[PerceivedVru]) -> Self {
         Self {

@@ -10,11 +10,11 @@ use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 
 pub use crossguard_crossing::tracks::Conduct;
 
+mod parts;
+
+use self::parts::Parts;
 use crate::sight::corners;
 use crate::site::Place;
-
-/// The carriageway is parted into so many cells along and across, for what a frame covers of it.
-const CELLS: [u8; 2] = [8, 4];
 
 /// A crossing zone.
 #[derive(Clone, PartialEq, Debug)]
@@ -57,9 +57,7 @@ impl Zone {
             road: self.road.as_ref().and_then(shape),
             crossing: self.crossing.as_ref().and_then(shape),
             waiting: self.waiting.as_ref().and_then(shape),
-            parts: self.cells().fold(Coverage::NONE, |parts, (bit, _)| {
-                parts.union(Coverage(1 << bit))
-            }),
+            parts: self.parts().all(),
         }
     }
 
@@ -78,50 +76,18 @@ impl Zone {
         }
     }
 
-    /// The cells of the carriageway: the number of each, and its middle and corners, as far as they are on it.
-    fn cells(&self) -> impl Iterator<Item = (u8, Vec<[f64; 2]>)> {
-        let road = self.road.as_ref();
-        let outline = road.map_or_else(Vec::new, corners);
-        let range = |axis: usize| {
-            let along = outline.iter().map(|corner| corner[axis]);
-            let least = along.clone().fold(f64::INFINITY, f64::min);
-            (least, along.fold(f64::NEG_INFINITY, f64::max))
-        };
-        let bounds = [range(0), range(1)];
-        let [columns, rows] = CELLS;
-        (0..columns * rows).filter_map(move |number| {
-            let road = road?;
-            let cell = [number % columns, number / columns];
-            let at = |shift: [f64; 2]| {
-                [0, 1].map(|axis| {
-                    let (least, most) = bounds[axis];
-                    let share = (f64::from(cell[axis]) + shift[axis]) / f64::from(CELLS[axis]);
-                    least + share * (most - least)
-                })
-            };
-            let shifts = [[0.5, 0.5], [0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]];
-            let points: Vec<_> = shifts
-                .map(at)
-                .into_iter()
-                .filter(|at| road.contains(*at))
-                .collect();
-            (!points.is_empty()).then_some((number, points))
-        })
+    fn parts(&self) -> Parts {
+        Parts::of(&self.road.as_ref().map_or_else(Vec::new, corners))
     }
 
-    /// The cells of the carriageway that a polygon covers; all, if none is said.
+    /// The parts of the carriageway that are in an area as a whole, to 1 cm; all, if none is said.
+    ///
+    /// It has 32: eight columns along its longest side, and four rows from edge to edge, without a gap. So the area covers
+    /// the carriageway only if no place of it is left out.
     #[must_use]
     pub fn covered(&self, by: Option<&Area>) -> Coverage {
-        let Some(area) = by else {
-            return self.ground().parts;
-        };
-        self.cells().fold(Coverage::NONE, |covered, (bit, points)| {
-            if points.iter().all(|at| area.contains(*at)) {
-                covered.union(Coverage(1 << bit))
-            } else {
-                covered
-            }
-        })
+        let parts = self.parts();
+        by.map_or_else(|| parts.all(), |area| parts.covered(&corners(area)))
     }
 }
 
