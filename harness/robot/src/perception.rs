@@ -36,16 +36,13 @@ use crate::lines::lines;
 use crate::located::{Impossible, possible};
 use crate::runtime::Order;
 use crate::site::Place;
-use crate::zone::sighting;
+use crate::zone::{NoPolygon, polygon, sighting};
 
 /// Lines that are read ahead at most.
 const AHEAD: usize = 64;
 
 /// Most people in a frame.
 const PEOPLE_MAX: usize = 256;
-
-/// Most corners of what a frame covers.
-const CORNERS_MAX: usize = 64;
 
 /// Error of a place where a source does not say it, in metres.
 const ERROR_M: f64 = 0.2;
@@ -192,16 +189,12 @@ pub enum PerceptionError {
         "a frame wants either 'at_s', in seconds from the beginning, or 'unix_s', in seconds since 1970"
     )]
     Undated,
-    /// There are too many of them.
-    #[error("{count} {what}: at most {most} are possible")]
-    Many {
-        /// Of what.
-        what: &'static str,
-        /// How many there are.
-        count: usize,
-        /// How many there may be.
-        most: usize,
-    },
+    /// There are too many people.
+    #[error("{0} people: at most {PEOPLE_MAX} are possible")]
+    Many(usize),
+    /// What it covers is no polygon.
+    #[error(transparent)]
+    Covers(#[from] NoPolygon),
     /// A number is not possible.
     #[error(transparent)]
     Impossible(#[from] Impossible),
@@ -243,13 +236,14 @@ fn frame(line: FrameLine) -> Result<Observation, PerceptionError> {
         )?),
         _ => return Err(PerceptionError::Undated),
     };
-    at_most("people", line.people.len(), PEOPLE_MAX)?;
+    if line.people.len() > PEOPLE_MAX {
+        return Err(PerceptionError::Many(line.people.len()));
+    }
     let covers = line.covers_m.map(|corners| {
-        at_most("corners of covers_m", corners.len(), CORNERS_MAX)?;
         for metres in corners.iter().flatten() {
             possible("covers_m", *metres, -1e5..=1e5, "metres on the site")?;
         }
-        Ok::<_, PerceptionError>(Area::Polygon(corners))
+        Ok::<_, PerceptionError>(polygon("covers_m", corners)?)
     });
     let people = (0..).zip(line.people).map(|(number, it)| {
         let vru = PerceivedVru {
@@ -273,14 +267,6 @@ fn frame(line: FrameLine) -> Result<Observation, PerceptionError> {
         people: people.collect::<Result<_, _>>()?,
     };
     Ok(Observation::Frame(frame, taken))
-}
-
-fn at_most(what: &'static str, count: usize, most: usize) -> Result<(), PerceptionError> {
-    if count <= most {
-        Ok(())
-    } else {
-        Err(PerceptionError::Many { what, count, most })
-    }
 }
 
 /// Checks that there can be somebody like that.
@@ -635,6 +621,10 @@ mod tests {
 {"people": [], "at_s": 1, "unix_s": 1}                           | a frame wants either 'at_s'
 {"people": [MANY], "at_s": 1}                                    | 257 people: at most 256 are possible
 {"people": [], "at_s": -1}                                       | at_s is -1
+{"people": [], "at_s": 1, "covers_m": []}                        | covers_m has 0 corners: 3 to 64 are possible
+{"people": [], "at_s": 1, "covers_m": [[0, 0], [9, 9]]}          | covers_m has 2 corners
+{"people": [], "at_s": 1, "covers_m": [[0, 0], [9, 9], [9, 0], [0, 9]]} | covers_m: its sides 1 and 3 cross
+{"people": [], "at_s": 1, "covers_m": [[0, 0], [9, 9], [1, 1]]}  | covers_m: its corners enclose nothing
 {"people": [], "at_s": 1, "source": -1}                          | invalid value
 {"people": [{"position_m": [1, 2], "error_m": -1}], "at_s": 1}   | error_m is -1
 {"id": 1, "place": 3}                                            | unknown field `place`

@@ -11,8 +11,11 @@ use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 pub use crossguard_crossing::tracks::Conduct;
 
 mod parts;
+mod polygon;
 
 use self::parts::Parts;
+pub use self::polygon::NoPolygon;
+pub(crate) use self::polygon::polygon;
 use crate::sight::corners;
 use crate::site::Place;
 

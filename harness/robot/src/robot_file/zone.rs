@@ -23,13 +23,7 @@ use crate::located::{Exact, Impossible, NEAR_M, is_near, possible};
 use crate::plan::millis;
 use crate::site::Place;
 use crate::site_file::{Purpose, SiteFile, Spot, between, outline};
-use crate::zone::Zone;
-
-/// Most corners of a polygon.
-const CORNERS_MAX: usize = 64;
-
-/// Smallest area of a polygon, in square metres.
-const AREA_MIN_M2: f64 = 0.01;
+use crate::zone::{NoPolygon, Zone, polygon};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -66,14 +60,6 @@ pub enum NoZone {
          alone, to watch the road and detect nobody"
     )]
     Shape,
-    /// A polygon with too few or too many corners.
-    #[error("{field} has {count} corners: 3 to {CORNERS_MAX} are possible")]
-    Corners {
-        /// The field.
-        field: &'static str,
-        /// How many it has.
-        count: usize,
-    },
     /// No place on the site.
     #[error("{field}: [{}, {}] is no place: metres on the site, at most {NEAR_M}, are wanted", place[0], place[1])]
     Place {
@@ -82,21 +68,9 @@ pub enum NoZone {
         /// What stands there.
         place: [f64; 2],
     },
-    /// The sides of a polygon cross.
-    #[error(
-        "{field}: its sides {first} and {second} cross; the corners are wanted in order around it"
-    )]
-    Crossed {
-        /// The field.
-        field: &'static str,
-        /// The number of a side, from 1 on.
-        first: usize,
-        /// That of another.
-        second: usize,
-    },
-    /// A polygon without an area.
-    #[error("{0}: its corners enclose nothing")]
-    Flat(&'static str),
+    /// Corners are no polygon.
+    #[error(transparent)]
+    Polygon(#[from] NoPolygon),
     /// A number is not possible.
     #[error(transparent)]
     Number(#[from] Impossible),
@@ -159,7 +133,7 @@ impl ZoneTable {
     ) -> Result<(Zone, Option<[Place; 2]>), NoZone> {
         self.fill_from(layout)?;
         let waiting = match (self.polygon_m, self.place_m, self.radius_m) {
-            (Some(corners), None, None) => Some(polygon("polygon_m", corners)?),
+            (Some(corners), None, None) => Some(polygon_on_site("polygon_m", corners)?),
             (None, Some(Exact(place)), Some(radius_m)) => Some(Area::Circle {
                 center: on_site("place_m", place)?,
                 radius_m: possible("radius_m", radius_m, 0.1..=1e3, "0.1 to 1000 m")?,
@@ -167,7 +141,9 @@ impl ZoneTable {
             (None, None, None) if self.road_m.is_some() => None,
             _ => return Err(NoZone::Shape),
         };
-        let road = self.road_m.map(|corners| polygon("road_m", corners));
+        let road = self
+            .road_m
+            .map(|corners| polygon_on_site("road_m", corners));
         let road = road.transpose()?;
         match (&waiting, &road) {
             (_, None) if is_autopilot => return Err(NoZone::NoRoad),
@@ -249,41 +225,11 @@ fn on_site(field: &'static str, place: [f64; 2]) -> Result<[f64; 2], NoZone> {
     }
 }
 
-fn polygon(field: &'static str, corners: Vec<[f64; 2]>) -> Result<Area, NoZone> {
-    let count = corners.len();
-    if !(3..=CORNERS_MAX).contains(&count) {
-        return Err(NoZone::Corners { field, count });
-    }
+fn polygon_on_site(field: &'static str, corners: Vec<[f64; 2]>) -> Result<Area, NoZone> {
     for corner in &corners {
         on_site(field, *corner)?;
     }
-    let side = |number: usize| (corners[number], corners[(number + 1) % count]);
-    for first in 0..count {
-        // The next side begins where this one ends, and the last one ends where the first begins.
-        for second in first + 2..count - usize::from(first == 0) {
-            if do_cross(side(first), side(second)) {
-                let (first, second) = (first + 1, second + 1);
-                return Err(NoZone::Crossed {
-                    field,
-                    first,
-                    second,
-                });
-            }
-        }
-    }
-    let area = Area::Polygon(corners);
-    if area.size_m2() < AREA_MIN_M2 {
-        return Err(NoZone::Flat(field));
-    }
-    Ok(area)
-}
-
-/// Whether two sides have a point in common other than by touching.
-fn do_cross((a, b): ([f64; 2], [f64; 2]), (c, d): ([f64; 2], [f64; 2])) -> bool {
-    let turn = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
-        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-    };
-    turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0
+    Ok(polygon(field, corners)?)
 }
 
 #[cfg(test)]
