@@ -65,7 +65,7 @@ pub struct RobotFile {
     pub shows: Option<SignalMeans>,
     /// Where its sensors have everybody who waits to cross or crosses, if they do.
     pub zone: Option<Zone>,
-    /// The carriageway of its site, where that has two kerbs.
+    /// The carriageway of its site, where that has a crossing.
     pub carriageway: Option<Area>,
     /// The kerbs between which it has people escorted, where they are not those of its plan.
     pub kerbs: Option<[Place; 2]>,

@@ -42,8 +42,8 @@ pub struct SiteFile {
     pub name: String,
     /// Where it is on earth, and what maps call it.
     pub site: Site,
-    /// The edges of the carriageway between which people cross.
-    pub kerbs: Vec<[Place; 2]>,
+    /// The edges of the carriageway between which people cross; `None` for a site without a crossing.
+    pub kerbs: Option<[[Place; 2]; 2]>,
     /// How far the carriageway goes on beside the crossing, on either side, in metres.
     pub along_m: f64,
     /// The lanes.
@@ -111,9 +111,11 @@ struct OriginTable {
 struct CrossingTable {
     reference: Option<Spanned<String>>,
     map_place: Option<Spanned<String>>,
-    kerbs_m: Vec<Exact<Spanned<Exact<f64, 2>>, 2>>,
+    kerbs_m: Option<Spanned<Vec<Kerb>>>,
     along_m: Option<Spanned<f64>>,
 }
+
+type Kerb = Exact<Spanned<Exact<f64, 2>>, 2>;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -173,16 +175,14 @@ impl SiteFile {
         checked.map_err(|misfit| misfit.of(file, text))
     }
 
-    /// The carriageway at the crossing; `None` where the site does not have two kerbs.
+    /// The carriageway at the crossing; `None` for a site without one.
     #[must_use]
     pub fn carriageway(&self) -> Option<Carriageway> {
-        let [near, far] = self.kerbs[..] else {
-            return None;
-        };
-        Some(Carriageway::new(near, far, self.along_m))
+        self.kerbs
+            .map(|[near, far]| Carriageway::new(near, far, self.along_m))
     }
 
-    /// How long a slow walker is on the carriageway, in seconds; `None` where the site does not have two kerbs.
+    /// How long a slow walker is on the carriageway, in seconds; `None` for a site without a crossing.
     #[must_use]
     pub fn walk_s(&self) -> Option<f64> {
         self.carriageway().map(|road| road.width_m() / SLOW_MPS)
@@ -232,14 +232,14 @@ impl SiteTables {
             lanes: lanes.collect::<Result<_, _>>()?,
             places: BTreeMap::new(),
         };
-        if let Some(kerb) = self.crossing.kerbs_m.first()
+        if let Some(kerbs) = &self.crossing.kerbs_m
             && checked.carriageway().is_some_and(|road| !road.is_convex())
         {
             let what = format!(
                 "the two kerbs meet, or will within {} m beside the crossing",
                 checked.along_m
             );
-            return Err(Misfit::at(&kerb.0[0], what));
+            return Err(Misfit::at(kerbs, what));
         }
         for (name, spot) in self.places {
             let place = located::place(&spot.get_ref().at_m)?;
@@ -296,15 +296,26 @@ impl SiteTables {
 }
 
 impl CrossingTable {
-    fn kerbs(&self) -> Result<Vec<[Place; 2]>, Misfit> {
-        let kerb = |Exact([from, to]): &Exact<Spanned<Exact<f64, 2>>, 2>| {
+    fn kerbs(&self) -> Result<Option<[[Place; 2]; 2]>, Misfit> {
+        let Some(kerbs) = &self.kerbs_m else {
+            return Ok(None);
+        };
+        let [near, far] = &kerbs.get_ref()[..] else {
+            let what = format!(
+                "2 kerbs are wanted, not {}: the two edges of the carriageway, each from one place to another; a site \
+                 without a crossing has no 'kerbs_m'",
+                kerbs.get_ref().len()
+            );
+            return Err(Misfit::at(kerbs, what));
+        };
+        let kerb = |Exact([from, to]): &Kerb| {
             let kerb = [located::place(from)?, located::place(to)?];
             if kerb[0].distance(kerb[1]) < 1.0 {
                 return Err(Misfit::at(to, "the kerb is shorter than a metre"));
             }
             Ok(kerb)
         };
-        self.kerbs_m.iter().map(kerb).collect()
+        Ok(Some([kerb(near)?, kerb(far)?]))
     }
 }
 
@@ -341,7 +352,7 @@ mod tests {
         let facing = |name: &str| street.facing_deg(street.places[name].place);
         let facing = ["near-lane", "far-lane", "near-kerb"].map(facing);
         assert_eq!(facing, [Some(270.0), Some(90.0), None]);
-        assert_eq!((street.kerbs.len(), street.lanes.len()), (2, 2));
+        assert!(street.kerbs.is_some() && street.lanes.len() == 2);
         let lane = |name: &str| {
             let place = street.places[name].place;
             street.lane_at(place).map(|lane| lane.name.clone())
@@ -361,6 +372,8 @@ width_m = 3.5    | width_m = nan     | s.toml:20: NaN is not possible: 1 to 30 m
 [1.0, -1.0]      | [1.0, 1e30]       | is no place: metres east and north
 [5.0, 0.0]]      | [-3.0, 0.5]]      | s.toml:10: the kerb is shorter than a metre
 [5.0, 7.0]]      | [5.0, 3.0]]       | s.toml:10: the two kerbs meet, or will within 10 m beside the crossing
+[5.0, 7.0]]]     | [5.0, 7.0]], [[0.0, 9.0], [5.0, 9.0]]] | s.toml:10: 2 kerbs are wanted, not 3: the two edges
+, [[-3.0, 7.0], [5.0, 7.0]]] | ] | s.toml:10: 2 kerbs are wanted, not 1
 # along_m = 10.0 | along_m = -1.0 #  | s.toml:11: -1 is not possible: 0 to 100 m
 for = "wait"     | for = "rest"      | s.toml:30: unknown variant `rest`
 name = "near"    | nam = "near"      | s.toml:17: unknown field `nam`

@@ -344,7 +344,7 @@ impl Playback {
         let place = |place: crossguard_robot::site::Place| [place.east, place.north];
         let (mut kerbs, mut lanes, mut places) = (Vec::new(), Vec::new(), Vec::new());
         if let Some(street) = &self.street {
-            kerbs.extend(street.kerbs.iter().map(|kerb| kerb.map(place)));
+            kerbs.extend(street.kerbs.iter().flatten().map(|kerb| kerb.map(place)));
             points.extend(kerbs.iter().flatten());
             lanes.extend(street.lanes.iter().map(|lane| {
                 let (from, to) = (place(lane.from), place(lane.to));

@@ -76,14 +76,9 @@ pub enum NoZone {
     Number(#[from] Impossible),
     /// The site does not say between which kerbs people cross.
     #[error(
-        "pavement_m wants a site with two kerbs, and site '{site}' has {count}; say 'polygon_m' and 'road_m' instead"
+        "pavement_m wants a site with kerbs, and site '{0}' has none; say 'polygon_m' and 'road_m' instead"
     )]
-    Kerbs {
-        /// The site.
-        site: String,
-        /// How many it has.
-        count: usize,
-    },
+    Kerbs(String),
     /// A robot that leads by itself does not see when people are across.
     #[error("has no 'road_m': with autopilot one is wanted, to see when everybody is across")]
     NoRoad,
@@ -102,11 +97,8 @@ impl ZoneTable {
             return Err(NoZone::Shape);
         }
         let pavement_m = possible("pavement_m", pavement_m, 0.5..=20.0, "0.5 to 20 m")?;
-        let [near, far] = layout.kerbs[..] else {
-            return Err(NoZone::Kerbs {
-                site: layout.name.clone(),
-                count: layout.kerbs.len(),
-            });
+        let Some([near, far]) = layout.kerbs else {
+            return Err(NoZone::Kerbs(layout.name.clone()));
         };
         self.polygon_m = Some(outline(between(near, far, pavement_m)));
         if let (None, Some(carriageway)) = (&self.road_m, layout.carriageway()) {
