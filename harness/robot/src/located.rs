@@ -106,13 +106,39 @@ pub(crate) fn read(path: &Path) -> Result<String, FileError> {
 pub(crate) fn parse<'a, T: Deserialize<'a>>(text: &'a str) -> Result<T, Misfit> {
     toml::from_str(text).map_err(|cause| Misfit {
         span: cause.span(),
-        what: cause.message().to_owned(),
+        what: cut(cause.message()),
     })
 }
 
 fn line_of(text: &str, offset: usize) -> usize {
     let before = text.as_bytes().iter().take(offset);
     before.filter(|octet| **octet == b'\n').count() + 1
+}
+
+/// A number in a text: a very large or small one by its power of ten, not by hundreds of digits.
+pub(crate) struct Number<'a>(pub(crate) &'a f64);
+
+impl fmt::Display for Number<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.0.abs();
+        if size > 0.0 && size < 1e-6 || size >= 1e15 && size.is_finite() {
+            write!(f, "{:e}", self.0)
+        } else {
+            write!(f, "{}", self.0)
+        }
+    }
+}
+
+/// Longest line that a person is shown of a file, in characters.
+const LINE_MAX: usize = 300;
+
+/// A text with the end of each long line left out.
+pub(crate) fn cut(text: &str) -> String {
+    let lines = text.split('\n').map(|line| {
+        let end = line.char_indices().nth(LINE_MAX);
+        end.map_or_else(|| line.to_owned(), |(end, _)| format!("{} …", &line[..end]))
+    });
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// A place on the site.
@@ -129,7 +155,9 @@ pub(crate) fn place_at<T>(
         return Ok(Place::new(east, north));
     }
     let what = format!(
-        "[{east}, {north}] is no place: metres east and north of the origin, at most {NEAR_M}, are wanted"
+        "[{}, {}] is no place: metres east and north of the origin, at most {NEAR_M}, are wanted",
+        Number(&east),
+        Number(&north)
     );
     Err(Misfit::at(there, what))
 }
@@ -155,6 +183,7 @@ pub(crate) fn within(
         Ok(number)
     } else {
         let (least, most) = possible.into_inner();
+        let number = Number(&number);
         let what = format!("{number} is not possible: {least} to {most} {unit} is wanted");
         Err(Misfit::at(value, what))
     }
@@ -171,7 +200,7 @@ pub(crate) fn within_if_any(
 
 /// A number that is not possible, in a file or in a line.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
-#[error("{name} is {value}: {wanted} is wanted")]
+#[error("{name} is {}: {wanted} is wanted", Number(value))]
 pub struct Impossible {
     /// What it is called there.
     pub name: &'static str,

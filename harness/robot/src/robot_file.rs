@@ -1,10 +1,11 @@
 //! The configuration of one robot: a TOML file for `crossguard run`.
 
 mod body;
+mod link;
 mod traits;
 mod zone;
 
-use std::net::{SocketAddr, SocketAddrV4};
+use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 
 use crossguard_codec::{IdentifierClash, Identifiers, NoMapPlace, SignalMeans};
@@ -16,24 +17,24 @@ use crossguard_protocol::{BrokenInequality, Config, Settings, SettingsInFiles, S
 use serde::Deserialize;
 
 use crate::application::{Application, Traits};
-use crate::attachment::Sends;
 use crate::body::{Body, BodyPort, Build, Ported, Simulated};
 use crate::boot::Boot;
 use crate::files;
 use crate::journal::Journal;
-use crate::located::{Exact, FileError, Impossible, NEAR_M, is_near, possible};
+use crate::located::{Exact, FileError, Impossible, NEAR_M, Number, cut, is_near, possible};
 use crate::plan::Plan;
 use crate::plan_file::PlanFile;
 use crate::port::{NoAddress, PortAddress};
 use crate::runtime::Setup;
-use crate::site::{CrossingReference, NoCrossing, Place, Site};
+use crate::site::{CrossingReference, NoCrossing, NoOrigin, Place, Site};
 use crate::site_file::{SiteFile, outline};
 use crate::street::{Road, Street};
-use crate::transport::{Framing, Halves, Link};
+use crate::transport::{Halves, Link};
 use crate::zone::Zone;
 
 use self::body::BodyTable;
 pub use self::body::NoBody;
+use self::link::LinkTable;
 use self::traits::{BatteryTable, JobName};
 pub use self::traits::{NoTraits, job_named};
 pub use self::zone::NoZone;
@@ -175,20 +176,6 @@ struct OperatorTable {
     listen: String,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LinkTable {
-    address: Option<SocketAddr>,
-    #[serde(default)]
-    peers: Vec<SocketAddr>,
-    multicast: Option<SocketAddrV4>,
-    interface: Option<String>,
-    ethernet: Option<String>,
-    framing: Option<Framing>,
-    unit: Option<SocketAddr>,
-    sends: Option<Sends>,
-}
-
 /// What is said beside a robot file, and counts more.
 #[derive(Clone, Copy, Default, Debug)]
 pub struct Besides<'a> {
@@ -222,7 +209,7 @@ pub enum Impossibility {
     #[error(transparent)]
     Unreadable(#[from] std::io::Error),
     /// The text is no configuration.
-    #[error(transparent)]
+    #[error("{}", cut(&.0.to_string()))]
     Syntax(#[from] Box<toml::de::Error>),
     /// Timers contradict each other.
     #[error("[protocol] {0}")]
@@ -272,10 +259,10 @@ pub enum Impossibility {
     NoPlan,
     /// No place of a site.
     #[error(
-        "place is [{0}, {1}]: metres east and north of the site's origin are wanted, each from -{max} to {max}",
-        max = NEAR_M
+        "place is [{}, {}]: metres east and north of the site's origin are wanted, each from -{NEAR_M} to {NEAR_M}",
+        Number(&.0.east), Number(&.0.north)
     )]
-    Place(f64, f64),
+    Place(Place),
     /// People cannot be clustered so.
     #[error("[people] {0}")]
     People(&'static str),
@@ -304,8 +291,8 @@ pub enum Impossibility {
     #[error(transparent)]
     File(#[from] FileError),
     /// A site that is not on earth.
-    #[error("[site] {0}, {1} is not a latitude and longitude in degrees")]
-    Site(f64, f64),
+    #[error("[site] {0}")]
+    Site(#[from] NoOrigin),
 }
 
 impl RobotFile {
@@ -450,11 +437,10 @@ impl RobotTable {
             (None, None) => Ok(SiteFile::street().at(Site::default())),
             (None, Some(path)) => Ok(SiteFile::read(path)?),
             (Some(_), Some(_)) => Err(Impossibility::TwoSites),
-            (Some(table), None) => Ok(SiteFile::street().at(Site {
-                latitude: table.latitude,
-                longitude: table.longitude,
-                ..Site::default()
-            })),
+            (Some(table), None) => {
+                let site = Site::at(table.latitude, table.longitude)?;
+                Ok(SiteFile::street().at(site))
+            }
         }
     }
 
@@ -467,9 +453,11 @@ impl RobotTable {
         if self.station == 0 {
             return Err(Impossibility::Station);
         }
-        let place = self.place.map(|it| it.0);
-        if let Some([east, north]) = place.filter(|it| !is_near(*it)) {
-            return Err(Impossibility::Place(east, north));
+        let place = self
+            .place
+            .map(|Exact([east, north])| Place::new(east, north));
+        if let Some(far) = place.filter(|it| !is_near([it.east, it.north])) {
+            return Err(Impossibility::Place(far));
         }
         let layout = self.site()?;
         let crossing = self.crossing.as_deref().map(str::parse);
@@ -484,9 +472,6 @@ impl RobotTable {
             ..layout.site
         };
         let shows: Vec<_> = self.shows.into_iter().map(SignalMeans::from).collect();
-        if !(-85.0..=85.0).contains(&site.latitude) || !(-180.0..=180.0).contains(&site.longitude) {
-            return Err(Impossibility::Site(site.latitude, site.longitude));
-        }
         self.identifiers.check()?;
         self.people.check().map_err(Impossibility::People)?;
         // A plan is for a robot that leads by itself.
@@ -519,7 +504,7 @@ impl RobotTable {
             build: self.build,
             traits,
             boot_file: folder.join(self.boot_file),
-            place: place.map(|[east, north]| Place::new(east, north)),
+            place,
             site,
             speed,
             autopilot,
@@ -547,55 +532,6 @@ impl RobotTable {
 impl OperatorTable {
     fn check(self, folder: &Path) -> Result<PortAddress, Impossibility> {
         PortAddress::parse(&self.listen, folder).map_err(Impossibility::Operator)
-    }
-}
-
-impl LinkTable {
-    fn check(self) -> Result<Link, Impossibility> {
-        let framing = self.framing.unwrap_or_default();
-        // A peer is none that no datagram can be sent to.
-        let to = self.peers.iter().chain(&self.unit);
-        let is_nobody = |to: &&SocketAddr| to.ip().is_unspecified() || to.port() == 0;
-        if let Some(nobody) = to.into_iter().find(is_nobody) {
-            return Err(Impossibility::Peer(*nobody));
-        }
-        let is_own = |to: &&SocketAddr| {
-            self.address.is_some_and(|own| {
-                let is_this = own.ip() == to.ip();
-                let is_here = own.ip().is_unspecified() && to.ip().is_loopback();
-                own.port() == to.port() && (is_this || is_here)
-            })
-        };
-        if let Some(own) = self.peers.iter().chain(&self.unit).find(is_own) {
-            return Err(Impossibility::OwnAddress(*own));
-        }
-        let what = (self.address, self.multicast, self.ethernet);
-        let more = (self.unit, self.interface, self.peers.is_empty());
-        let link = match (what, more) {
-            ((Some(address), None, None), (None, None, _)) => Link::Peers {
-                address,
-                peers: self.peers,
-                framing,
-            },
-            ((None, Some(group), None), (None, Some(interface), true)) => Link::Multicast {
-                group,
-                interface,
-                framing,
-            },
-            ((None, None, Some(interface)), (None, None, true)) if self.framing.is_none() => {
-                Link::Ethernet { interface }
-            }
-            ((address, None, None), (Some(unit), None, true)) if self.framing.is_none() => {
-                return Ok(Link::Unit {
-                    unit,
-                    address,
-                    sends: self.sends.unwrap_or_default(),
-                });
-            }
-            _ => return Err(Impossibility::Link),
-        };
-        // Only a unit may be given something else than packets.
-        self.sends.map_or(Ok(link), |_| Err(Impossibility::Link))
     }
 }
 

@@ -5,6 +5,8 @@ use std::str::FromStr;
 use crossguard_codec::{ConfidenceEllipse, MapPlace, Position, Target};
 use crossguard_protocol as protocol;
 
+use crate::located::{NEAR_M, Number};
+
 /// A place in metres east and north of the site's origin.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Place {
@@ -123,7 +125,32 @@ const METRES_PER_DEGREE: f64 = 111_195.0;
 /// How far off the place of somebody simulated may be, in metres.
 pub(crate) const SIMULATED_ERROR_M: f64 = 0.2;
 
+/// Degrees that are no origin of a site.
+#[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
+#[error(
+    "{}, {} is no latitude and longitude in degrees: at most 85 and 180 are wanted, and {NEAR_M} m or more to the \
+     180th meridian",
+    Number(.0), Number(.1)
+)]
+pub struct NoOrigin(f64, f64);
+
 impl Site {
+    /// A site with this origin, in degrees, at a crossing without a reference. All places of it are on one side of the
+    /// 180th meridian.
+    pub(crate) fn at(latitude: f64, longitude: f64) -> Result<Self, NoOrigin> {
+        let site = Self {
+            latitude,
+            longitude,
+            ..Self::default()
+        };
+        let farthest = Place::new(NEAR_M.copysign(longitude), 0.0);
+        if (-85.0..=85.0).contains(&latitude) && site.coordinates(farthest).1.abs() < 180.0 {
+            Ok(site)
+        } else {
+            Err(NoOrigin(latitude, longitude))
+        }
+    }
+
     /// Latitude and longitude of a place, in degrees.
     #[must_use]
     pub fn coordinates(&self, place: Place) -> (f64, f64) {

@@ -269,17 +269,9 @@ impl SiteTables {
             latitude,
             longitude,
         } = *self.origin.get_ref();
-        if !(-85.0..=85.0).contains(&latitude) || !(-180.0..=180.0).contains(&longitude) {
-            let what = format!(
-                "{latitude}, {longitude} is not a latitude and longitude in degrees, at most 85 and 180"
-            );
-            return Err(Misfit::at(&self.origin, what));
-        }
-        let mut site = Site {
-            latitude,
-            longitude,
-            ..Site::default()
-        };
+        let origin = Site::at(latitude, longitude);
+        let origin = origin.map_err(|what| Misfit::at(&self.origin, what.to_string()));
+        let mut site = origin?;
         if let Some(text) = &self.crossing.reference {
             let named: Result<CrossingReference, _> = text.get_ref().parse();
             let named = named.map_err(|error| Misfit::at(text, error.to_string()))?;
@@ -364,7 +356,11 @@ mod tests {
 
     /// What is replaced in the street, by what, and what is said then.
     const MISFITS: &str = r#"
-latitude = 49    | latitude = 95     | s.toml:5: 95.0101, 8.4124 is not a latitude
+latitude = 49    | latitude = 95     | s.toml:5: 95.0101, 8.4124 is no latitude and longitude in degrees
+longitude = 8.4124 | longitude = 180.0 | s.toml:5: 49.0101, 180 is no latitude and longitude
+longitude = 8.4124 | longitude = 179.99 | s.toml:5: 49.0101, 179.99 is no latitude and longitude
+longitude = 8.4124 | longitude = -1e308 | s.toml:5: 49.0101, -1e308 is no latitude and longitude
+width_m = 3.5    | width_m = 1e308   | s.toml:20: 1e308 is not possible: 1 to 30 m
 width_m = 3.5    | width_m = nan     | s.toml:20: NaN is not possible: 1 to 30 m
 [20.0, 1.75]     | [-20.0, 1.75]     | s.toml:19: lane 'near' is shorter than a metre
 [-4.0, 2.0]      | [-4.0, 9.0]       | place 'near-lane' is for guarding, and on no lane

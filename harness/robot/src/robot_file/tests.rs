@@ -10,6 +10,8 @@ const WRONG: &str = r#"
 robot | [0.0, -1.5]        | [0,0, -1,5]          | 4 elements are here, and 2 are wanted; decimals have a point, like 1.5
 robot | [0.0, -1.5]        | [0.0]                | 1 elements are here, and 2 are wanted
 robot | [0.0, -1.5]        | [0.0, 2000.0]        | place is [0, 2000]: metres east and north of the site's origin are wanted, each from -1000 to 1000
+robot | [0.0, -1.5]        | [0.0, 1e308]         | place is [0, 1e308]: metres east
+robot | place = [0.0, -1.5] | LONG                | robot.toml: TOML parse error
 robot | [0.53, 0.75, 1.65] | [0,53, 0,75, 1,65]   | 6 elements are here, and 3 are wanted
 robot | [6.0, 9.0]]        | [6,0, 9,0]]          | 4 elements are here, and 2 are wanted
 robot | [5.0, 7.0]]        | [5.0, 7.0, 0.0]]     | 3 elements are here, and 2 are wanted
@@ -83,7 +85,8 @@ fn point_7_what_is_wrong_is_refused_with_line_or_key_and_remedy() {
     };
     assert!(read("", "", "").is_ok());
     for [file, from, to, cause] in rows(WRONG) {
-        let error = read(&file, &from, &to).expect_err(&to);
+        let error = read(&file, &from, &to.replace("LONG", &"x".repeat(100_000))).expect_err(&to);
+        assert!(error.len() < 1_000, "{file}: {to}: {error}");
         assert!(error.contains(&cause), "{file}: {to}: {error}");
     }
 }

@@ -17,7 +17,7 @@ use serde::de::IntoDeserializer;
 use serde::de::value::{Error as Unknown, StrDeserializer};
 
 use crate::application::Traits;
-use crate::located::{Impossible, possible};
+use crate::located::{Impossible, Number, possible};
 
 /// Largest dimension of a robot in a RAM, in metres.
 const METRES_MAX: f64 = 102.2;
@@ -75,7 +75,8 @@ pub enum NoTraits {
     Charge,
     /// No robot has such a size.
     #[error(
-        "dimensions_m has {0}: length, width and height in metres, above 0 and at most {METRES_MAX}, are wanted"
+        "dimensions_m has {}: length, width and height in metres, above 0 and at most {METRES_MAX}, are wanted",
+        Number(.0)
     )]
     Dimension(f64),
 }

@@ -19,7 +19,7 @@ use crossguard_endpoint::ras::area::Area;
 use crossguard_protocol::Millis;
 use serde::{Deserialize, Deserializer};
 
-use crate::located::{Exact, Impossible, NEAR_M, is_near, possible};
+use crate::located::{Exact, Impossible, NEAR_M, Number, is_near, possible};
 use crate::plan::millis;
 use crate::site::Place;
 use crate::site_file::{Purpose, SiteFile, Spot, between, outline};
@@ -61,7 +61,7 @@ pub enum NoZone {
     )]
     Shape,
     /// No place on the site.
-    #[error("{field}: [{}, {}] is no place: metres on the site, at most {NEAR_M}, are wanted", place[0], place[1])]
+    #[error("{field}: [{}, {}] is no place: metres on the site, at most {NEAR_M}, are wanted", Number(&place[0]), Number(&place[1]))]
     Place {
         /// The field.
         field: &'static str,
@@ -291,6 +291,7 @@ pavement_m = 2\nradius_m = 2                     | wants one of 'pavement_m'
 pavement_m = 0.1                                 | pavement_m is 0.1: 0.5 to 20 m is wanted
 polygon_m = [[0, 0], [1, 1]]                     | polygon_m has 2 corners: 3 to 64 are possible
 polygon_m = [[0, 0], [1, 1], [0, 1e9]]           | polygon_m: [0, 1000000000] is no place: metres on the site
+road_m = [[0, 0], [1, 1], [0, -1e308]]           | road_m: [0, -1e308] is no place: metres on the site
 polygon_m = [[0, 0], [2, 2], [2, 0], [0, 2]]     | polygon_m: its sides 1 and 3 cross
 road_m = [[0, 0], [2, 0], [4, 0]]                | road_m: its corners enclose nothing
 place_m = [1, 2]\nradius_m = 0                   | radius_m is 0: 0.1 to 1000 m is wanted
