@@ -263,6 +263,12 @@ pub enum Impossibility {
         Number(&.0.east), Number(&.0.north)
     )]
     Place(Place),
+    /// A robot would wait among vehicles.
+    #[error(
+        "place is [{}, {}], on the carriageway: a place beside it is wanted, where the robot waits",
+        Number(&.0.east), Number(&.0.north)
+    )]
+    OnRoad(Place),
     /// People cannot be clustered so.
     #[error("[people] {0}")]
     People(&'static str),
@@ -488,6 +494,18 @@ impl RobotTable {
         }
         let carriageway = layout.carriageway();
         let carriageway = carriageway.map(|it| Area::Polygon(outline(it.whole)));
+        let own_road = zone.as_ref().and_then(|zone| zone.road.as_ref());
+        // A file without a site has the street of the demonstrations, unless it has a road of its own.
+        let has_layout = self.site_file.is_some() || own_road.is_none();
+        let is_on_road = |place: &Place| {
+            let has = |road: &Area| road.contains([place.east, place.north]);
+            let is_on_site =
+                || carriageway.as_ref().is_some_and(has) || layout.lane_at(*place).is_some();
+            own_road.is_some_and(has) || has_layout && is_on_site()
+        };
+        if let Some(place) = place.filter(is_on_road) {
+            return Err(Impossibility::OnRoad(place));
+        }
         let kerbs = kerbs.flatten();
         let is_own_site = self.site_file.is_some() || self.site.is_some() && kerbs.is_none();
         if self.autopilot && is_own_site && self.plan_file.is_none() {

@@ -11,6 +11,8 @@ robot | [0.0, -1.5]        | [0,0, -1,5]          | 4 elements are here, and 2 a
 robot | [0.0, -1.5]        | [0.0]                | 1 elements are here, and 2 are wanted
 robot | [0.0, -1.5]        | [0.0, 2000.0]        | place is [0, 2000]: metres east and north of the site's origin are wanted, each from -1000 to 1000
 robot | [0.0, -1.5]        | [0.0, 1e308]         | place is [0, 1e308]: metres east
+robot | [0.0, -1.5]        | [1.0, 3.5]           | place is [1, 3.5], on the carriageway: a place beside it is wanted
+robot | [0.0, -1.5]        | [-18.0, 2.0]         | place is [-18, 2], on the carriageway
 robot | place = [0.0, -1.5] | LONG                | robot.toml: TOML parse error
 robot | [0.53, 0.75, 1.65] | [0,53, 0,75, 1,65]   | 6 elements are here, and 3 are wanted
 robot | [6.0, 9.0]]        | [6,0, 9,0]]          | 4 elements are here, and 2 are wanted
