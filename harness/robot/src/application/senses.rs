@@ -141,7 +141,7 @@ impl Application {
 
     /// A sensor source delivered something that is no frame, for this reason.
     pub fn look_in_vain(&mut self, why: impl Into<Cow<'static, str>>) {
-        self.trouble(Cause::FrameDropped(FrameDrop::Malformed.name()), why);
+        self.trouble(Cause::FrameDropped(FrameDrop::Malformed.name()), why, 1);
         self.step(Input::BadFrame);
     }
 

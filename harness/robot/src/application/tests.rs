@@ -169,7 +169,7 @@ fn a_late_frame_is_no_sight_of_now() {
     let malformed = Cause::FrameDropped("malformed");
     assert_eq!(
         application.next_trouble(),
-        Some((malformed, "line 7 is no frame".into()))
+        Some((malformed, "line 7 is no frame".into(), 1))
     );
     assert_eq!(application.next_trouble(), None, "it is counted once");
     application.look(&nobody, Millis(40));

@@ -48,7 +48,14 @@ impl PlanTables {
         safety::ways_in_time(&self, &followers, &stages, settings)?;
         let either_way = self.either_way.as_ref().map(|Exact([from, to])| {
             let crossing = Some((Purpose::Cross, "an escort"));
-            Ok([place(&site, from, crossing)?, place(&site, to, crossing)?])
+            let kerbs = [place(&site, from, crossing)?, place(&site, to, crossing)?];
+            if kerbs[0].distance(kerbs[1]) < APART_M {
+                return Err(Misfit::at(
+                    to,
+                    "a place at each of two kerbs is wanted, and these are one",
+                ));
+            }
+            Ok(kerbs)
         });
         let crossing_s = located::within_if_any(self.crossing_s.as_ref(), 1.0..=600.0, "s")?;
         let crossing_s = crossing_s.unwrap_or(CROSSING_S);
