@@ -127,7 +127,7 @@ fn words(command: &str) -> Option<Vec<String>> {
             (_, '…') => return None,
             (None, '\'' | '"') => quote = Some(c),
             (Some(open), close) if open == close => quote = None,
-            (None, '#' | '|' | '>' | '&' | ';') => break,
+            (None, '#' | '|' | '<' | '>' | '&' | ';') => break,
             (None, ' ') => words.push(String::new()),
             _ => words.last_mut().unwrap().push(c),
         }
