@@ -213,13 +213,8 @@ fn start<'a>(options: &Options, links: Links, watch: &'a mut dyn FnMut(Seen<'_>)
     let mut securities = securities.into_iter();
     let (mut robots, mut signs) = (Vec::new(), Vec::new());
     let street = Street::default();
-    let mut links = links.halves;
-    #[cfg(feature = "full")]
-    let car = options
-        .scenario
-        .car()
-        .zip(links.pop_if(|_| options.scenario.car().is_some()));
-    for ((participant, link), nth) in participants.into_iter().zip(links).zip(1..) {
+    let mut links = links.halves.into_iter();
+    for ((participant, link), nth) in participants.into_iter().zip(links.by_ref()).zip(1..) {
         let (site, seed) = (options.scenario.site(), options.seed.wrapping_add(nth));
         let (build, place) = (participant.build, participant.place);
         let body = Simulated::new(build, site, place, options.time_scale, seed);
@@ -254,7 +249,7 @@ fn start<'a>(options: &Options, links: Links, watch: &'a mut dyn FnMut(Seen<'_>)
     }
     Demo {
         #[cfg(feature = "full")]
-        _car: car.map(|(car, link)| {
+        _car: options.scenario.car().zip(links.next()).map(|(car, link)| {
             car::Driving::start(car.clone(), options.scenario.street().clone(), link, clock)
         }),
         scenario: options.scenario.clone(),
