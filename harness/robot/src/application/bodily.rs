@@ -72,12 +72,19 @@ impl Application {
         }
     }
 
-    /// Before anything else that it wants.
+    /// Before anything else that it wants. That it cannot outlasts that it can: both may come about in one turn.
     pub(super) fn wish_available(&mut self, availability: Availability) {
-        let wish = Stimulus::Event(Event::AvailabilityChanged(availability));
-        if self.wishes.front() != Some(&wish) {
-            self.wishes.push_front(wish);
+        let told = |wish: &Stimulus<'_>| match wish {
+            Stimulus::Event(Event::AvailabilityChanged(availability)) => Some(*availability),
+            _ => None,
+        };
+        let cannot = |wish| told(wish).is_some_and(|it| it != Availability::Available);
+        if availability == Availability::Available && self.wishes.iter().any(cannot) {
+            return;
         }
+        self.wishes.retain(|wish| told(wish).is_none());
+        let wish = Event::AvailabilityChanged(availability);
+        self.wishes.push_front(Stimulus::Event(wish));
     }
 
     /// The next thing that went wrong with the body, to be counted.

@@ -105,6 +105,27 @@ fn what_a_body_repeats_is_counted_and_takes_one_place() {
     assert_eq!(application.wishes.len(), 1);
 }
 
+/// Hazard: a body that is there and has a fault counts as available, since both are told in one turn.
+#[test]
+fn a_fault_outlasts_that_the_body_is_there() {
+    for faulty_first in [false, true] {
+        let mut application = Application::new(Box::new(Broken::default()), None);
+        application.learn_of_body(Report::Absent);
+        let fault = Report::Fault("hot".to_owned());
+        let told = if faulty_first {
+            [fault, Report::Here]
+        } else {
+            [Report::Here, fault]
+        };
+        for report in told {
+            application.learn_of_body(report);
+        }
+        let fault = Availability::Unavailable(Unavailability::LocalFault);
+        let wish = Stimulus::Event(Event::AvailabilityChanged(fault));
+        assert_eq!(application.wishes, [wish]);
+    }
+}
+
 /// Hazard: the crossing machine closes, and the sign goes on showing go; it holds a guard, and its body moves.
 #[test]
 fn what_the_crossing_machine_puts_out_reaches_sign_and_body() {
