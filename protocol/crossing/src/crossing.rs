@@ -2,7 +2,7 @@
 
 use crossguard_protocol::{
     Availability, Corridor, Duty, Event, FallbackPolicy, HelpRequest, Maneuver, ManeuverId, Millis,
-    Notice, Phase, Progress, Robot,
+    Notice, Phase, Progress, Robot, StationId,
 };
 
 use crate::ground::Point;
@@ -295,7 +295,6 @@ impl<const N: usize> Crossing<N> {
         self.watch_road(setup, out);
         self.watch_zone(setup, out);
         self.lead_on(setup, out);
-        self.ask_vehicle(setup, out);
     }
 
     /// While a sign that counts on this robot may show go, no frame counts for a clear road.
@@ -610,6 +609,7 @@ impl<const N: usize> Crossing<N> {
             corridor: self.corridor,
             own: self.own,
             hindrance: self.hindrance(setup),
+            stop_line: self.unpromised(setup).map(|(_, line)| line),
             is_wanted: !knows || self.is_wanted(),
             has_opened: self.has_opened,
             has_crossed: self.has_crossed,
@@ -626,26 +626,17 @@ impl<const N: usize> Crossing<N> {
         if setup.watches && !self.occupancy.is_covered(setup) {
             return Some(Hindrance::NoSight);
         }
-        let vehicle = self.traffic.hindrance(setup).map(Hindrance::Vehicle);
-        // Go that has begun stays for people who rely on it.
-        let begins = self.sign == Millis::ZERO;
-        let unpromised = || self.traffic.unpromised(setup).filter(|_| begins);
-        vehicle.or_else(|| unpromised().map(Hindrance::NoPromise))
+        if let Some(vehicle) = self.traffic.hindrance(setup) {
+            return Some(Hindrance::Vehicle(vehicle));
+        }
+        let unpromised = self.unpromised(setup);
+        unpromised.map(|(station, _)| Hindrance::NoPromise(station))
     }
 
-    /// Asks the vehicle to stop that is all that keeps people from crossing.
-    fn ask_vehicle(&mut self, setup: &Setup, out: &mut Outputs) {
-        let may_open = self.standing == Standing::Leading
-            && self.corridor == Corridor::Clear
-            && !self.is_preparing(setup);
-        let is_wanted = || self.view(setup).is_some_and(|view| view.is_wanted);
-        if may_open
-            && is_wanted()
-            && let Some(Hindrance::NoPromise(_)) = self.hindered(setup)
-            && let Some((station, line)) = self.traffic.ask(setup)
-        {
-            out.put(Output::Ask(station, line));
-        }
+    /// The vehicle that is to say that it will stop, and where. Go that has begun stays for people who rely on it.
+    fn unpromised(&self, setup: &Setup) -> Option<(StationId, Point)> {
+        let begins = self.sign == Millis::ZERO;
+        self.traffic.unpromised(setup).filter(|_| begins)
     }
 
     /// What keeps people from crossing now, if anything does.

@@ -5,6 +5,7 @@ use crossguard_protocol::{
 };
 
 use crate::crossing::Sink;
+use crate::ground::Point;
 use crate::input::{Hindrance, Output, Outputs, Pose};
 use crate::plan::{Leg, Plan};
 use crate::position::Presence;
@@ -98,6 +99,8 @@ pub(crate) struct View<'a> {
     pub own: Presence,
     /// What else keeps people from crossing.
     pub hindrance: Option<Hindrance>,
+    /// Where the vehicle is to stop that is a hindrance until it has said so.
+    pub stop_line: Option<Point>,
     /// Whether somebody wants to cross, or is not known not to.
     pub is_wanted: bool,
     /// Whether somebody was let across in the session.
@@ -466,7 +469,12 @@ impl Lead {
         }
         match self.hindrance(view) {
             None => out.tell(Event::OpenCorridor),
-            Some(why) if view.hindrance == Some(why) => out.put(Output::Hindered(why)),
+            Some(why) if view.hindrance == Some(why) => {
+                out.put(Output::Hindered(why));
+                if let (Hindrance::NoPromise(station), Some(line)) = (why, view.stop_line) {
+                    out.put(Output::Ask(station, line));
+                }
+            }
             // Guards on their way are nothing to tell of.
             Some(_) => {}
         }

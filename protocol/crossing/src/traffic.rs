@@ -26,9 +26,6 @@ const BESIDE_CM: u64 = 180;
 /// 3B.16), and guards stand there.
 const STOP_LINE_CM: u32 = 600;
 
-/// How long a leader waits before it asks a vehicle again.
-const ASKING_PERIOD: Millis = Millis(500);
-
 /// How a vehicle comes to the crossing.
 #[derive(Clone, Copy, Debug)]
 struct Motion {
@@ -53,8 +50,6 @@ pub struct Traffic {
     vehicles: [Option<Known>; VEHICLES],
     /// There are too many: this one counts as one that cannot stop.
     further: Option<(u32, Millis)>,
-    /// Until then no vehicle is asked again.
-    asked: Millis,
 }
 
 impl Traffic {
@@ -64,7 +59,6 @@ impl Traffic {
             .further
             .map(|(key, left)| (key, left.saturating_sub(time)));
         self.further = left.filter(|(_, left)| *left > Millis::ZERO);
-        self.asked = self.asked.saturating_sub(time);
         for slot in &mut self.vehicles {
             if let Some(known) = slot {
                 known.age = known.age.saturating_add(time);
@@ -117,44 +111,23 @@ impl Traffic {
         }
     }
 
-    /// The first vehicle to be asked that has not said that it will stop.
-    pub(crate) fn unpromised(&self, setup: &Setup) -> Option<StationId> {
-        self.to_ask(setup).map(|(station, _)| station)
-    }
-
-    /// The same vehicle, and where its front is to stand, unless one was asked a moment ago.
-    pub(crate) fn ask(&mut self, setup: &Setup) -> Option<(StationId, Point)> {
-        let asks = self.to_ask(setup).filter(|_| self.asked == Millis::ZERO);
-        if asks.is_some() {
-            self.asked = ASKING_PERIOD;
-        }
-        asks
-    }
-
-    fn to_ask(&self, setup: &Setup) -> Option<(StationId, Point)> {
+    /// The first vehicle to be asked that has not said that it will stop, and where its front is to stand.
+    pub(crate) fn unpromised(&self, setup: &Setup) -> Option<(StationId, Point)> {
         let (rules, crossing) = (&setup.traffic, crossing(setup)?);
         if rules.asks == Millis::ZERO {
             return None;
         }
-        let silent = self
-            .vehicles
-            .iter()
-            .flatten()
-            .filter(|it| it.promise == Millis::ZERO);
-        let mut coming = silent.filter_map(|it| {
-            let motion = ahead(setup, crossing, &it.vehicle)?;
-            let station = it
-                .vehicle
+        self.vehicles.iter().flatten().find_map(|it| {
+            let vehicle = &it.vehicle;
+            let motion = ahead(setup, crossing, vehicle)?;
+            let is_soon_there = motion.comes_within(rules.asks, it.age);
+            let station = vehicle
                 .station
-                .filter(|_| motion.comes_within(rules.asks, it.age))?;
+                .filter(|_| is_soon_there && it.promise == Millis::ZERO)?;
             let way = i32::try_from(motion.left_cm.saturating_sub(STOP_LINE_CM)).ok()?;
             let speed = i32::try_from(motion.speed_cmps).ok()?;
-            Some((
-                station,
-                it.vehicle.at.plus(it.vehicle.velocity.part(way, speed)),
-            ))
-        });
-        coming.next()
+            Some((station, vehicle.at.plus(vehicle.velocity.part(way, speed))))
+        })
     }
 
     /// The first vehicle that could no longer stop comfortably before the crossing.

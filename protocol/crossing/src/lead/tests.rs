@@ -76,6 +76,7 @@ impl Leader {
             corridor: Corridor::Clear,
             own: Presence::NOWHERE,
             hindrance: None,
+            stop_line: None,
             is_wanted: true,
             has_opened: false,
             has_crossed: false,
