@@ -319,7 +319,7 @@ impl Application {
 
     /// The next thing that the application wants of its endpoint.
     pub fn next_wish(&mut self) -> Option<Stimulus<'static>> {
-        self.wishes.pop_front()
+        self.next_availability().or_else(|| self.wishes.pop_front())
     }
 
     fn wish(&mut self, wish: Stimulus<'static>) {

@@ -16,6 +16,8 @@ pub(crate) type Trouble = (Cause, Cow<'static, str>, u64);
 pub(super) struct Bodily {
     /// What its robot has to be unavailable for while the body is not there.
     missing: Option<Unavailability>,
+    /// The availability that the endpoint is to be told.
+    untold: Option<Availability>,
     /// What waits to be counted, and how often it happened.
     troubles: VecDeque<Trouble>,
 }
@@ -72,19 +74,19 @@ impl Application {
         }
     }
 
-    /// Before anything else that it wants. That it cannot outlasts that it can: both may come about in one turn.
+    /// Before anything else that it wants. That it cannot take part outlasts that it can: both may come about in one turn.
     pub(super) fn wish_available(&mut self, availability: Availability) {
-        let told = |wish: &Stimulus<'_>| match wish {
-            Stimulus::Event(Event::AvailabilityChanged(availability)) => Some(*availability),
-            _ => None,
-        };
-        let cannot = |wish| told(wish).is_some_and(|it| it != Availability::Available);
-        if availability == Availability::Available && self.wishes.iter().any(cannot) {
-            return;
+        let cannot = |it: Availability| it != Availability::Available;
+        if cannot(availability) || !self.bodily.untold.is_some_and(cannot) {
+            self.bodily.untold = Some(availability);
         }
-        self.wishes.retain(|wish| told(wish).is_none());
-        let wish = Event::AvailabilityChanged(availability);
-        self.wishes.push_front(Stimulus::Event(wish));
+    }
+
+    /// The availability that its endpoint has not been told.
+    pub(super) fn next_availability(&mut self) -> Option<Stimulus<'static>> {
+        let availability = self.bodily.untold.take()?;
+        let changed = Event::AvailabilityChanged(availability);
+        Some(Stimulus::Event(changed))
     }
 
     /// The next thing that went wrong with the body, to be counted.
