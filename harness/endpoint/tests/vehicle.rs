@@ -1,7 +1,7 @@
 //! A vehicle that is asked to stop, and what counts as its answer.
 
 use crossguard_codec::geonet::{EgoPosition, Stack};
-use crossguard_codec::{Identifiers, Position, Service, TaskParameters};
+use crossguard_codec::{Heard, Identifiers, Position, Service, TaskParameters};
 use crossguard_endpoint::station::vehicle::Question;
 use crossguard_endpoint::{Act, Effect, Endpoint, Stimulus};
 use crossguard_protocol::StationId;
@@ -38,11 +38,13 @@ fn ask(leader: &mut Endpoint, now_ms: u64, vehicle: StationId) -> Option<Questio
     );
     let sent = sent(&effects, Some(Service::Rmcm));
     let (_, message) = sent.first()?;
-    assert_eq!(
-        Question::of(&Identifiers::default(), StationId(9), message),
-        None
-    );
-    Question::of(&Identifiers::default(), vehicle, message)
+    let read = |me| {
+        let ids = Identifiers::default();
+        let heard = Heard::of(&ids, me, &Position::default(), message);
+        Question::of(&heard.unwrap(), me)
+    };
+    assert_eq!(read(StationId(9)), None);
+    read(vehicle)
 }
 
 #[test]

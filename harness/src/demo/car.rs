@@ -7,9 +7,8 @@ use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 use crossguard_codec::geonet::{EgoPosition, Stack};
-use crossguard_codec::{Identifiers, Measurement, RobotState, Service};
+use crossguard_codec::{Heard, Identifiers, Measurement, RobotState, Service};
 use crossguard_endpoint::ras::cam::{CamGeneration, cam};
-use crossguard_endpoint::station::listen::overhear;
 use crossguard_endpoint::station::vehicle::Question;
 use crossguard_protocol::{Coordination, Input, StationId};
 use crossguard_robot::plan_file::{Car, CarAnswer};
@@ -176,18 +175,17 @@ impl Drive {
     }
 
     fn hear(&mut self, packet: &[u8], state: &RobotState, now_its: u64) {
-        if let Ok(heard) = overhear(&self.identifiers, packet) {
-            let leads = |input: &Input| matches!(input, Input::Ram { ram, .. } if matches!(ram.coordination, Coordination::Leader { .. }));
-            if heard.inputs.iter().any(leads) {
-                self.leader_ms = self.at_ms;
-            }
-        }
-        let ego = EgoPosition::of(state, now_its);
+        let (me, ego) = (StationId(self.car.station), EgoPosition::of(state, now_its));
         let Ok(indication) = self.stack.receive(&ego, packet) else {
             return;
         };
-        let me = StationId(self.car.station);
-        let Some(question) = Question::of(&self.identifiers, me, indication.message) else {
+        let heard = Heard::of(&self.identifiers, me, &state.position, indication.message);
+        let Ok(heard) = heard else { return };
+        let leads = |input: &Input| matches!(input, Input::Ram { ram, .. } if matches!(ram.coordination, Coordination::Leader { .. }));
+        if heard.inputs.iter().any(leads) {
+            self.leader_ms = self.at_ms;
+        }
+        let Some(question) = Question::of(&heard, me) else {
             return;
         };
         let line_m = self.site.place_of(question.line).map(|line| {

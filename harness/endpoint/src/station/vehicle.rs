@@ -28,10 +28,9 @@ pub enum NoAnswer {
 }
 
 impl Question {
-    /// The question to the vehicle `me` in an RMCM, if it is one: a command to block.
+    /// The question to the vehicle `me` in what it heard, if that is one: a command to block.
     #[must_use]
-    pub fn of(identifiers: &Identifiers, me: StationId, message: &[u8]) -> Option<Self> {
-        let heard = Heard::of(identifiers, me, &Position::default(), message).ok()?;
+    pub fn of(heard: &Heard, me: StationId) -> Option<Self> {
         heard.inputs.iter().find_map(|input| match input {
             Input::Rmcm(Rmcm::Command(command))
                 if command.to == me && command.task == TaskType::BLOCK =>
