@@ -135,7 +135,8 @@ fn end(address: SocketAddr) -> String {
     format!("{ip}:{:04X}", address.port())
 }
 
-/// Connects to a port, and waits so long for room among those who wait there: a robot that hangs takes nobody in.
+/// Connects to a port. Connections wait there until the robot takes them; where no more can wait, this one tries for so long: a robot
+/// that hangs takes none.
 ///
 /// # Errors
 /// When nobody listens there, or takes this connection.

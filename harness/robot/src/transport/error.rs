@@ -56,7 +56,7 @@ pub(super) fn is_loopback(name: &str) -> bool {
         .any(|it| it.interface_name == name && it.flags.contains(InterfaceFlags::IFF_LOOPBACK))
 }
 
-/// What `of` makes of the first address of an interface of which it makes something.
+/// The first address of an interface that `of` takes, as `of` gives it.
 ///
 /// # Errors
 /// When there is none of that name that has such an address.
