@@ -389,8 +389,8 @@ impl Chart {
                     self.lanes[lane].station = *station;
                 }
                 self.keep_sign(lane, record.at_us, outputs);
-                let stage = self.stage_begun(lane, outputs, state).into_iter();
-                let mut now: Vec<_> = stage.chain(note_of_input(input).map(note)).collect();
+                let mut now = self.stages_begun(lane, outputs, state);
+                now.extend(note_of_input(input).map(note));
                 let mut to = &mut now;
                 for output in outputs.iter() {
                     if matches!(output, Output::SendRmcm(_)) {
@@ -509,9 +509,9 @@ impl Chart {
         Some(Mark::Note { lane, text })
     }
 
-    /// The line that begins another of the paper's stages, if a step does. The first to ask begins stage 2, and the end of
-    /// a team's leader begins stage 5.
-    fn stage_begun(&mut self, lane: usize, outputs: &Outputs, robot: &Robot) -> Option<Mark> {
+    /// The line that begins another of the paper's stages, if a step does. The first to ask begins stage 2, and stage 1
+    /// too if no step came before; the end of a team's leader begins stage 5.
+    fn stages_begun(&mut self, lane: usize, outputs: &Outputs, robot: &Robot) -> Vec<Mark> {
         let led = std::mem::replace(&mut self.lanes[lane].role, robot.role()) == Role::Leader;
         let nobody = self.lanes.iter().all(|lane| lane.role == Role::None);
         let is_command = |output: &Output| matches!(output, Output::SendRmcm(Rmcm::Command(_)));
@@ -524,10 +524,14 @@ impl Chart {
             (2..=4, State::Idle) if led || nobody => 5,
             (stage, _) => stage,
         };
-        let is_new = std::mem::replace(&mut self.stage, stage) != stage;
-        let name = STAGES.get(stage.wrapping_sub(1)).filter(|_| is_new)?;
-        let text = format!("── Stage {stage}: {name} ──");
-        Some(Mark::Note { lane: 0, text })
+        let begun = match std::mem::replace(&mut self.stage, stage) {
+            before if before == stage => return Vec::new(),
+            0 => 1..=stage,
+            _ => stage..=stage,
+        };
+        let begun = (1..).zip(STAGES).filter(|(stage, _)| begun.contains(stage));
+        let text = begun.map(|(stage, name)| format!("── Stage {stage}: {name} ──"));
+        text.map(|text| Mark::Note { lane: 0, text }).collect()
     }
 
     /// A message from column to column, unless it repeats what was drawn.
@@ -655,6 +659,36 @@ mod tests {
             }
         }
         assert!(seen > 0);
+    }
+
+    /// A robot may be told of people before any robot has made a step.
+    #[test]
+    fn each_stage_of_the_paper_begins_once_whichever_step_is_the_first() {
+        let mut records = crossing();
+        let is_before = |record: &Record| matches!(&record.entry, Entry::Step { state, .. } if state.state() == State::Idle);
+        let stages = |records: &[Record]| {
+            let mut chart = Chart::growing();
+            let mut lines: Vec<_> = records.iter().flat_map(|it| chart.lines(it)).collect();
+            lines.extend(chart.rest());
+            lines.retain(|line| line.contains("── Stage "));
+            lines.truncate(STAGES.len());
+            lines
+        };
+        let with_steps_before = stages(&records);
+        let mut has_begun = false;
+        records.retain(|record| {
+            has_begun |= matches!(record.entry, Entry::Step { .. }) && !is_before(record);
+            has_begun || !is_before(record)
+        });
+        for stages in [with_steps_before, stages(&records)] {
+            assert_eq!(stages.len(), STAGES.len(), "{stages:#?}");
+            for (number, line) in (1..).zip(&stages) {
+                assert!(
+                    line.contains(&format!("── Stage {number}: ")),
+                    "{stages:#?}"
+                );
+            }
+        }
     }
 
     #[test]
