@@ -57,6 +57,27 @@ fn a_team_lets_people_cross_at_its_sign_at_once_and_vehicles_wait() {
     assert!(none.packets.is_empty() && !two.packets.is_empty());
 }
 
+/// All vehicles are connected. The leader asks each that comes within ten seconds.
+#[test]
+fn vehicles_that_are_asked_stop_and_those_that_refuse_are_waited_for() {
+    let asks = Habits {
+        connected_share: 1.0,
+        asks_vehicles_s: 10.0,
+        ..Habits::default()
+    };
+    let unheeding = Habits {
+        heeding_share: 0.0,
+        ..asks
+    };
+    let run = |habits| measured(2, &people(), &cars(), habits);
+    let (asked, refused) = (run(asks), run(unheeding));
+    for all in [&asked, &refused] {
+        assert_eq!((all.finding.clone(), all.left_alone, all.hit), (None, 0, 0));
+    }
+    assert!(asked.at_sign >= 10, "{asked:?}");
+    assert!(refused.at_sign < asked.at_sign && mean(&refused.waited_s) > mean(&asked.waited_s));
+}
+
 #[test]
 fn one_robot_finds_no_help_and_lets_nobody_cross() {
     let one = measured(1, &people(), &cars(), Habits::default());

@@ -9,16 +9,13 @@ use std::time::Duration;
 use crossguard_codec::geonet::{EgoPosition, Stack};
 use crossguard_codec::{Heard, Identifiers, Measurement, RobotState, Service};
 use crossguard_endpoint::ras::cam::{CamGeneration, cam};
-use crossguard_endpoint::station::vehicle::Question;
+use crossguard_endpoint::station::vehicle::{Question, passenger_car};
 use crossguard_protocol::{Coordination, Input, StationId};
 use crossguard_robot::plan_file::{Car, CarAnswer};
 use crossguard_robot::runtime::Clock;
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::site_file::SiteFile;
 use crossguard_robot::transport::{Arrival, Halves};
-
-/// `StationType` of a passenger car (TS 102 894-2).
-const PASSENGER_CAR: u8 = 5;
 
 /// Time between two steps of its motion, in ms.
 const TICK_MS: u64 = 20;
@@ -90,10 +87,7 @@ impl Drive {
     fn new(car: Car, street: &SiteFile, link: Halves, clock: Clock) -> Option<Self> {
         let lane = street.lanes.iter().find(|lane| lane.name == car.lane)?;
         let half_m = lane.from.distance(lane.to) / 2.0;
-        let identifiers = Identifiers {
-            robot_station_type: PASSENGER_CAR,
-            ..Identifiers::default()
-        };
+        let identifiers = passenger_car();
         Some(Self {
             site: street.site,
             lane: [lane.from.towards(lane.to, half_m), lane.to],

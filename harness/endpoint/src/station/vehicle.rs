@@ -9,6 +9,18 @@ use crossguard_protocol::{
     Answer, Command, Input, Rejection, Rmcm, StationId, TaskType, Unavailability, Verdict,
 };
 
+/// `StationType` of a passenger car (TS 102 894-2).
+const PASSENGER_CAR: u8 = 5;
+
+/// The identifiers that a passenger car encodes with.
+#[must_use]
+pub fn passenger_car() -> Identifiers {
+    Identifiers {
+        robot_station_type: PASSENGER_CAR,
+        ..Identifiers::default()
+    }
+}
+
 /// A leader's question to a vehicle.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Question {

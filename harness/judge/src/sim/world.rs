@@ -1,5 +1,6 @@
 //! One run: robots, the radio between them, and time.
 
+mod connected;
 mod deeds;
 mod flow;
 mod lies;

@@ -54,7 +54,7 @@ pub(super) struct Crossing {
         allow_negative_numbers = true
     )]
     at: Vec<f64>,
-    /// How people and drivers behave, like loss=0.1; may be repeated
+    /// How people, drivers and leaders behave, like loss=0.1; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
     #[command(flatten)]

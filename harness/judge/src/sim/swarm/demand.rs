@@ -2,6 +2,7 @@
 
 use crossguard_protocol::{Config, StationId};
 use crossguard_robot::body::Build;
+use crossguard_robot::plan::Plan;
 use crossguard_robot::plan_file::PlanFile;
 use crossguard_robot::site_file::SiteFile;
 use crossguard_robot::transport::{Delay, Faults};
@@ -25,7 +26,7 @@ pub struct Arrival {
     pub speed_mps: f64,
 }
 
-/// How people and drivers behave. Sources and assumptions: `harness/doc/school-street.md`.
+/// How people and drivers behave, and what leaders ask of vehicles. Sources and assumptions: `harness/doc/school-street.md`.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Habits {
@@ -59,8 +60,10 @@ pub struct Habits {
     pub start_up_s: f64,
     /// The deviation of people's critical gaps, as a share of the mean.
     pub gap_spread: f64,
-    /// The share of messages between robots that are lost.
+    /// The share of messages that are lost, between robots and to and from vehicles.
     pub loss: f64,
+    /// A leader asks connected vehicles to stop that would be at the crossing within so many seconds; 0: none.
+    pub asks_vehicles_s: f64,
 }
 
 impl Habits {
@@ -95,6 +98,7 @@ impl Habits {
             ("hope_s", self.hope_s, 0.0..=1e6),
             ("start_up_s", self.start_up_s, 0.0..=60.0),
             ("gap_spread", self.gap_spread, 0.0..=1.0),
+            ("asks_vehicles_s", self.asks_vehicles_s, 0.0..=60.0),
             ("patience_s, the shortest,", least, 0.0..=3_600.0),
             ("patience_s, the longest,", most, least..=3_600.0),
         ];
@@ -127,6 +131,7 @@ impl Default for Habits {
             start_up_s: 3.0,
             gap_spread: 0.25,
             loss: 0.05,
+            asks_vehicles_s: 0.0,
         }
     }
 }
@@ -260,13 +265,17 @@ impl Swarm {
         let team = file.taking_part(followers);
         let (leaders, others): (Vec<_>, Vec<_>) = team.into_iter().partition(|it| it.leads);
         let team = leaders.into_iter().chain(others).take(robots);
+        let plan = Plan {
+            asks_vehicles_s: demand.habits.asks_vehicles_s,
+            ..file.plan(StationId(1), followers)
+        };
         let robots: Vec<_> = team
             .map(|role| RobotDraw {
                 name: role.robot.clone().unwrap_or_default(),
                 station: role.station.unwrap_or(StationId(1)),
                 boot: 1,
                 config: Config::default(),
-                plan: file.plan(StationId(1), followers),
+                plan: plan.clone(),
                 corner: 0,
                 build: role.build.unwrap_or(Build::Humanoid),
                 place: role.waits.unwrap_or_default(),

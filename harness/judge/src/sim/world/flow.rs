@@ -3,20 +3,19 @@
 //! ```text
 //!   people and robots on the road ── in sight, or told by RAM and VAM ──► hazard ── reaction ──► brakes
 //!   a robot that shows stop, a person who waits ──► stops before the crossing, if that is comfortable
+//!   a leader asks, and the vehicle promises ──► stops where it was asked to
 //!   a sign that shows go, or a gap that is long enough ──► a person steps on the road
 //! ```
 
 use std::collections::BTreeSet;
 
-use crossguard_codec::{Identifiers, Identity, Kind, PublicSignal, RoadUser};
-use crossguard_endpoint::Stimulus;
-use crossguard_endpoint::station::LocalDynamicMap;
+use crossguard_codec::{Identifiers, PublicSignal};
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_protocol::SessionId;
 use crossguard_robot::site::Place;
 use rand::Rng;
 
-use super::sensors::CARS;
+use super::connected::{Connection, Promise};
 use super::truth::TOLERANCE_M;
 use super::walkers::{COMES_FROM, GOES_TO, WAITS_AT, Walker, walk};
 use super::{Finding, Next, World};
@@ -31,9 +30,10 @@ const TICK_S: f64 = 0.1;
 
 /// Where drivers stop for a crossing, in metres before its middle: before the posts of the guards. Yield lines are 6 to 15 m before
 /// a crossing (MUTCD 2009, section 3B.16).
-const STOP_M: f64 = 7.0;
+pub(super) const STOP_M: f64 = 7.0;
 
-/// For how long a driver who has seen somebody on the road is ready to brake, in microseconds.
+/// For how long a driver who has seen somebody on the road is ready to brake, and one who has promised to stop stops, in
+/// microseconds.
 const ALERT_US: u64 = 5_000_000;
 
 /// For how long a driver stands for a person who does not go, in microseconds.
@@ -54,14 +54,14 @@ const COURTESY_MPS2: f64 = 3.0;
 
 /// When a station that moves sends: EN 302 637-2 and TS 103 300-3 by way and speed; the heading is not looked at.
 #[derive(Clone, Copy, Debug)]
-struct Sent {
-    at_us: u64,
-    place: Place,
-    speed_mps: f64,
+pub(super) struct Sent {
+    pub(super) at_us: u64,
+    pub(super) place: Place,
+    pub(super) speed_mps: f64,
 }
 
 impl Sent {
-    fn is_due(&self, now: &Self, longest_us: u64) -> bool {
+    pub(super) fn is_due(&self, now: &Self, longest_us: u64) -> bool {
         self.place.distance(now.place) > 4.0
             || (self.speed_mps - now.speed_mps).abs() > 0.5
             || now.at_us - self.at_us >= longest_us
@@ -70,21 +70,22 @@ impl Sent {
 
 /// Somebody who drives.
 #[derive(Debug)]
-struct Driver {
-    number: usize,
-    draw: DriverDraw,
+pub(super) struct Driver {
+    pub(super) number: usize,
+    pub(super) draw: DriverDraw,
     /// How far the front bumper is beyond the middle of the crossing, in the direction of travel.
-    front_m: f64,
-    speed_mps: f64,
+    pub(super) front_m: f64,
+    pub(super) speed_mps: f64,
     /// From when to when somebody on the road was in sight.
     saw_us: Option<[u64; 2]>,
     /// For how long it has stood for somebody who waits.
     stood_us: u64,
-    sent: Option<Sent>,
+    /// Of a vehicle that hears robots and tells of itself.
+    pub(super) connection: Option<Connection>,
 }
 
 impl Driver {
-    fn place(&self) -> Place {
+    pub(super) fn place(&self) -> Place {
         let lane = usize::from(self.draw.arrival.comes_back);
         let sign = if lane == 0 { 1.0 } else { -1.0 };
         Place::new(CROSSING_EAST + sign * self.front_m, LANES[lane])
@@ -105,7 +106,7 @@ impl Driver {
     }
 
     /// Whether it can stop at a line out of courtesy.
-    fn can_stop(&self, line_m: f64) -> bool {
+    pub(super) fn can_stop(&self, line_m: f64) -> bool {
         let left_m = line_m - self.front_m;
         left_m >= 0.0 && self.speed_mps.powi(2) <= 2.0 * COURTESY_MPS2 * left_m.max(0.3)
     }
@@ -125,7 +126,7 @@ struct Ahead {
 /// The streams of a run.
 #[derive(Debug, Default)]
 pub(super) struct Flow {
-    drivers: Vec<Driver>,
+    pub(super) drivers: Vec<Driver>,
     drivers_came: BTreeSet<usize>,
     people_came: usize,
     /// When a RAM that shows stop to vehicles was sent last, and one that tells of people.
@@ -170,6 +171,7 @@ impl World<'_> {
         self.drivers_come(demand);
         self.drivers_go_on(demand);
         self.vehicles_speak(demand)?;
+        self.vehicles_answer(demand);
         self.phones_speak(demand);
         self.note_guards();
         Ok(())
@@ -184,6 +186,7 @@ impl World<'_> {
         let Ok(heard) = overhear(&Identifiers::default(), packet) else {
             return;
         };
+        self.vehicle_is_asked(&heard);
         let signals = heard.state.and_then(|state| state.slow?.signals);
         if signals.is_some_and(|it| it.to_vehicles == PublicSignal::Stop) {
             self.flow.stop_us = Some(self.now_us);
@@ -305,7 +308,7 @@ impl World<'_> {
                 speed_mps,
                 saw_us: None,
                 stood_us: 0,
-                sent: None,
+                connection: draw.is_connected.then(|| Connection::of(number)),
             });
         }
     }
@@ -375,66 +378,6 @@ impl World<'_> {
         });
     }
 
-    /// Vehicles that are connected send CAM, which robots hear.
-    fn vehicles_speak(&mut self, demand: &Demand) -> Result<(), Finding> {
-        for at in 0..self.flow.drivers.len() {
-            let driver = &mut self.flow.drivers[at];
-            let now = Sent {
-                at_us: self.now_us,
-                place: driver.place(),
-                speed_mps: driver.speed_mps,
-            };
-            let is_due = driver.sent.is_none_or(|it| it.is_due(&now, 1_000_000));
-            if !driver.draw.is_connected || !is_due {
-                continue;
-            }
-            driver.sent = Some(now);
-            self.flow.log.cams += 1;
-            let (number, is_back) = (driver.number, driver.draw.arrival.comes_back);
-            if driver.front_m.abs() < demand.habits.radio_m {
-                for place in 0..self.seats.len() {
-                    if self.draws.random_bool(1.0 - demand.habits.loss) {
-                        self.hear_vehicle(place, number, now.place, now.speed_mps, is_back)?;
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// A robot has a CAM of a vehicle.
-    pub(super) fn hear_vehicle(
-        &mut self,
-        place: usize,
-        number: usize,
-        at: Place,
-        speed_mps: f64,
-        is_westward: bool,
-    ) -> Result<(), Finding> {
-        let seat = &mut self.seats[place];
-        let now_ms = seat.clock.shows_us(self.now_us) / 1_000;
-        let Some(machine) = &mut seat.machine else {
-            return Ok(());
-        };
-        let user = RoadUser {
-            identity: Identity::Station(CARS + u32::try_from(number).unwrap_or(0)),
-            kind: Kind::Vehicle,
-            station_type: None,
-            position: seat.draw.plan.site.position(at),
-            speed: Some(speed_mps),
-            heading: Some(if is_westward { 270.0 } else { 90.0 }),
-            cardinality: 1,
-            signals: None,
-            measured_its: 0,
-        };
-        let mut map = LocalDynamicMap::default();
-        map.observe(user, now_ms);
-        let robot = machine.endpoint().robot().clone();
-        machine.application_mut().listen(&map, &robot, now_ms);
-        seat.heard_us.insert(number, self.now_us);
-        self.handle(place, Stimulus::Time)
-    }
-
     /// Phones send VAM, unless a robot tells of the people around it.
     fn phones_speak(&mut self, demand: &Demand) {
         let is_told = self.is_fresh(self.flow.told_us);
@@ -474,21 +417,6 @@ impl World<'_> {
                 self.flow.log.people[walker.id as usize].alone_us += TICK_US;
             }
         }
-    }
-
-    /// The vehicles near the crossing: where each is, and its velocity to the east, in m/s.
-    pub(super) fn vehicles_near(&self, within_m: f64) -> impl Iterator<Item = (u32, Place, f64)> {
-        let drivers = self.flow.drivers.iter();
-        let near = drivers.filter(move |it| it.front_m.abs() < within_m);
-        near.map(|it| {
-            let is_back = it.draw.arrival.comes_back;
-            let east_mps = if is_back { -it.speed_mps } else { it.speed_mps };
-            (
-                CARS + u32::try_from(it.number).unwrap_or(0),
-                it.place(),
-                east_mps,
-            )
-        })
     }
 }
 
@@ -554,6 +482,11 @@ impl Driver {
             }
         }
         let stops_for_robot = self.draw.heeds && ahead.is_stop && sees(-STOP_M, true);
+        let promise = self.connection.as_ref().and_then(|it| it.promise);
+        let is_held = |it: &Promise| now_us - it.at_us < ALERT_US && self.front_m <= it.line_m;
+        if let Some(promise) = promise.filter(is_held) {
+            acceleration = acceleration.min(self.stops_at(promise.line_m));
+        }
         let may_yield = self.draw.yields && self.stood_us < YIELDS_US;
         let yields = may_yield && ahead.waiting.is_some_and(|is_told| sees(-STOP_M, is_told));
         if (stops_for_robot || yields) && self.can_stop(-STOP_M) {

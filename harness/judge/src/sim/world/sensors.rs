@@ -25,9 +25,6 @@ const SENSES_M: f64 = 40.0;
 /// Time from a CAM to the next, in microseconds.
 const CAM_PERIOD_US: u64 = 200_000;
 
-/// The station id of the first vehicle.
-pub(super) const CARS: u32 = 9_000;
-
 /// A sensor of a robot.
 #[derive(Debug)]
 pub(super) struct SimulatedSensor<'a> {

@@ -1,4 +1,4 @@
-//! The properties P1 to P4 and P9, judged by where people, bodies and vehicles really are.
+//! The properties P1 to P4, P9 and P10, judged by where people, bodies and vehicles really are.
 //!
 //! Nothing here asks a crossing machine what is so.
 
@@ -17,6 +17,10 @@ const AHEAD_M: f64 = 2.5;
 
 /// Within which time a vehicle was heard, in microseconds.
 const HEARD_US: u64 = 600_000;
+
+/// How fast a vehicle is that counts as moving, in m/s, and for how long its promise counts at most, in microseconds.
+const MOVES_MPS: f64 = 1.5;
+const PROMISES_US: u64 = 6_000_000;
 
 /// For how long a vehicle that cannot stop has been heard when a body ought to stand at the kerb, in microseconds.
 const STANDS_WITHIN_US: u64 = 1_500_000;
@@ -55,6 +59,11 @@ const P4: Judged = (
 const P9: Judged = (
     "P9",
     "no robot steps on the road while a vehicle that it hears can no longer stop, comfortably or, where somebody is on it, at all",
+);
+
+const P10: Judged = (
+    "P10",
+    "where vehicles are asked, go does not begin while one that is heard and soon there has not said that it will stop",
 );
 
 /// What is seen of a body from one moment to the next.
@@ -124,7 +133,7 @@ impl World<'_> {
         u64::from(times_ms.max().unwrap_or(0)) * 1_000
     }
 
-    /// P3, when the sign of a leader begins to show go.
+    /// P3 and P10, when the sign of a leader begins to show go.
     pub(super) fn judge_go(&mut self, place: usize) -> Result<(), Finding> {
         if self.vehicles_heard(place).next().is_some() {
             self.met.insert(P3.0);
@@ -133,7 +142,31 @@ impl World<'_> {
         if vehicles.any(|it| cannot_stop(it, COMFORT)) {
             return Err(self.breaks(P3, place));
         }
+        drop(vehicles);
+        let asked: Vec<_> = self.vehicles_asked(place).collect();
+        if !asked.is_empty() {
+            self.met.insert(P10.0);
+        }
+        if asked.contains(&false) {
+            return Err(self.breaks(P10, place));
+        }
         Ok(())
+    }
+
+    /// Whether each vehicle has promised to stop that a robot has heard lately and that is soon there, also as of an older report.
+    fn vehicles_asked(&self, place: usize) -> impl Iterator<Item = bool> {
+        let demand = self.swarm.demand.as_ref();
+        let asks_s = demand.map_or(0.0, |it| it.habits.asks_vehicles_s);
+        let soon = self.flow.drivers.iter().filter(move |it| {
+            let heard_us = self.seats[place].heard_us.get(&it.number);
+            heard_us.is_some_and(|at_us| self.now_us - at_us <= HEARD_US)
+                && it.speed_mps > MOVES_MPS
+                && (0.0..it.speed_mps * (0.8 * asks_s - 1.0)).contains(&-it.front_m)
+        });
+        soon.map(|it| {
+            let promise = it.connection.as_ref().and_then(|it| it.promise);
+            promise.is_some_and(|it| self.now_us - it.at_us < PROMISES_US)
+        })
     }
 
     /// How far each vehicle that a robot has heard lately is before the crossing, in metres, and how fast it is, in m/s.
