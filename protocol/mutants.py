@@ -112,6 +112,8 @@ MUTANTS = [
      "self.owed = self.owed.union(covered);", "self.owed = Coverage::NONE;"),
     ("frames count under go", "crossing/src/crossing.rs",
      "            self.occupancy.start_anew();\n            self.quiet = Millis::ZERO;\n", ""),
+    ("frames count as soon as go has ended", "crossing/src/crossing.rs",
+     "frame.age.saturating_add(setup.waiting.step_off) < self.quiet", "frame.age < self.quiet"),
     ("a stale frame with somebody on the road is nothing", "crossing/src/crossing.rs",
      "                self.occupancy.occupy(setup);\n            }\n            return out.put(Output::Dropped(why));",
      "            }\n            return out.put(Output::Dropped(why));"),

@@ -34,6 +34,10 @@ const GUARD: Street = Street {
     words: 5,
     ..PERSON
 };
+const LATE: Street = Street {
+    late: true,
+    ..PERSON
+};
 const WITH_VEHICLE: Street = Street {
     vehicle: true,
     ..PERSON
@@ -68,6 +72,8 @@ fn never_ends(setup: &mut Setup) {
 const WEAKENINGS: &[Weakening] = &[
     (PERSON, trusts_one_frame, Rule::P1),
     (GUARD, trusts_one_frame, Rule::P1),
+    // Nobody steps on the road later than half a second after go.
+    (LATE, |setup| setup.waiting.step_off = Millis(500), Rule::P1),
     // A guard is in position wherever it is.
     (DRIFTING, |setup| setup.position.tolerance_cm = 10_000, Rule::P2),
     // It is for a minute after its last position.

@@ -211,8 +211,10 @@ impl Street {
         };
         Zone {
             waiting: Some(strip(PAVEMENT_M, HALF_ROAD_M)),
+            // Its people step on the road as soon as they see go. Its time may pass many times as fast as real.
             rules: WaitingRules {
                 dwell: Millis(0),
+                step_off: Millis(10),
                 ..WaitingRules::default()
             },
             // It misses nobody, and is looked at whenever the robot does something.
@@ -220,7 +222,6 @@ impl Street {
                 miss_max: 0,
                 error_cm: 0,
                 gap_max: Millis(60_000),
-                // Its time may pass many times as fast as real.
                 linger: Millis(10),
                 ..Sensors::default()
             },

@@ -9,9 +9,9 @@
 //!
 //! Time passes in ticks of half a second. In each tick people and the vehicle move as they like, the sensor misses people
 //! within the assumption `sees`, and at most one of the things happens that a [`Street`] allows. People step on the
-//! carriageway under go alone, and are then on it for as long as they like, also beside the crossing. A vehicle, changes of
-//! ids, hangs, blindness and drifts are bounded for a run, and no run is as long as `T_lock` or `T_exec`; nothing else is
-//! bounded. In [`Watch::Guard`] the follower's machine is alone: what leads has none, and its application says anything at any
+//! carriageway under go, or soon after it where a [`Street`] says so, and are then on it for as long as they like, also
+//! beside the crossing. A vehicle, changes of ids, hangs, blindness and drifts are bounded for a run, and no run is as long as
+//! `T_lock` or `T_exec`; nothing else is bounded. In [`Watch::Guard`] the follower's machine is alone: what leads has none, and its application says anything at any
 //! time, as often as the [`Street`] allows. `truth` judges, and shares nothing with the machine. P4, about escorts, needs finer
 //! geometry and is not here.
 
@@ -58,6 +58,8 @@ pub struct Street {
     pub words: u8,
     /// How many people there are, at most two.
     pub people: u8,
+    /// Whether people step on the road for up to 2 s after go has ended, too, also from where nobody waits.
+    pub late: bool,
     /// In how many consecutive frames the sensor misses somebody at most.
     pub misses: u8,
     /// How often ids change, or are swapped.
@@ -80,6 +82,7 @@ impl Street {
         watch: Watch::Leader,
         words: 0,
         people: 1,
+        late: false,
         misses: MISS_MAX,
         id_changes: 0,
         hang: 0,
@@ -106,7 +109,7 @@ pub struct Shipped {
 }
 
 /// The shipped streets.
-pub const SHIPPED: [Shipped; 11] = {
+pub const SHIPPED: [Shipped; 12] = {
     const PERSON: Street = Street::PERSON;
     const MET: &[Rule] = &[Rule::P1, Rule::P5, Rule::P6];
     const ALONE: &[Rule] = &[Rule::P1];
@@ -133,6 +136,8 @@ pub const SHIPPED: [Shipped; 11] = {
     let shipped = [
         of("street-person", "a sensor misses a person who crosses in every other frame, or less often",
             PERSON, MET, 30_184),
+        of("street-late", "the same, and the person may step on the road up to 2 s after go has ended, and where nobody waits",
+            Street { late: true, ..PERSON }, MET, 413_930),
         of("street-ids", "the same, and the tracker's ids change",
             Street { id_changes: 1, ..PERSON }, MET, 666_530),
         of("street-hang", "the same with ids that stay, and the leader hangs for up to 1 s",
@@ -208,7 +213,7 @@ impl Shipped {
 /// What the verdicts assume.
 const ASSUMPTIONS: [&str; 5] = [
     "sees: the sensor, which covers the whole road, misses nobody in more than 1 frame in a row; nobody walks faster than 9 m/s, or crosses within a second",
-    "people step on the road under go alone, and stay on it for as long as they like",
+    "people step on the road under go, in street-late also within 2 s after it, and stay on it for as long as they like",
     "time passes in ticks of 0.5 s, and at most one fault happens in a tick; messages arrive at once",
     "positions of bodies and vehicles are true",
     "no run is as long as T_lock or T_exec",

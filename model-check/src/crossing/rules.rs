@@ -6,7 +6,7 @@ use crossguard_crossing::{
 };
 use crossguard_protocol::{Config, HelpRequest, List, Millis, Settings, TaskSet, TaskType};
 
-use super::street::{Guard, TICK};
+use super::street::{Guard, LATE_TIME, TICK};
 use super::{MISS_MAX, Street, Watch};
 
 /// Where the guard stands.
@@ -101,6 +101,7 @@ fn setups(street: Street, config: &Config) -> [Setup; 2] {
         },
         waiting: WaitingRules {
             dwell: TICK,
+            step_off: if street.late { LATE_TIME } else { Millis::ZERO },
             ..WaitingRules::default()
         },
         position: PositionRules {

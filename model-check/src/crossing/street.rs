@@ -18,6 +18,10 @@ use super::{Street, Watch};
 /// A tick.
 pub(super) const TICK: Millis = Millis(500);
 
+/// For how many ticks after go has ended people who are late step on the road, and that time.
+const LATE: u8 = 4;
+pub(super) const LATE_TIME: Millis = Millis(TICK.0 * LATE as u32);
+
 /// How far a vehicle comes in a tick, in metres: more than at 50 km/h.
 const PER_TICK_M: u8 = 14;
 
@@ -37,6 +41,8 @@ pub(super) const PEOPLE_MAX: usize = 2;
 pub(super) enum Cell {
     /// On the pavement, at the crossing.
     Near,
+    /// On the pavement, where people do not wait and see the sign.
+    Aside,
     /// On the crossing.
     Lane,
     /// On the carriageway, beside the crossing.
@@ -57,6 +63,7 @@ impl Cell {
         let east = if person == 0 { 100 } else { 0 };
         match self {
             Self::Near => Point::new(east, -30),
+            Self::Aside => Point::new(350 + east, -30),
             Self::Lane => Point::new(east, 350),
             Self::Beside => Point::new(450 + east, 350),
             Self::Far => Point::new(east, 730),
@@ -64,11 +71,15 @@ impl Cell {
         }
     }
 
-    /// Where somebody may be a tick later. People step on the road under go alone, and leave it where they like.
-    const fn moves(self, goes: bool, is_free: bool) -> &'static [Self] {
+    /// Where somebody may be a tick later. People step on the road under go or soon after it, and leave it where they like.
+    const fn moves(self, goes: bool, is_free: bool, is_late: bool) -> &'static [Self] {
         match self {
+            Self::Near if goes && is_late => &[Self::Near, Self::Lane, Self::Away, Self::Aside],
             Self::Near if goes => &[Self::Near, Self::Lane, Self::Away],
+            Self::Near if is_late => &[Self::Near, Self::Away, Self::Aside],
             Self::Near => &[Self::Near, Self::Away],
+            Self::Aside if goes => &[Self::Aside, Self::Near, Self::Away, Self::Beside],
+            Self::Aside => &[Self::Aside, Self::Near, Self::Away],
             Self::Lane => &[Self::Lane, Self::Near, Self::Far, Self::Beside],
             Self::Beside => &[Self::Beside, Self::Lane],
             // Somebody who stays there for longer waits there.
@@ -118,6 +129,8 @@ pub(super) struct Guard {
 pub(super) struct Sign {
     /// For how many milliseconds yet it shows go.
     pub(super) left: u32,
+    /// For how many ticks yet somebody who saw it may step on the road.
+    late: u8,
     /// Whether go began in this tick.
     pub(super) has_begun: bool,
     /// Whether a vehicle was asked in this tick to stop.
@@ -127,6 +140,11 @@ pub(super) struct Sign {
 impl Sign {
     pub(super) const fn shows_go(self) -> bool {
         self.left > 0
+    }
+
+    /// Whether people step on the road.
+    const fn lets_go(self) -> bool {
+        self.shows_go() || self.late > 0
     }
 }
 
@@ -254,10 +272,11 @@ pub(super) struct World {
 impl World {
     fn moves(&self, state: &State) -> Vec<([Option<Cell>; PEOPLE_MAX], [bool; PEOPLE_MAX])> {
         let mut all = vec![([None; PEOPLE_MAX], [false; PEOPLE_MAX])];
+        let goes = state.sign.lets_go();
         for (number, person) in state.people.iter().enumerate() {
             let mut more = Vec::new();
             for (moves, missed) in &all {
-                for cell in person.at.moves(state.sign.shows_go(), state.is_free) {
+                for cell in person.at.moves(goes, state.is_free, self.street.late) {
                     // Nobody runs across in a second. Somebody who did, and was missed, would be one who waits over there.
                     if *cell == Cell::Far && person.at.is_road() && person.on_road < 2 {
                         continue;
@@ -316,6 +335,11 @@ impl State {
             // A guard that is on its own has to see anew who steps on the road again.
             person.was_seen_there &= person.at.is_road() || self.left.watch != Watch::Guard;
         }
+        self.sign.late = if self.sign.shows_go() && self.left.late {
+            LATE
+        } else {
+            self.sign.late.saturating_sub(1)
+        };
         self.sign.left = self.sign.left.saturating_sub(TICK.0);
         let has_come = self.car.is_some_and(|metres| metres + PER_TICK_M <= STOP_M);
         self.car = self.car.and_then(|metres| metres.checked_sub(PER_TICK_M));

@@ -114,7 +114,7 @@ pub struct Crossing<const N: usize = 64> {
     wanted: Millis,
     /// For how long yet its sign shows go.
     sign: Millis,
-    /// Time since nobody has been let on the road any more by a sign that counts on this robot, saturating.
+    /// Time since no sign that counts on this robot has shown go any more, saturating.
     quiet: Millis,
     obligation: Option<Obligation>,
     /// Whether the body moves because of a fallback.
@@ -265,7 +265,8 @@ impl<const N: usize> Crossing<N> {
         let waited = self.obligation.map_or(Millis::ZERO, |it| it.wait);
         let shown = self.sign.max(waited);
         self.sign = self.sign.saturating_sub(time);
-        let newest = setup.sensors.age_max.saturating_add(Millis(1));
+        let newest = setup.sensors.age_max.saturating_add(setup.waiting.step_off);
+        let newest = newest.saturating_add(Millis(1));
         let quiet = self.quiet.saturating_add(time.saturating_sub(shown));
         self.quiet = quiet.min(newest);
         self.own.elapse(setup.position, time);
@@ -297,7 +298,8 @@ impl<const N: usize> Crossing<N> {
         self.lead_on(setup, out);
     }
 
-    /// While a sign that counts on this robot may show go, no frame counts for a clear road.
+    /// While a sign that counts on this robot may show go, no frame counts for a clear road; and none that is taken while people
+    /// who saw it may still step off the kerb.
     fn hold_count(&mut self) {
         let leads_across = self.standing == Standing::Leading
             && (self.corridor == Corridor::Open || self.sign > Millis::ZERO);
@@ -330,7 +332,7 @@ impl<const N: usize> Crossing<N> {
             if let Some(obligation) = &mut self.obligation {
                 obligation.is_said_clear = false;
             }
-        } else if frame.age < self.quiet {
+        } else if frame.age.saturating_add(setup.waiting.step_off) < self.quiet {
             self.occupancy.count(setup, frame);
             if self.occupancy.settle(setup) {
                 self.tracks.resolve();

@@ -1,6 +1,6 @@
 //! Whether the carriageway is empty: decided by frames, and by nothing else.
 //!
-//! The road is clear when, after the last sign went to stop, each of its parts was covered by more than `miss_max`
+//! The road is clear when, after the last sign went to stop and the time in which people who saw it step off the kerb, each of its parts was covered by more than `miss_max`
 //! consecutive frames without anybody on the carriageway, and is covered now. Whatever speaks against that starts the count
 //! anew: somebody on the road, also as another station reports them, a frame that comes too late, a gap between two
 //! frames, a line that is no frame. Silence counts nothing.

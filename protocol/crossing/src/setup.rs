@@ -40,7 +40,7 @@ impl Default for Sensors {
     }
 }
 
-/// When somebody waits to cross: see [`tracks`](crate::tracks).
+/// When somebody waits to cross, and sets out: see [`tracks`](crate::tracks).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct WaitingRules {
     /// For how long somebody has to stand or to come to the road; 1 s by default.
@@ -54,6 +54,9 @@ pub struct WaitingRules {
     /// Smallest confidence of a person who waits, in percent; 50 by default. Half of it is enough for a person who
     /// waits already.
     pub confidence_min: u8,
+    /// For how long after go has ended somebody who saw it steps on the road (assumption `steps_off`); 2 s by default, a
+    /// second to react and a metre to the kerb. The road is clear by frames that are taken later.
+    pub step_off: Millis,
 }
 
 impl Default for WaitingRules {
@@ -64,6 +67,7 @@ impl Default for WaitingRules {
             approach: Millis(3_000),
             clear: Millis(3_000),
             confidence_min: 50,
+            step_off: Millis(2_000),
         }
     }
 }

@@ -175,6 +175,7 @@ impl ZoneTable {
             )?,
             clear: time("clear_s", self.clear_s, default.clear, 60.0, minute)?,
             confidence_min: percent(confidence_min),
+            step_off: default.step_off,
         };
         let zone = Zone {
             waiting,

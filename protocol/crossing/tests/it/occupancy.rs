@@ -9,7 +9,8 @@ const NEEDED: usize = 6;
 
 fn watch() -> Scene {
     let mut scene = Scene::new(street());
-    scene.look(1_000, &[person(1, 100, 300)]);
+    // Before the robot began, a sign may have shown go.
+    scene.look(2_001, &[person(1, 100, 300)]);
     scene
 }
 

@@ -471,6 +471,22 @@ fn a_blind_leader_closes_the_sign_and_keeps_its_guards() {
     assert_eq!(team.alone, 0);
 }
 
+/// Nobody is seen any more while go is shown, and it ends. Somebody who saw it steps on the road two seconds later.
+#[test]
+fn somebody_who_saw_go_and_steps_off_the_kerb_late_has_guards() {
+    let mut team = blocking();
+    team.pass_until("go", Team::shows_go);
+    team.people.clear();
+    team.pass_until("stop", |it| !it.shows_go());
+    team.pass(1_900);
+    team.people = vec![person(1, 100, 50)];
+    team.pass(20_000);
+    assert!(!team.is_idle());
+    team.people.clear();
+    team.pass_until("idle", Team::is_idle);
+    assert_eq!(team.alone, 0);
+}
+
 /// Hazard H: an escort waits for its person, and is not done before the person is off the road.
 #[test]
 fn an_escort_stays_with_its_person() {
@@ -676,13 +692,15 @@ fn a_robot_that_guarded_nobody_is_free_when_its_body_is() {
     assert_eq!(team.robots[1].robot.duty(), None);
 }
 
-/// The sign of its leader may show go for `t_safety` yet: what it sees before counts for nothing.
+/// The sign of its leader may show go for `t_safety` yet, and people step off the kerb after it: what it sees before counts for
+/// nothing.
 #[test]
 fn a_guard_with_sensors_is_free_once_they_have_had_nobody_on_the_road() {
     let mut team = left_alone(TaskType::BLOCK, true);
     team.pass_until("a duty", |it| it.robots[1].robot.duty().is_some());
-    let t_safety = team.robots[1].setup.t_safety.0;
-    team.pass(t_safety + 300);
+    let setup = &team.robots[1].setup;
+    let not_before = setup.t_safety.0 + setup.waiting.step_off.0;
+    team.pass(not_before + 300);
     assert!(team.robots[1].robot.duty().is_some());
     team.pass(600);
     assert_eq!(team.robots[1].robot.duty(), None);
