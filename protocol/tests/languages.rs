@@ -205,7 +205,7 @@ fn c_has_the_words() {
         "Why something is as it is. With `Unavailable`, the output's `unavailability` says more.";
     let none = other("None", 0, "None is given.");
     write("Reason", about, vec![none], reasons.into_values().collect());
-    assert_words("harness/c/src/codes.rs", "words", &text);
+    assert_words("harness/c/src/codes/generated.rs", "words", &text);
     let plain = words("Event").words.iter();
     let plain = plain.filter(|word| word.fields.is_empty()).map(|word| {
         let (upper, meaning) = (upper(word.variant), word.meaning);

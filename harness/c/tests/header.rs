@@ -11,6 +11,7 @@ fn the_header_is_current() {
     cbindgen::Builder::new()
         .with_config(config)
         .with_src(crate_folder.join("src/codes.rs"))
+        .with_src(crate_folder.join("src/codes/generated.rs"))
         .with_src(crate_folder.join("src/abi.rs"))
         .with_src(crate_folder.join("src/ffi.rs"))
         .generate()
