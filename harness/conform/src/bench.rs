@@ -69,9 +69,9 @@ fn failed(error: impl std::fmt::Display) -> Gone {
 }
 
 /// The tester at work.
-#[derive(Clone, Debug)]
-pub(crate) struct Bench<S> {
-    pub(crate) subject: S,
+#[derive(Debug)]
+pub(crate) struct Bench<'a, S> {
+    pub(crate) subject: &'a mut S,
     pub(crate) terms: Terms,
     pub(crate) stations: [PlayedStation; 2],
     pub(crate) exchange: Exchange,
@@ -89,13 +89,11 @@ pub(crate) struct Bench<S> {
     pub(crate) command: Option<Command>,
     /// The number of an offer that Ada could have made before the one that she made.
     pub(crate) older_offer: Option<OfferNumber>,
-    /// Whether it listens no longer than it must, for there is much to try.
-    pub(crate) generates: bool,
 }
 
-impl<S: Subject> Bench<S> {
+impl<'a, S: Subject> Bench<'a, S> {
     /// A bench at which nothing has happened.
-    pub(crate) fn new(subject: S, table: Table) -> Self {
+    pub(crate) fn new(subject: &'a mut S, table: Table) -> Self {
         let Table {
             robot,
             terms,
@@ -130,7 +128,6 @@ impl<S: Subject> Bench<S> {
             next_request: RequestId(10),
             command: None,
             older_offer: None,
-            generates: false,
         }
     }
 

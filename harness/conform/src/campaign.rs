@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crossguard_judge::sequence::Sequence;
-use crossguard_model_check::sequence::{ChartPlace, ChartStep};
+use crossguard_codec::Identifiers;
+use crossguard_judge::chart::Chart;
 use crossguard_protocol::StationId;
 use crossguard_robot::trace::{Entry, Record};
 
@@ -136,7 +136,7 @@ impl Campaign {
         RULES.iter()
     }
 
-    /// The cases that meet one of its statements: first the generated ones, then those written by hand.
+    /// The cases that meet one of its statements.
     #[must_use]
     pub fn cases(&self) -> Vec<Case> {
         let names: Vec<_> = self.statements.iter().map(|it| it.name).collect();
@@ -145,8 +145,7 @@ impl Campaign {
                 .iter()
                 .any(|it| names.contains(&it.as_str()))
         };
-        let all = Case::generated().into_iter().chain(Case::written());
-        all.filter(is_asked).collect()
+        Case::all().into_iter().filter(is_asked).collect()
     }
 
     /// Plays a case against a robot that is at rest. What is broken is played once more, with the robot started anew,
@@ -224,7 +223,7 @@ impl Campaign {
                             case: case.words(),
                             situation: met.situation,
                             how,
-                            chart: chart(&played.exchange, &case.words()),
+                            chart: chart(&played.exchange),
                         });
                     }
                     Some(_) => {}
@@ -264,11 +263,12 @@ impl Campaign {
 
 /// An exchange as a sequence chart, in text.
 #[must_use]
-pub fn chart(exchange: &Exchange, title: &str) -> String {
+pub fn chart(exchange: &Exchange) -> String {
     let [ada, bo] = exchange.players;
-    let robots = [("robot", exchange.robot), ("Ada", ada), ("Bo", bo)];
-    let mut sequence = Sequence::new(&robots);
-    let mut steps: Vec<ChartStep> = Vec::new();
+    let robot = "robot";
+    let stations = [(robot, exchange.robot), ("Ada", ada), ("Bo", bo)];
+    let mut chart = Chart::new(&stations, Identifiers::default());
+    let mut lines = vec![chart.header()];
     let begun_ms = exchange.seen.first().map_or(0, |seen| seen.at_ms);
     for seen in &exchange.seen {
         let at_us = seen.at_ms.saturating_sub(begun_ms) * 1_000;
@@ -282,27 +282,19 @@ pub fn chart(exchange: &Exchange, title: &str) -> String {
                 octets: seen.octets.clone(),
             },
         };
-        #[expect(clippy::cast_precision_loss, reason = "a case takes seconds")]
-        let seconds = at_us as f64 / 1e6;
-        let note = |lane, text: &str| ChartStep {
-            place: ChartPlace::At(lane),
-            action: format!("{seconds:.3} s: {text}"),
-            outputs: Vec::new(),
-        };
-        match &seen.what {
-            Happening::Said(message) => {
-                let record = heard_by(Player::Ada.name(), exchange.robot, message);
-                steps.extend(sequence.steps(&record));
-            }
+        let ada = Player::Ada.name();
+        lines.extend(match &seen.what {
+            Happening::Said(message) => chart.lines(&heard_by(ada, exchange.robot, message)),
             Happening::Played(player, message) => {
                 let from = exchange.players[*player as usize];
-                steps.extend(sequence.steps(&heard_by("robot", from, message)));
+                chart.lines(&heard_by(robot, from, message))
             }
-            Happening::Play(words) => steps.push(note(1, &format!("* {words}"))),
-            Happening::Noise(name) => steps.push(note(1, &format!("sends {name}"))),
-            Happening::Told(local) => steps.push(note(0, &format!("* {local}"))),
-            Happening::Restarted => steps.push(note(0, "! loses power and starts again")),
-        }
+            Happening::Play(words) => chart.note(at_us, ada, &format!("* {words}")),
+            Happening::Noise(name) => chart.note(at_us, ada, &format!("sends {name}")),
+            Happening::Told(local) => chart.note(at_us, robot, &format!("* {local}")),
+            Happening::Restarted => chart.note(at_us, robot, "! loses power and starts again"),
+        });
     }
-    sequence.draw(title, &steps, |drawing| drawing.text())
+    lines.extend(chart.rest());
+    lines.join("\n")
 }

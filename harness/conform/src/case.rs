@@ -9,11 +9,8 @@ use crate::perform::Performed;
 use crate::play::Play;
 use crate::subject::{Gone, NotTold, Subject};
 
-/// The cases that were generated, see [`generate`](crate::generate).
-const GENERATED: &str = include_str!("cases.txt");
-
-/// Cases that were written by hand, since the generator does not come so far.
-const WRITTEN: &str = include_str!("written.txt");
+/// The cases, one a line.
+const CASES: &str = include_str!("cases.txt");
 
 /// A case.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -24,53 +21,24 @@ pub struct Case {
     pub statements: Vec<String>,
 }
 
-/// A line of the file of cases that is none.
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-#[error("'{0}' is no case")]
-pub struct NoCase(String);
-
 impl Case {
-    /// The generated cases, in the order in which they are played.
+    /// All cases, in the order in which they are played.
     ///
     /// # Panics
     /// Never: a test reads the file.
     #[must_use]
-    pub fn generated() -> Vec<Self> {
-        Self::of_file(GENERATED)
-    }
-
-    /// The cases that were written by hand, in the order in which they are played.
-    ///
-    /// # Panics
-    /// Never: a test reads the file.
-    #[must_use]
-    pub fn written() -> Vec<Self> {
-        Self::of_file(WRITTEN)
-    }
-
-    fn of_file(text: &str) -> Vec<Self> {
-        let cases: Result<_, _> = text.lines().map(Self::parse).collect();
+    pub fn all() -> Vec<Self> {
+        let cases: Option<_> = CASES.lines().map(Self::parse).collect();
         cases.expect("the file of cases is well-formed")
     }
 
-    /// Reads a line.
-    ///
-    /// # Errors
-    /// It is no case.
-    pub fn parse(line: &str) -> Result<Self, NoCase> {
-        let no_case = || NoCase(line.to_owned());
-        let (plays, statements) = line.split_once(" => ").ok_or_else(no_case)?;
+    fn parse(line: &str) -> Option<Self> {
+        let (plays, statements) = line.split_once(" => ")?;
         let plays: Option<_> = plays.split("; ").map(Play::of_words).collect();
-        Ok(Self {
-            plays: plays.ok_or_else(no_case)?,
+        Some(Self {
+            plays: plays?,
             statements: statements.split(' ').map(str::to_owned).collect(),
         })
-    }
-
-    /// The line of the file.
-    #[must_use]
-    pub fn line(&self) -> String {
-        format!("{} => {}", self.words(), self.statements.join(" "))
     }
 
     /// What the tester does, in words.
@@ -122,22 +90,6 @@ pub struct Table {
     pub envelopes: [Envelope; 2],
     /// The boot counter of the tester's stations; larger at each case.
     pub boot: u16,
-}
-
-impl Table {
-    /// The tester's side of cases with a robot [in this process](crate::in_process), which is not late.
-    #[must_use]
-    pub fn in_process(robot: StationId) -> Self {
-        Self {
-            robot,
-            terms: Terms {
-                slack_ms: 100,
-                ..Terms::default()
-            },
-            envelopes: [Envelope::Off, Envelope::Off],
-            boot: 1,
-        }
-    }
 }
 
 /// How long a robot may take to say something after it was started, in ms.

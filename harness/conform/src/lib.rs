@@ -12,20 +12,18 @@
 //!                            └─────────────────────────────────────┘
 //! ```
 //!
-//! - [`case`] plays a case; [`play`] has the words in which cases are written, [`generate`] makes them.
+//! - [`case`] plays a case; [`play`] has the words in which cases are written.
 //! - [`exchange`] is all that a verdict may look at; [`statements`] say what must be true of it.
 //! - [`campaign`] plays all cases, and says for each rule whether it was kept.
-//! - [`subject`] is the robot under test: [`live`] over a link, [`in_process`] in virtual time.
+//! - [`subject`] is the robot under test: [`live`] over a link, or in a test in virtual time.
 //!
 //! **The statements share no code with what they judge.** They read messages and times; packets are encoded and decoded
-//! by the codec. The transition function runs in [`in_process`] alone, where it is the robot.
+//! by the codec. The transition function runs where it is the robot, in tests, and nowhere else.
 
 mod bench;
 pub mod campaign;
 pub mod case;
 pub mod exchange;
-pub mod generate;
-pub mod in_process;
 pub mod live;
 mod perform;
 pub mod play;

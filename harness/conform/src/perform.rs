@@ -1,10 +1,8 @@
-//! How the tester does what a case says, and what tells one situation from another.
+//! How the tester does what a case says.
 
 mod asking;
 mod helping;
 mod leading;
-
-use std::fmt::Write as _;
 
 use crossguard_protocol::{
     Coordination, Ending, Farewell, Progress, Ram, SessionNumber, UniqueNumber,
@@ -13,7 +11,6 @@ use crossguard_protocol::{
 use crate::bench::{APART_MS, Bench};
 use crate::exchange::{Happening, Player, RamSeen};
 use crate::play::{Play, Side};
-use crate::station::Beating;
 use crate::subject::{Gone, Subject};
 use crate::words;
 
@@ -29,7 +26,7 @@ pub(crate) enum Performed {
 /// How long a robot that does things by itself is waited for, in ms.
 const AWAITED_MS: u64 = 6_000;
 
-impl<S: Subject> Bench<S> {
+impl<S: Subject> Bench<'_, S> {
     /// Does it, and listens to what comes of it.
     pub(crate) fn perform(&mut self, play: Play, is_last: bool) -> Result<Performed, Gone> {
         let begun = self.exchange.seen.len();
@@ -43,12 +40,7 @@ impl<S: Subject> Bench<S> {
         if let Some(span_ms) = play.span_ms(&self.terms) {
             self.pass(span_ms)?;
         } else if is_last || play == Play::Restart {
-            let more_ms = if self.generates {
-                100
-            } else {
-                self.terms.ms(|s| s.t_ack) + 150
-            };
-            self.pass(soon_ms + more_ms)?;
+            self.pass(soon_ms + self.terms.ms(|s| s.t_ack) + 150)?;
         } else {
             let before = self.essence();
             let answers = self.exchange.answers().count() + self.exchange.commands().count();
@@ -180,32 +172,5 @@ impl<S: Subject> Bench<S> {
             self.pass(APART_MS)?;
         }
         Ok(Performed::Yes)
-    }
-
-    /// What tells this situation from others: what the robot says, what the tester's stations do, and what is
-    /// outstanding between them.
-    pub(crate) fn key(&self) -> String {
-        let mut key = self.essence().unwrap_or_default();
-        // Names of sessions differ, and make no difference.
-        key.retain(|c| !c.is_ascii_digit());
-        for station in &self.stations {
-            let part = station.part.as_ref().map(words::part);
-            let beating = if station.speaks() {
-                station.beating
-            } else {
-                Beating::Mute
-            };
-            let _ = write!(key, " | {part:?} {beating:?}");
-        }
-        let newest = self.exchange.commands().next_back();
-        let outstanding = newest.map(|(_, command)| {
-            let mut answers = self.exchange.played_answers();
-            let is_answered = answers.any(|(_, it)| it.request == command.request);
-            format!("{} {is_answered}", command.task)
-        });
-        let ordered = self.command.map(|command| command.task);
-        let count = newest.map_or(0, |(_, command)| command.request.0.min(1));
-        let _ = write!(key, " | {outstanding:?} {count} {ordered:?}");
-        key
     }
 }

@@ -154,11 +154,6 @@ pub(crate) enum Side {
 }
 
 impl Play {
-    /// Every play.
-    pub(crate) fn all() -> impl Iterator<Item = Self> {
-        ALL.iter().map(|(play, ..)| *play)
-    }
-
     /// The play of these words.
     #[must_use]
     pub fn of_words(words: &str) -> Option<Self> {

@@ -143,29 +143,3 @@ pub trait Subject {
     /// Why it was not started.
     fn restart(&mut self) -> Result<(), NotTold>;
 }
-
-impl<S: Subject> Subject for &mut S {
-    fn now_ms(&self) -> u64 {
-        S::now_ms(self)
-    }
-
-    fn timestamp_its(&self) -> u64 {
-        S::timestamp_its(self)
-    }
-
-    fn listen(&mut self, until_ms: u64) -> Result<Option<Packet>, Gone> {
-        S::listen(self, until_ms)
-    }
-
-    fn send(&mut self, packet: &[u8]) -> Result<(), Gone> {
-        S::send(self, packet)
-    }
-
-    fn tell(&mut self, local: Local) -> Result<Telling, NotTold> {
-        S::tell(self, local)
-    }
-
-    fn restart(&mut self) -> Result<(), NotTold> {
-        S::restart(self)
-    }
-}

@@ -3,8 +3,6 @@
 use std::collections::BTreeSet;
 
 use crossguard_conform::campaign::{Campaign, Verdict};
-use crossguard_conform::case::Table;
-use crossguard_conform::in_process::InProcess;
 use crossguard_conform::rules::{RULES, Rule};
 use crossguard_conform::subject::Subject as _;
 use crossguard_judge::sim::Ruled;
@@ -12,6 +10,9 @@ use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_protocol::*;
 use crossguard_testkit::rules::*;
 use crossguard_testkit::weakenings;
+
+mod in_process;
+use in_process::{InProcess, table};
 
 /// The rules that a robot under `rules` breaks, with all cases or those about one rule.
 fn broken(rules: &'static dyn Rules, about: &[&'static str]) -> Vec<&'static str> {
@@ -27,7 +28,7 @@ fn broken(rules: &'static dyn Rules, about: &[&'static str]) -> Vec<&'static str
         rules,
     };
     let mut subject = InProcess::new(robot, Config::default(), boots);
-    let mut table = Table::in_process(robot);
+    let mut table = table(robot);
     for case in campaign.cases() {
         subject.restart().unwrap();
         campaign.play(&mut subject, &mut table, &case).unwrap();

@@ -11,7 +11,7 @@ use crate::play::Play;
 use crate::station::{Beating, UNSUPPORTED};
 use crate::subject::Subject;
 
-impl<S: Subject> Bench<S> {
+impl<S: Subject> Bench<'_, S> {
     fn asks(&mut self, player: Player, tasks: TaskSet, urgency: Urgency, place: Place) {
         let number = SessionNumber(self.station(player).issue());
         let request = HelpRequest {

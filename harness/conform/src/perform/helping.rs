@@ -27,7 +27,7 @@ const fn offering(
     }
 }
 
-impl<S: Subject> Bench<S> {
+impl<S: Subject> Bench<'_, S> {
     pub(super) fn begin_as_helper(&mut self, play: Play) -> Result<bool, Gone> {
         let Some(said) = self.said().copied() else {
             return Ok(false);

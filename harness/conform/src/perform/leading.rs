@@ -11,7 +11,7 @@ use crate::play::{Play, Side};
 use crate::station::{Beating, UNSUPPORTED, other_number};
 use crate::subject::{Gone, Subject};
 
-impl<S: Subject> Bench<S> {
+impl<S: Subject> Bench<'_, S> {
     fn lead(&mut self, player: Player, number: SessionNumber, list: Confirmation) {
         let station = self.station(player);
         station.farewell = None;
