@@ -58,7 +58,7 @@ impl KitRun {
     /// the protocol goes another way.
     pub(super) fn beside(found: &Counterexample) -> Option<Self> {
         let is_escorted = found.cast.plan.contains(&PaperTask::Move);
-        let (scenario, story) = match (found.text.id, is_escorted) {
+        let (scenario, story) = match (&*found.text.id, is_escorted) {
             ("W1", true) => ("leader-crash", [REQUEST, ESCORT, LEADER_LOSES_POWER]),
             ("W1", false) => ("blocker", [REQUEST, GUARD_IS_ON_ITS_WAY, ""]),
             ("W2", _) => ("pair", [REQUEST, ESCORT, ESCORT_TIMES_OUT]),

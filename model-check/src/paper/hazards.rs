@@ -1,34 +1,29 @@
 //! What the paper's text lets happen, each with where it comes from and the rule that closes it: P1 to P9 and P11 to P14, and
 //! on the road W1 to W4 and W7.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-/// A property that the paper's text does not keep.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[allow(missing_docs, reason = "the ids are those of the table in `text`")]
-pub enum Hazard {
-    P1,
-    P2,
-    P3,
-    P4,
-    P5,
-    P6,
-    P7,
-    P8,
-    P9,
-    P11,
-    P12,
-    P13,
-    P14,
-    W1,
-    W2,
-    W3,
-    W4,
-    W7,
+/// Declares the hazards, in order.
+macro_rules! hazards {
+    ($($id:ident)*) => {
+        /// A property that the paper's text does not keep.
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+        #[allow(missing_docs, reason = "the ids are those of the table in `hazards.toml`")]
+        pub enum Hazard {
+            $($id,)*
+        }
+
+        impl Hazard {
+            /// All hazards, in order.
+            pub const ALL: [Self; [$(stringify!($id)),*].len()] = [$(Self::$id),*];
+        }
+    };
 }
 
+hazards! { P1 P2 P3 P4 P5 P6 P7 P8 P9 P11 P12 P13 P14 W1 W2 W3 W4 W7 }
+
 /// What the text says about a hazard.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Deserialize, Serialize)]
 pub enum HazardKind {
     /// The text states the rule from which it follows.
     Stated,
@@ -39,52 +34,18 @@ pub enum HazardKind {
 }
 
 /// Where in the paper a hazard comes from.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Eq, Debug, Deserialize, Serialize)]
 pub struct Passage {
     /// The section: `III-A`.
-    pub section: &'static str,
+    pub section: String,
     /// The paragraph in it.
-    pub paragraph: &'static str,
+    pub paragraph: String,
     /// A few words of it, to find it by.
-    #[serde(skip)]
-    pub words: &'static str,
-}
-
-impl HazardKind {
-    /// In one word, as pages have it.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Stated => "Stated",
-            Self::Silent => "Silent",
-            Self::Ambiguous => "Ambiguous",
-        }
-    }
+    #[serde(skip_serializing)]
+    pub words: String,
 }
 
 impl Hazard {
-    /// All hazards, in order.
-    pub const ALL: [Self; 18] = [
-        Self::P1,
-        Self::P2,
-        Self::P3,
-        Self::P4,
-        Self::P5,
-        Self::P6,
-        Self::P7,
-        Self::P8,
-        Self::P9,
-        Self::P11,
-        Self::P12,
-        Self::P13,
-        Self::P14,
-        Self::W1,
-        Self::W2,
-        Self::W3,
-        Self::W4,
-        Self::W7,
-    ];
-
     /// Whether it is that somebody waits for ever, and nothing happens any more.
     pub(super) const fn is_without_end(self) -> bool {
         use Hazard::{P5, P8, P9, P12, P13, W7};

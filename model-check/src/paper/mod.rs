@@ -6,20 +6,20 @@
 //!
 //! ```text
 //!   robot ──► world ──► model ──► stateright ──► counterexamples ──┬──► report
-//!     └─► road ─┘         ▲                           ▲            └──► page (doc/paper-literal.md)
+//!     └─► road ─┘         ▲                           ▲            └──► runs (studio, doc/paper-literal.md)
 //!                       found: P0 to P14, W1 to W4, W7 texts
 //! ```
 //!
 //! The model does what the text says, which `doc/paper.md` tells by paragraph. Where the text is silent or can be read in two
-//! ways, the model does no more than the text says; the [page](page()) lists these points.
+//! ways, the model does no more than the text says; `doc/paper-literal.md` lists these points.
 //!
 //! A [`Reading`] that says more in one of them is checked too, and the page tells what it changes.
 
 mod beside;
+mod chart;
 mod found;
 mod hazards;
 mod model;
-mod page;
 mod readings;
 mod road;
 mod robot;
@@ -33,7 +33,6 @@ use stateright::{Checker, Model as _};
 
 pub use beside::KitRun;
 pub use hazards::{Hazard, HazardKind, Passage};
-pub use page::page;
 pub use readings::{OtherReading, Reading};
 pub use shown::{PaperFrame, PaperRobotFrame, PaperRun, runs};
 pub use texts::Text;
@@ -124,10 +123,9 @@ const TEAMS: Cast = Cast {
 
 /// A run that brings a hazard about.
 struct Counterexample {
-    text: Text,
+    text: &'static Text,
     /// Somebody waits for ever: after the last step nothing happens any more.
     is_without_end: bool,
-    is_on_road: bool,
     cast: Cast,
     /// Each action with the world before and after it.
     steps: Vec<Transition>,
@@ -218,7 +216,7 @@ pub fn fails_as_it_must(report: &ScenarioReport) -> bool {
     let verdicts = [model::HOLDS, model::CLOSED, model::PREMISE].map(|id| report.verdict(id));
     let holds = Some(CheckVerdict::Holds);
     let fine = verdicts == [holds, holds, Some(CheckVerdict::Reachable)];
-    let must_fail = Hazard::ALL.map(|hazard| hazard.text().id);
+    let must_fail = Hazard::ALL.map(|hazard| hazard.text().id.as_str());
     report.exhaustive && fine && report.violated().eq(must_fail)
 }
 
@@ -230,7 +228,7 @@ fn must_fail_report(hazard: Hazard, found: &[Counterexample]) -> PropertyReport 
     PropertyReport {
         counterexample: counterexample.map_or_else(Vec::new, Counterexample::chart),
         repeats_after: counterexample.and_then(Counterexample::repeats_after),
-        ..PropertyReport::plain(text.id, kind, verdict, text.statement)
+        ..PropertyReport::plain(&text.id, kind, verdict, &text.statement)
     }
 }
 
@@ -320,9 +318,8 @@ fn find(hazard: Hazard, cast: Cast, reading: Reading) -> Option<Counterexample> 
     Some(Counterexample {
         text,
         is_without_end: hazard.is_without_end(),
-        is_on_road: hazard.is_on_road(),
         cast,
-        steps: shortest(question, text.id)?,
+        steps: shortest(question, &text.id)?,
     })
 }
 

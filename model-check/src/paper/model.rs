@@ -253,7 +253,7 @@ fn properties(question: &Question) -> Vec<Property<Question>> {
         Inquiry::Rest => true,
     };
     match question.about {
-        Inquiry::Hazard(hazard) => vec![Property::always(hazard.text().id, is_absent)],
+        Inquiry::Hazard(hazard) => vec![Property::always(&hazard.text().id, is_absent)],
         Inquiry::Rest => vec![
             Property::always(HOLDS, |_, world: &PaperWorld| {
                 world.memory.brought_about & HOLDS_BIT == 0

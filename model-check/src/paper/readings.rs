@@ -1,7 +1,9 @@
 //! How the text is read where it does not say enough.
 
+use serde::Deserialize;
+
 /// A reading of the text. Every reading but the first differs from it in one point.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Deserialize)]
 pub enum Reading {
     /// What the text says, and nothing that it does not say.
     Literal,
@@ -18,12 +20,12 @@ pub enum Reading {
 }
 
 /// What becomes of a hazard in another reading.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug, Deserialize)]
 pub struct OtherReading {
     /// The reading.
     pub reading: Reading,
     /// Whether the checker finds the hazard in it too.
     pub remains: bool,
     /// What is read otherwise, and what that means for the hazard.
-    pub says: &'static str,
+    pub says: String,
 }

@@ -17,7 +17,7 @@ use crate::walk::{BodyFrame, PersonFrame};
 pub struct PaperRun {
     /// What there is to say about it.
     #[serde(flatten)]
-    pub text: Text,
+    pub text: &'static Text,
     /// The robots' names.
     pub robots: Vec<&'static str>,
     /// What happens, in order.
