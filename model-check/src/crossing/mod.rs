@@ -302,7 +302,7 @@ pub fn explore(
         transitions: checker.state_count() - 1,
         cut_off,
         broken: Rule::ALL.iter().filter_map(run).collect(),
-        met: Rule::ALL.into_iter().filter(is_met).collect(),
+        met: Rule::ALL.iter().copied().filter(is_met).collect(),
         time: limits.elapsed(),
     }
 }

@@ -18,25 +18,6 @@ pub(super) const ADRIFT_MAX: u8 = 2;
 /// At 50 km/h a driver goes 27.8 m within the 2 s of reaction, and then 32.2 m to stop at 3 m/s².
 pub(super) const STOP_M: u8 = 60;
 
-/// A rule of the ground truth.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Deserialize)]
-pub enum Rule {
-    /// See [`Rule::claim`].
-    P1,
-    /// See [`Rule::claim`].
-    P2,
-    /// See [`Rule::claim`].
-    P3,
-    /// See [`Rule::claim`].
-    P5,
-    /// See [`Rule::claim`].
-    P6,
-    /// See [`Rule::claim`].
-    P9,
-    /// See [`Rule::claim`].
-    P10,
-}
-
 /// What a rule says.
 #[derive(Clone, Copy, Debug)]
 pub struct RuleClaim {
@@ -50,62 +31,53 @@ pub struct RuleClaim {
     pub premise: &'static str,
 }
 
-impl Rule {
-    /// The rules. P4, escorts beside their people, needs continuous geometry: fuzz and `validate` judge it.
-    pub const ALL: [Self; 7] = {
-        use Rule::{P1, P2, P3, P5, P6, P9, P10};
-        [P1, P2, P3, P5, P6, P9, P10]
-    };
-
-    /// What it says.
-    #[must_use]
-    pub const fn claim(self) -> RuleClaim {
-        match self {
-            Self::P1 => RuleClaim {
-                id: "P1",
-                premise_id: "P1-premise",
-                statement: "while somebody is on the carriageway, no guard that can stay leaves, and no word frees it",
-                premise: "somebody is on the carriageway beside the crossing, at a sign that shows stop, and the sensor has missed them as often as it may",
-            },
-            Self::P2 => RuleClaim {
-                id: "P2",
-                premise_id: "P2-premise",
-                statement: "go is shown only while the guard is at its place, or left it at most 1 s ago",
-                premise: "the guard has left its place while go is shown",
-            },
-            Self::P3 => RuleClaim {
-                id: "P3",
-                premise_id: "P3-premise",
-                statement: "go does not begin while a vehicle that is heard can no longer stop comfortably",
-                premise: "a vehicle can no longer stop, somebody waits, and the guard is at its place",
-            },
-            Self::P5 => RuleClaim {
-                id: "P5",
-                premise_id: "P5-premise",
-                statement: "a person who waits in front of an idle team is detected within 6 frames",
-                premise: "somebody waits in front of an idle team, and has not been seen in the last frame",
-            },
-            Self::P6 => RuleClaim {
-                id: "P6",
-                premise_id: "P6-premise",
-                statement: "the team is free within 27 s after everybody was off the road for good, seen on it before or out of sight",
-                premise: "somebody has crossed, and the team is free again",
-            },
-            Self::P9 => RuleClaim {
-                id: "P9",
-                premise_id: "P9-premise",
-                statement: "a guard that hears for 0.5 s of a vehicle that can no longer stop does not step on an empty road",
-                premise: "a guard that is to go to its place hears of such a vehicle, and nobody has been on the road",
-            },
-            Self::P10 => RuleClaim {
-                id: "P10",
-                premise_id: "P10-premise",
-                statement: "where vehicles are asked, go does not begin while one that has been heard for 0.5 s has not said that it will stop",
-                premise: "a vehicle that can still stop has not said so, somebody waits, and the guard is at its place",
-            },
+/// Declares rules: what must hold, and the premise.
+macro_rules! rules {
+    ($($id:ident: $statement:literal, where $premise:literal;)*) => {
+        /// A rule of the ground truth. P4, escorts beside their people, needs continuous geometry: fuzz and `validate` judge it.
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Deserialize)]
+        pub enum Rule {
+            $(#[doc = $statement] $id,)*
         }
-    }
 
+        impl Rule {
+            /// All of them.
+            pub const ALL: &'static [Self] = &[$(Self::$id),*];
+
+            /// What it says.
+            #[must_use]
+            pub const fn claim(self) -> RuleClaim {
+                match self {
+                    $(Self::$id => RuleClaim {
+                        id: stringify!($id),
+                        premise_id: concat!(stringify!($id), "-premise"),
+                        statement: $statement,
+                        premise: $premise,
+                    },)*
+                }
+            }
+        }
+    };
+}
+
+rules! {
+    P1: "while somebody is on the carriageway, no guard that can stay leaves, and no word frees it",
+        where "somebody is on the carriageway beside the crossing, at a sign that shows stop, and the sensor has missed them as often as it may";
+    P2: "go is shown only while the guard is at its place, or left it at most 1 s ago",
+        where "the guard has left its place while go is shown";
+    P3: "go does not begin while a vehicle that is heard can no longer stop comfortably",
+        where "a vehicle can no longer stop, somebody waits, and the guard is at its place";
+    P5: "a person who waits in front of an idle team is detected within 6 frames",
+        where "somebody waits in front of an idle team, and has not been seen in the last frame";
+    P6: "the team is free within 27 s after everybody was off the road for good, seen on it before or out of sight",
+        where "somebody has crossed, and the team is free again";
+    P9: "a guard that hears for 0.5 s of a vehicle that can no longer stop does not step on an empty road",
+        where "a guard that is to go to its place hears of such a vehicle, and nobody has been on the road";
+    P10: "where vehicles are asked, go does not begin while one that has been heard for 0.5 s has not said that it will stop",
+        where "a vehicle that can still stop has not said so, somebody waits, and the guard is at its place";
+}
+
+impl Rule {
     pub(super) fn holds(self, state: &State) -> bool {
         match self {
             Self::P1 => !(is_on_road(state) && state.guard.has_left),
