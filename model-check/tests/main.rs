@@ -12,6 +12,7 @@ mod safety;
 mod scenario_files;
 mod scenarios;
 mod spin;
+mod state_diagram;
 mod symmetry;
 #[path = "theorem/main.rs"]
 mod theorem;
