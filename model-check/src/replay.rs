@@ -1,4 +1,4 @@
-//! Runs in files: a counterexample that can be followed again, after the protocol has changed.
+//! Runs in files: a counterexample that can be followed step by step.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,17 +25,6 @@ pub struct Replay {
     /// How many steps come before the steps that are repeated for ever, where the run is without end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub repeats_after: Option<usize>,
-}
-
-/// How far a run can be followed.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Followed {
-    /// What happens in this step cannot happen any more; steps are counted from 0.
-    StoppedAt(usize),
-    /// What the robot puts out in this step is something else now.
-    OtherwiseAt(usize, Vec<String>),
-    /// To the end, where these properties of states or steps are broken.
-    ToTheEnd(Vec<PropertyId>),
 }
 
 impl Replay {
@@ -68,25 +57,14 @@ impl Replay {
         }
     }
 
-    /// Whether the run still breaks its property. A liveness property is taken to be broken if the run
-    /// exists as it was.
+    /// Whether the run exists in a model and breaks its property there. A liveness property is taken to be broken if the
+    /// run exists as it was.
     #[must_use]
-    pub fn is_broken(&self, followed: &Followed) -> bool {
-        match (followed, self.property.parse::<PropertyId>()) {
-            (Followed::ToTheEnd(broken), Ok(id)) => id.is_of_runs() || broken.contains(&id),
-            _ => false,
-        }
-    }
-
-    /// Follows the run through a model.
-    #[must_use]
-    pub fn follow(&self, model: &Model) -> Followed {
+    pub fn is_broken_in(&self, model: &Model) -> bool {
         let mut state = model.initial();
-        match follow(model, &self.steps, &mut state, &mut |_| ()) {
-            Some((step, None)) => Followed::StoppedAt(step),
-            Some((step, Some(outputs))) => Followed::OtherwiseAt(step, outputs),
-            None => Followed::ToTheEnd(model.broken_by(&state).collect()),
-        }
+        let exists = follow(model, &self.steps, &mut state, &mut |_| ()).is_none();
+        let breaks = |id: PropertyId| id.is_of_runs() || model.broken_by(&state).any(|it| it == id);
+        exists && self.property.parse().is_ok_and(breaks)
     }
 }
 

@@ -6,7 +6,7 @@
 mod ask;
 mod by_itself;
 
-use crossguard_protocol::{Availability, FallbackPolicy, Role, State, StationId};
+use crossguard_protocol::{Availability, FallbackPolicy, Robot, Role, State, StationId};
 use serde::{Deserialize, Serialize};
 
 use crate::chart::{chart, chart_step, names, said};
@@ -19,7 +19,6 @@ use crate::replay::follow;
 use crate::road::{Body, Pedestrian};
 use crate::scenario::{Bounds, Scenario};
 use crate::sequence::ChartStep;
-use crate::transitions::{mode, mode_parts};
 
 pub use ask::{Refusal, ask};
 pub use by_itself::{Chances, next_step};
@@ -203,15 +202,16 @@ impl WalkFrame {
 impl RobotFrame {
     fn of(names: &Names, node: &Node, guards: bool, hangs: bool) -> Self {
         let robot = node.robot.as_ref();
-        let (state, role) = mode_parts(mode(node));
+        let state = robot.map_or(State::Idle, Robot::state);
+        let role = robot.map(Robot::role).filter(|role| *role != Role::None);
         let timers = robot.map(|robot| {
             let timers = robot.timers();
             timers.iter().map(|(timer, _)| names.tell(timer)).collect()
         });
         Self {
             station: node.persisted.station,
-            state,
-            role,
+            state: state.name(),
+            role: role.map_or("", Role::name),
             words: names.tell(node),
             timers: timers.unwrap_or_default(),
             body: match node.actuation.body {

@@ -145,9 +145,9 @@ fn a_lease_that_is_longer_than_the_followers_safety_timer_allows_breaks_the_theo
     let lease_theorem = report.properties.iter().find(|p| p.id == "I10").unwrap();
     let chart = &lease_theorem.counterexample;
     let puts_out = |robot: usize, text: &str| {
-        let of_robot = |step: &&ChartStep| match step.place {
-            ChartPlace::At(at) | ChartPlace::Between { to: at, .. } => at == robot,
-            ChartPlace::Among { .. } => false,
+        let of_robot = |step: &&ChartStep| {
+            let (ChartPlace::At(at) | ChartPlace::Between { to: at, .. }) = step.place;
+            at == robot
         };
         let mut outputs = chart.iter().filter(of_robot).flat_map(|step| &step.outputs);
         outputs.any(|output| output.contains(text))

@@ -2,7 +2,6 @@
 
 use crossguard_model_check::model::Model;
 use crossguard_model_check::names::Names;
-use crossguard_model_check::replay::{Followed, Replay};
 use crossguard_model_check::scenario::{Bounds, Scenario};
 use crossguard_model_check::sequence::{ChartPlace, ChartStep, Fate};
 use crossguard_model_check::walk::{Chances, Goal, PersonFrame, Stray, Walk, next_step, search};
@@ -29,35 +28,6 @@ fn walk(
             _ => return (steps, walk),
         }
     }
-}
-
-fn replay(name: &str, steps: Vec<ChartStep>) -> Replay {
-    Replay {
-        scenario: name.to_owned(),
-        text: None,
-        property: String::new(),
-        steps,
-        repeats_after: None,
-    }
-}
-
-#[test]
-fn a_walk_is_followed_again_through_the_model() {
-    let mut steps = Vec::new();
-    for choice in 0.. {
-        let walk = Walk::along(scenario("pair"), &steps);
-        let Some(last) = walk.possible.len().checked_sub(1) else {
-            break;
-        };
-        steps.push(walk.possible[(choice * 7 % 5).min(last)].clone());
-        if steps.len() == 40 {
-            break;
-        }
-    }
-    assert!(steps.len() > 20, "{}", steps.len());
-    let model = Model::new(scenario("pair"));
-    let followed = replay("pair", steps).follow(&model);
-    assert_eq!(followed, Followed::ToTheEnd(Vec::new()));
 }
 
 #[test]

@@ -67,8 +67,8 @@ fn assert_breaks_alone_in(
         // What breaks without the rule is a run that the protocol does not have.
         if let Some(replay) = Replay::of(&report, property) {
             let protocol = Model::new(model.scenario().clone());
-            assert!(replay.is_broken(&replay.follow(&model)), "{replay:#?}");
-            assert!(!replay.is_broken(&replay.follow(&protocol)), "{replay:#?}");
+            assert!(replay.is_broken_in(&model), "{replay:#?}");
+            assert!(!replay.is_broken_in(&protocol), "{replay:#?}");
         }
         let is_run_without_end = property.kind == "L" && property.id != "L7";
         if property.verdict == CheckVerdict::Violated && is_run_without_end {

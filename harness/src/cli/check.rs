@@ -1,6 +1,5 @@
 //! `crossguard check`.
 
-mod replay;
 #[cfg(feature = "full")]
 mod workers;
 
@@ -23,9 +22,6 @@ use crossguard_robot::files;
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
-#[cfg(feature = "full")]
-pub(super) use replay::read_whole as read_replay;
-
 use super::interrupts::interrupts_that;
 use super::ranges::{at_least_one, threads, whole};
 use super::{Failure, destinations, print, print_json, shows_progress};
@@ -45,7 +41,7 @@ pub(super) struct Arguments {
     all: bool,
     /// Check the large ones of the shipped scenarios instead, with as many workers as there are processors unless --workers
     /// says otherwise. Takes two hours on two cores and 15 GB. States and steps are judged, and no runs.
-    #[arg(long, conflicts_with_all = ["scenarios", "all", "hosts", "threads", "replay"])]
+    #[arg(long, conflicts_with_all = ["scenarios", "all", "hosts", "threads"])]
     large: bool,
     /// List the shipped scenarios and check nothing.
     #[arg(long)]
@@ -67,13 +63,10 @@ pub(super) struct Arguments {
     /// what leads to what).
     #[arg(long)]
     safety: bool,
-    /// Write each counterexample to this folder: as a chart in text and Mermaid, and as JSON for
-    /// --replay.
+    /// Write each counterexample to this folder: as a chart in text and Mermaid, and as JSON for 'crossguard studio
+    /// --replay'.
     #[arg(long, value_name = "FOLDER")]
     charts: Option<PathBuf>,
-    /// Follow the run in this file, a counterexample of before, and say whether it still exists.
-    #[arg(long, value_name = "FILE", conflicts_with = "charts")]
-    replay: Option<PathBuf>,
     /// Say what each verdict rests on: what is assumed of the robots, of the channel, and of each message's sender.
     #[arg(short, long)]
     verbose: bool,
@@ -89,12 +82,12 @@ struct WorkersArguments {
     /// Explore with this number of workers, each with the states of its share of fingerprints: 15 bytes per state, and
     /// no graph of them. Properties that need the graph (L) are not judged, and named.
     #[arg(long, value_name = "N", value_parser = threads,
-        conflicts_with_all = ["all", "threads", "replay"])]
+        conflicts_with_all = ["all", "threads"])]
     workers: Option<NonZeroUsize>,
     /// The addresses of all processes of the check, one HOST:PORT a line, where it has several. Each runs the same
     /// command with another --process.
     #[arg(long, value_name = "FILE", requires = "process",
-        conflicts_with_all = ["all", "threads", "replay"])]
+        conflicts_with_all = ["all", "threads"])]
     hosts: Option<PathBuf>,
     /// The number of this process among --hosts, from 0.
     #[arg(long, value_name = "K", requires = "hosts")]
@@ -119,9 +112,6 @@ struct CheckReport {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
         return list();
-    }
-    if let Some(file) = &arguments.replay {
-        return replay::run(&arguments.scenarios, file);
     }
     if arguments.large || arguments.workers.are_given() {
         #[cfg(feature = "full")]
@@ -243,17 +233,6 @@ fn check_one(arguments: &Arguments, stop: &Stop, subject: Subject) -> ScenarioRe
     let report = subject.check(&options, &mut |progress| show(&bar, progress));
     bar.finish_and_clear();
     report
-}
-
-/// A scenario for what only the untimed model can do.
-fn untimed(scenario: Scenario) -> Result<Scenario, Failure> {
-    if scenario.timed.is_some() {
-        let name = &scenario.name;
-        return Err(Failure::input(format!(
-            "'{name}' is a timed scenario: it can be checked, and nothing else"
-        )));
-    }
-    Ok(scenario)
 }
 
 fn write_charts(report: &ScenarioReport, folder: &Path) -> Result<(), Failure> {

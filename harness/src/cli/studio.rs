@@ -4,12 +4,18 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use crossguard_model_check::replay::Replay;
+use crossguard_model_check::scenario::Scenario;
+use crossguard_robot::files;
 use crossguard_robot::port::PortAddress;
 use crossguard_robot::site_file::SiteFile;
 
 use super::interrupts::interrupts_that;
 use super::{Failure, complain, open_logs, print, report};
 use crate::studio::{self, Followed, GivenRun, Studied, Studio};
+
+/// The longest run that is read, in octets.
+const RUN_MAX: u64 = 1 << 26;
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
@@ -139,9 +145,15 @@ fn opened(logs: &[(String, &[u8])], street: Option<SiteFile>) -> Result<Studied,
     })
 }
 
-/// Reads a run, with the text of its scenario: pages read no files.
+/// Reads a run, with the text of its scenario where that is another file: pages read no files.
 fn given(path: &Path) -> Result<GivenRun, Failure> {
-    let run = super::check::read_replay(path)?;
+    let text = files::text(path, RUN_MAX).map_err(Failure::at(path))?;
+    let mut run: Replay = serde_json::from_str(&text).map_err(Failure::at(path))?;
+    if run.text.is_none() && Scenario::load(&run.scenario).is_err() {
+        let text = files::text(Path::new(&run.scenario), files::TEXT_MAX);
+        let text = text.map_err(|cause| format!("its scenario: {}: {cause}", run.scenario));
+        run.text = Some(text.map_err(Failure::at(path))?);
+    }
     let file = path.display().to_string();
     Ok(GivenRun { file, run })
 }

@@ -1,8 +1,7 @@
-//! `crossguard check`, `fsm` and `codec`, as their user runs them.
+//! `crossguard check` and `codec`, as their user runs them.
 
 use crossguard_codec::golden;
 use crossguard_testkit::command::*;
-use serde_json::Value;
 
 #[test]
 fn check_reports_every_property_of_a_scenario_as_json() {
@@ -88,38 +87,6 @@ pub(crate) fn small_scenario(properties: &str) -> String {
 }
 
 #[test]
-fn a_run_in_a_file_is_followed_as_far_as_it_exists() {
-    let folder = tempfile::tempdir().unwrap();
-    let [scenario, file] = ["small.toml", "run.json"].map(|name| folder.path().join(name));
-    std::fs::write(&scenario, small_scenario("'I2'")).unwrap();
-    let (scenario, file) = (scenario.to_str().unwrap(), file.to_str().unwrap());
-    let detected = "pedestrian detected (1 x move, medium urgency)";
-    let follow = |outputs: &str, last: &str| {
-        let text = format!(
-            "{{\"scenario\": \"small\", \"property\": \"I2\", \"steps\": [\
-             {{\"place\": {{\"at\": 0}}, \"action\": \"{detected}\", \"outputs\": [{outputs}]}},\
-             {{\"place\": {{\"between\": {{\"from\": 0, \"to\": 1, \"fate\": \"lost\"}}}}, \
-             \"action\": \"{last}\", \"outputs\": []}}]}}"
-        );
-        std::fs::write(file, text).unwrap();
-        run(&["check", scenario, "--replay", file])
-    };
-    let lost = "RAM needHelp (1 x move, medium urgency), robot 1's crossing 1, heartbeat 0";
-    let both = "\"send RAM\", \"lock identity\"";
-    let otherwise = "the robot now puts out: send RAM, lock identity";
-    let cases = [
-        (both, lost, "exists, and does not break it any more"),
-        ("\"send RAM\"", lost, otherwise),
-        (both, "RAM none", "this cannot happen now"),
-    ];
-    for (outputs, last, expected) in cases {
-        let output = follow(outputs, last);
-        assert_code(&output, 0);
-        stdout(&output).must_have(&[expected]);
-    }
-}
-
-#[test]
 fn the_papers_text_fails_as_it_must_and_that_is_no_failure() {
     let output = run_well("check paper-literal");
     let text = stdout(&output);
@@ -135,22 +102,6 @@ fn the_papers_text_fails_as_it_must_and_that_is_no_failure() {
     let report = json(&run_line("check paper-literal --json"));
     assert_eq!(report["scenarios"][0]["name"], "paper-literal");
     assert!(stdout(&run_line("check --list")).contains("paper-literal"));
-}
-
-#[test]
-fn the_state_diagram_has_the_papers_states_and_what_leads_from_one_to_another() {
-    // The diagram is on a page, and so in the test of the pages.
-    let output = run_well("fsm --json");
-    let text = stdout(&output);
-    text.must_have(&["Idle", "HelpRequested"]);
-    text.must_have(&["RoleEstablished", "ManeuverExecuting"]);
-    let transitions: Value = json(&output);
-    let starts = transitions.as_array().unwrap().iter().any(|transition| {
-        transition["from"] == "RoleEstablished_follower"
-            && transition["to"] == "ManeuverExecuting_follower"
-            && transition["on"] == serde_json::json!(["RMCM command"])
-    });
-    assert!(starts, "{transitions}");
 }
 
 #[test]

@@ -85,7 +85,7 @@ pub fn ask(what: &str, body: &str) -> Result<String, Refusal> {
 fn scenario(run: &Replay) -> Result<Scenario, Refusal> {
     if run.steps.len() > STEPS_MAX {
         return Err(wrong(format!(
-            "the run has {} steps; at most {STEPS_MAX} are followed here, `crossguard check --replay` follows all",
+            "the run has {} steps; at most {STEPS_MAX} are followed",
             run.steps.len()
         )));
     }

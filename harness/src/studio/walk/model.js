@@ -55,7 +55,7 @@ export const causeOf = (error) => error instanceof TypeError
   ? "The server does not answer. Was it ended? Start it again, and load this page anew."
   : error.message;
 
-// A run as `check --replay` reads it.
+// A run as `studio --replay` reads it.
 export const runOf = (scenario, text, steps) => ({ scenario, ...(text ? { text } : {}), property: "", steps });
 
 export function save(name, run) {
