@@ -16,7 +16,7 @@ pub struct ChartStep {
 }
 
 /// Where in a chart something stands. Robots are named by their places in the scenario, from 0.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum ChartPlace {
     /// At one robot.
@@ -29,13 +29,6 @@ pub enum ChartPlace {
         to: usize,
         /// What becomes of the message.
         fate: Fate,
-    },
-    /// On the way from one robot to several at once.
-    Among {
-        /// The sender.
-        from: usize,
-        /// The receivers, and what becomes of the message on the way to each.
-        to: Vec<(usize, Fate)>,
     },
 }
 
@@ -98,29 +91,20 @@ impl ChartStep {
     /// What happened, in one line.
     #[must_use]
     pub fn line(&self, robots: &[String]) -> String {
-        match &self.place {
-            ChartPlace::At(robot) => format!("{}: {}", robots[*robot], self.action),
+        match self.place {
+            ChartPlace::At(robot) => format!("{}: {}", robots[robot], self.action),
             ChartPlace::Between { from, to, fate } => {
                 let arrow = if fate.arrives() { "->" } else { "-x" };
-                let (from, to) = (&robots[*from], &robots[*to]);
+                let (from, to) = (&robots[from], &robots[to]);
                 format!("{from} {arrow} {to}: {}{}", self.action, fate.remark())
-            }
-            ChartPlace::Among { from, to } => {
-                let heads = to.iter().map(|(to, fate)| {
-                    let arrow = if fate.arrives() { "->" } else { "-x" };
-                    format!("{arrow} {}{}", robots[*to], fate.remark())
-                });
-                let heads = heads.collect::<Vec<_>>().join(" ");
-                format!("{} {heads}: {}", robots[*from], self.action)
             }
         }
     }
 
-    /// The robot that the step is one of: the receiver of a message, of several the first.
-    fn robot(&self) -> usize {
-        match &self.place {
-            ChartPlace::At(robot) | ChartPlace::Between { to: robot, .. } => *robot,
-            ChartPlace::Among { from, to } => to.first().map_or(*from, |(to, _)| *to),
+    /// The robot that the step is one of: the receiver of a message.
+    const fn robot(&self) -> usize {
+        match self.place {
+            ChartPlace::At(robot) | ChartPlace::Between { to: robot, .. } => robot,
         }
     }
 }
@@ -170,13 +154,12 @@ impl Chart<'_> {
                 let _ = writeln!(chart, "    Note over {everywhere}: {turn}");
             }
             let what = escaped(&step.action);
-            let _ = match &step.place {
+            let _ = match step.place {
                 ChartPlace::At(robot) => writeln!(chart, "    Note over r{robot}: {what}"),
                 ChartPlace::Between { from, to, fate } => {
                     let (arrow, remark) = (fate.mermaid(), fate.remark());
                     writeln!(chart, "    r{from}{arrow}r{to}: {what}{remark}")
                 }
-                ChartPlace::Among { from, to } => self.mermaid_among(&mut chart, *from, to, &what),
             };
             if !step.outputs.is_empty() {
                 let outputs: Vec<_> = step.outputs.iter().map(|output| escaped(output)).collect();
@@ -191,33 +174,6 @@ impl Chart<'_> {
         let last = self.turn(self.steps.len()).unwrap_or(self.title);
         let _ = writeln!(chart, "    Note over {everywhere}: {}", escaped(last));
         chart
-    }
-
-    /// Mermaid knows no arrow with several heads: the one to the farthest receiver names the others.
-    fn mermaid_among(
-        &self,
-        chart: &mut String,
-        from: usize,
-        to: &[(usize, Fate)],
-        what: &str,
-    ) -> std::fmt::Result {
-        let farthest = to
-            .iter()
-            .max_by_key(|(to, fate)| (fate.arrives(), to.abs_diff(from)));
-        let Some((farthest, fate)) = farthest else {
-            return Ok(());
-        };
-        let (arrow, remark) = (fate.mermaid(), fate.remark());
-        let others = to.iter().filter(|(to, _)| to != farthest);
-        let others = others.map(|(to, fate)| {
-            let name = escaped(&self.robots[*to]);
-            format!("{name}{}", fate.remark())
-        });
-        let others = others.collect::<Vec<_>>().join(", ");
-        writeln!(
-            chart,
-            "    r{from}{arrow}r{farthest}: {what}{remark}<br>also to {others}"
-        )
     }
 }
 
@@ -271,30 +227,6 @@ mod tests {
         assert_eq!(text, expected);
         let text = with_chart(Some(3), |chart| chart.text());
         assert!(text.ends_with("and then nothing happens any more.\n"));
-    }
-
-    #[test]
-    fn a_broadcast_is_one_row_with_an_arrow_to_each_receiver() {
-        let robots = ["ARI", "Go2", "Spot", "Tug"].map(str::to_owned);
-        let step = ChartStep {
-            place: ChartPlace::Among {
-                from: 1,
-                to: vec![(0, Fate::Arrives), (3, Fate::Arrives), (2, Fate::Lost)],
-            },
-            action: "RAM leader".to_owned(),
-            outputs: Vec::new(),
-        };
-        let chart = Chart {
-            title: "",
-            robots: &robots,
-            steps: &[step],
-            repeats_after: None,
-        };
-        let text = chart.text();
-        assert_eq!(text, "   1. Go2 -> ARI -> Tug -x Spot (lost): RAM leader\n");
-        let mermaid = chart.mermaid();
-        assert!(mermaid.contains("r1->>r3: RAM leader<br>also to ARI, Spot (lost)\n"));
-        assert_eq!(mermaid.matches("RAM leader").count(), 1);
     }
 
     #[test]

@@ -24,8 +24,8 @@ use crossguard_protocol::{
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_robot::trace::{Entry, Record};
 
-use gather::Gathering;
-pub(crate) use gather::{Arrow, ArrowHead, Mark};
+pub(crate) use gather::Mark;
+use gather::{Arrow, ArrowHead, Gathering};
 use lines::LEFT;
 pub use words::text_of;
 use words::{SHOWS_NOTHING, note_of_input, note_of_output, people, road_users, said_in, shown_in};
@@ -189,18 +189,6 @@ impl Chart {
         self.fit(line)
     }
 
-    /// The lines that are complete when a record comes: those of up to then, but for the last moments.
-    pub fn lines(&mut self, record: &Record) -> Vec<String> {
-        let marks = self.gathered(record);
-        self.drawn(marks)
-    }
-
-    /// The lines that have not been complete so far.
-    pub fn rest(&mut self) -> Vec<String> {
-        let marks = self.rest_gathered();
-        self.drawn(marks)
-    }
-
     /// Adds something that happens to a robot and that it does not record itself.
     pub fn note(&mut self, at_us: u64, robot: &str, text: &str) -> Vec<String> {
         let note = self.note_at(robot, text);
@@ -273,8 +261,8 @@ impl Chart {
         marks.into_iter().map(line).collect()
     }
 
-    /// What is complete when a record comes, each with its time in microseconds.
-    pub(crate) fn gathered(&mut self, record: &Record) -> Vec<(u64, Mark)> {
+    /// The lines that are complete when a record comes: those of up to then, but for the last moments.
+    pub fn lines(&mut self, record: &Record) -> Vec<String> {
         let at_us = record.at_us;
         let lane = self.lane_named(&record.robot);
         let held = lane.map(|lane| std::mem::take(&mut self.lanes[lane].held));
@@ -294,20 +282,23 @@ impl Chart {
             self.lanes[lane].held = after.into_iter().map(|mark| (at_us, mark)).collect();
         }
         self.go_on(at_us);
-        self.due(at_us)
+        let marks = self.due(at_us);
+        self.drawn(marks)
     }
 
-    /// What has not been complete so far.
-    pub(crate) fn rest_gathered(&mut self) -> Vec<(u64, Mark)> {
+    /// The lines that have not been complete so far.
+    pub fn rest(&mut self) -> Vec<String> {
         let held = self.lanes.iter_mut().flat_map(|lane| lane.held.drain(..));
         for (at_us, mark) in held.chain(self.on_go.drain(..)) {
             self.gathering.add(at_us, mark);
         }
         let rest = self.gathering.rest();
-        self.all_named(rest)
+        let marks = self.all_named(rest);
+        self.drawn(marks)
     }
 
     /// What a record adds, by itself.
+    #[cfg(feature = "full")]
     pub(crate) fn marks(&mut self, record: &Record) -> Vec<Mark> {
         let ended = self.signs_that_ended(record);
         let (now, after) = self.marks_of(record);

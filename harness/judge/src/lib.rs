@@ -13,7 +13,7 @@
 //!   the model checker.
 //! - [`validate`] says whether logs of one or several robots are of something that could have happened.
 //! - [`facts`] works out of logs where robots are and what they do, [`playback`] that at any time, for the studio and for
-//!   reports; [`verdict`] is what validation says, in words; [`chart`] and [`sequence`] are sequence charts, [`timing`] the table of times.
+//!   reports; [`verdict`] is what validation says, in words; [`chart`] is a sequence chart, [`timing`] the table of times.
 //! - [`readable`] has messages and packets as JSON; [`sniffer`] says what is in packets.
 
 pub mod chart;
@@ -23,7 +23,6 @@ pub mod facts;
 pub mod playback;
 #[cfg(feature = "foreign")]
 pub mod readable;
-pub mod sequence;
 #[cfg(feature = "foreign")]
 pub mod signature;
 #[cfg(feature = "full")]

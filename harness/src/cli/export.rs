@@ -2,11 +2,9 @@
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use clap::ArgGroup;
 use crossguard_judge::facts::{Fact, Observer};
-use crossguard_judge::sequence::Sequence;
 use crossguard_robot::trace::{Merged, Timed};
 use serde::Serialize;
 
@@ -14,17 +12,13 @@ use super::{Failure, destinations, open_logs, print};
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
-#[command(group(ArgGroup::new("to").required(true).multiple(true).args(["facts", "mermaid"])))]
 pub(super) struct Arguments {
     /// The logs: of one robot or of several, from one machine or from several.
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
-    /// Write what the logs tell as JSON lines: states, places, messages, people, drops.
+    /// Write a JSON line for each fact that the logs tell: states, places, messages, people, drops.
     #[arg(long, value_name = "FILE")]
-    facts: Option<PathBuf>,
-    /// Write the sequence chart as a Mermaid diagram.
-    #[arg(long, value_name = "FILE")]
-    mermaid: Option<PathBuf>,
+    facts: PathBuf,
 }
 
 const AFTER_HELP: &str = "\
@@ -44,33 +38,9 @@ struct FactLine<'a> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    destinations::files([&arguments.facts, &arguments.mermaid])?;
-    if let Some(path) = &arguments.facts {
-        write_facts(merged(&arguments.logs)?, path)?;
-    }
-    let Some(path) = &arguments.mermaid else {
-        return Ok(());
-    };
-    let mut sequence = Sequence::growing();
-    let mut steps = Vec::new();
-    let mut logs = merged(&arguments.logs)?;
-    while let Some(Timed { record, .. }) = logs.take().map_err(Failure::input)? {
-        steps.extend(sequence.gathered(&record));
-    }
-    steps.extend(sequence.rest());
-    sequence.end(&mut steps);
-    sequence.draw("Crossguard", &steps, |chart| {
-        std::fs::write(path, chart.mermaid()).map_err(Failure::at(path))?;
-        print(format_args!("{}: {} steps", path.display(), steps.len()))
-    })
-}
-
-fn merged(logs: &[PathBuf]) -> Result<Merged<'static>, Failure> {
-    Merged::new(open_logs(logs)?).map_err(Failure::input)
-}
-
-/// Writes a line for each fact, and says how many there are.
-fn write_facts(mut logs: Merged, path: &Path) -> Result<(), Failure> {
+    let path = &arguments.facts;
+    destinations::file(path)?;
+    let mut logs = Merged::new(open_logs(&arguments.logs)?).map_err(Failure::input)?;
     let file = File::create(path).map_err(Failure::at(path))?;
     let (mut file, mut observer, mut count) = (BufWriter::new(file), Observer::default(), 0_u64);
     while let Some(Timed { at_us, record, .. }) = logs.take().map_err(Failure::input)? {

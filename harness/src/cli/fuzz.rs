@@ -51,7 +51,7 @@ pub(super) struct Arguments {
     /// After how many failed seeds it is enough.
     #[arg(long, default_value_t = 10, value_parser = whole::<u16>(1..=65_535))]
     failures: u16,
-    /// Write log, packets, sequence chart and report of failed seeds into this folder.
+    /// Write log, packets and report of failed seeds into this folder.
     #[arg(long, value_name = "DIR", default_value = "crossguard-fuzz")]
     out: PathBuf,
     /// Print the results as JSON, and nothing else.
@@ -209,7 +209,7 @@ fn tell_failure(
     let Some((page, files)) = files else {
         return Ok(());
     };
-    let files = [page, &files.log, &files.pcap, &files.mermaid, &files.text];
+    let files = [page, &files.log, &files.pcap];
     let files: Vec<_> = files.map(|file| file.display().to_string()).into();
     print(format_args!("  written: {}", files.join(", ")))
 }

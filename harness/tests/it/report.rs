@@ -87,23 +87,3 @@ fn a_page_is_written_of_a_log_that_is_not_valid_and_says_why() {
     let none = folder.path().join("none");
     assert_refused(&report(&[&none], &nowhere), "none: No such file");
 }
-
-#[test]
-fn the_log_of_one_robot_alone_shows_those_that_it_heard() {
-    let folder = tempfile::tempdir().unwrap();
-    let whole = std::fs::read_to_string(log_of(2, folder.path())).unwrap();
-    let own = whole
-        .lines()
-        .filter(|line| line.contains(r#""robot":"R1""#));
-    let log = folder.path().join("r1.jsonl");
-    std::fs::write(&log, own.collect::<Vec<_>>().join("\n") + "\n").unwrap();
-    let mermaid = folder.path().join("r1.mmd");
-    let output = crossguard(&["export", "--mermaid"])
-        .arg(&mermaid)
-        .arg(&log)
-        .output()
-        .unwrap();
-    assert_code(&output, 0);
-    let mermaid = std::fs::read_to_string(mermaid).unwrap();
-    mermaid.must_have(&[" as R1\n", " as station "]);
-}

@@ -165,7 +165,7 @@ fn a_plan_of_ones_own_is_what_all_leaders_do() {
 }
 
 #[test]
-fn of_a_failure_the_log_the_chart_and_the_line_that_runs_it_again_are_written() {
+fn of_a_failure_the_log_and_the_packets_are_written() {
     let fuzz = Fuzz {
         first: 1,
         seeds: 10,
@@ -188,17 +188,13 @@ fn of_a_failure_the_log_the_chart_and_the_line_that_runs_it_again_are_written() 
     };
     let folder = tempfile::tempdir().unwrap();
     let files = write_failure(folder.path(), &fuzz, &failure).unwrap();
-    let text = std::fs::read_to_string(&files.text).unwrap();
-    let again = "crossguard fuzz --seeds 1 --robots 4 --seed 5";
-    assert!(text.starts_with("I4: a command is started at most once (R2 at 1.234 s)\n"));
-    assert!(text.contains(again) && text.contains("R1"), "{text}");
-    let mermaid = std::fs::read_to_string(&files.mermaid).unwrap();
-    assert!(mermaid.starts_with("sequenceDiagram"));
     let log = std::fs::read(&files.log).unwrap();
     let validated = validate::one(&*log).unwrap();
     assert!(validated.steps > 100);
     let packets = capture::read(&files.pcap).unwrap();
     assert_eq!(packets.map(Result::unwrap).count(), validated.sent);
+    let again = fuzz.reproduce(failure.seed);
+    assert_eq!(again, "crossguard fuzz --seeds 1 --robots 4 --seed 5");
     run_well(again.trim_start_matches("crossguard "));
 }
 
@@ -208,10 +204,4 @@ fn a_site_goes_with_sensors_that_see_nobody() {
     let site = concat!(env!("CARGO_MANIFEST_DIR"), "/robot/plans/street.toml");
     let fuzz = "fuzz --seeds 1 --robots 4 --plan trio --sensors 0 --site";
     run_well(&format!("{fuzz} {site}"));
-}
-
-#[test]
-fn a_person_reads_what_was_measured() {
-    let text = stdout(&run_line("fuzz --seeds 5 --faults burst=0.4x8"));
-    text.must_have(&["5 seeds with", "Violations: 0."]);
 }
