@@ -1,4 +1,4 @@
-//! What validation says of logs, in words: for the report and for the studio.
+//! What validation says of logs, in words: for the terminal, for the report and for the studio.
 
 use crossguard_model_check::properties::PropertyId;
 use serde::Serialize;
@@ -66,7 +66,8 @@ pub fn sentences(valid: &Validated) -> Vec<String> {
     sentences.extend(counted.map(|(count, what)| format!("{count} {what}.")));
     if valid.late.steps > 0 {
         sentences.push(format!(
-            "{} steps came later than they may, the latest by {} ms.",
+            "{} steps came later than delay_max after they were due, the latest by {} ms: the process hung, or its machine was \
+             too slow.",
             valid.late.steps, valid.late.longest_ms
         ));
     }
@@ -75,7 +76,8 @@ pub fn sentences(valid: &Validated) -> Vec<String> {
     sentences.extend(valid.crossing.iter().map(|what| format!("{what}.")));
     if valid.missing > 0 {
         sentences.push(format!(
-            "{} records are missing by the robots' own account.",
+            "{} records are missing by the robots' own account: their reader was too slow. What is here is valid, and is not \
+             all.",
             valid.missing
         ));
     }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crossguard_judge::timing::{Times, Timing};
 use crossguard_judge::validate::{self, Fault, Invalid, Validated};
+use crossguard_judge::verdict::sentences;
 use crossguard_robot::trace::{Merged, Timed};
 use serde::Serialize;
 
@@ -104,55 +105,10 @@ fn tell(result: &Result<Validated, Invalid>) -> Result<(), Failure> {
         Err(invalid) => return print(format_args!("Not valid. {invalid}.")),
     };
     print(format_args!(
-        "Valid: {} records of {} robots. {} steps, each one of the transition function; {} messages sent; \
-         {} receptions, each with its transmission.",
-        validated.records, validated.robots, validated.steps, validated.sent, validated.heard
-    ))?;
-    print(format_args!(
-        "Properties put to the test and kept: {}.",
+        "Valid: {} records of {} robots. Properties put to the test and kept: {}.",
+        validated.records,
+        validated.robots,
         validated.properties.join(", ")
     ))?;
-    let remarks = [
-        (
-            validated.from_strangers,
-            "messages came from stations whose logs are not here",
-        ),
-        (
-            validated.beyond_logs,
-            "messages came from robots after the end of their logs",
-        ),
-        (
-            validated.of_unknown_age,
-            "messages were taken in of which the logs do not say how long they had waited",
-        ),
-    ];
-    for (count, remark) in remarks.into_iter().filter(|(count, _)| *count > 0) {
-        print(format_args!("{count} {remark}."))?;
-    }
-    if validated.late.steps > 0 {
-        print(format_args!(
-            "{} steps came later than delay_max after they were due, the latest by {} ms: the process hung, or \
-             its machine was too slow.",
-            validated.late.steps, validated.late.longest_ms
-        ))?;
-    }
-    for what in &validated.not_judged {
-        print(format_args!("Not judged: {what}."))?;
-    }
-    for what in &validated.crossing {
-        print(format_args!("{what}."))?;
-    }
-    for robot in &validated.cut_off {
-        print(format_args!(
-            "The log of {robot} ends in the middle of a run."
-        ))?;
-    }
-    if validated.missing > 0 {
-        print(format_args!(
-            "{} records are missing by the robots' own account: their reader was too slow. What is here \
-             is valid, and is not all.",
-            validated.missing
-        ))?;
-    }
-    Ok(())
+    sentences(validated).iter().try_for_each(print)
 }
