@@ -1,13 +1,13 @@
-//! How a running robot is, at a glance: for status lines and metrics.
+//! How a running robot is, at a glance: for a person who asks, and for metrics.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
 use crossguard_codec::Service;
 use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::counters::Counts;
-use crossguard_protocol::{Corridor, Output, Outputs, Phase, Robot, Role, StationId};
+use crossguard_protocol::{Corridor, Output, Outputs, Phase, Robot, StationId};
 
 use crate::around::Around;
 use crate::channel::ChannelState;
@@ -28,12 +28,8 @@ pub struct Tally {
     pub steps: u64,
     /// What was dropped or ignored, by cause.
     pub causes: Counts,
-    /// When each station was heard last, in µs on the clock of the log.
-    pub heard_us: BTreeMap<StationId, u64>,
-    /// The newest record, likewise.
-    pub at_us: u64,
-    /// Whether it has stopped.
-    pub has_stopped: bool,
+    /// The stations that were heard; no more than [`STATIONS`].
+    pub heard: BTreeSet<StationId>,
     /// The people that its sensors have.
     pub sight: Sight,
     /// Who is on its map.
@@ -72,13 +68,12 @@ impl Way {
     }
 }
 
-/// For how many stations the time of the last message is kept.
-const STATIONS: usize = 256;
+/// How many stations that were heard are counted.
+pub const STATIONS: usize = 256;
 
 impl Tally {
     /// Takes a record in.
     pub fn record(&mut self, record: &Record) {
-        self.at_us = record.at_us;
         match &record.entry {
             Entry::Started {
                 station,
@@ -104,8 +99,8 @@ impl Tally {
             Entry::Sent { message, .. } => self.message(Way::Sent, *message),
             Entry::Heard { message, from, .. } => {
                 self.message(Way::Heard, *message);
-                if self.heard_us.len() < STATIONS || self.heard_us.contains_key(from) {
-                    self.heard_us.insert(*from, record.at_us);
+                if self.heard.len() < STATIONS {
+                    self.heard.insert(*from);
                 }
             }
             Entry::Dropped { cause, .. } => {
@@ -121,10 +116,7 @@ impl Tally {
             Entry::Clock(clock) => self.clock = Some(*clock),
             Entry::People(sight) => self.sight.clone_from(sight),
             Entry::Around(around) => self.around.clone_from(around),
-            Entry::Stopped { counters } => {
-                self.causes.clone_from(counters);
-                self.has_stopped = true;
-            }
+            Entry::Stopped { counters } => self.causes.clone_from(counters),
         }
     }
 
@@ -143,13 +135,6 @@ impl Tally {
 
     fn message(&mut self, way: Way, kind: Service) {
         *self.messages.entry((way, kind)).or_default() += 1;
-    }
-
-    /// How many messages went which way.
-    #[must_use]
-    pub fn messages(&self, way: Way) -> u64 {
-        let those = self.messages.iter().filter(|((it, _), _)| *it == way);
-        those.map(|(_, count)| count).sum()
     }
 
     /// How many messages of each service went which way, in words: `3 CAM, 12 RAM`.
@@ -171,8 +156,15 @@ impl Tally {
             "sent {}; heard {} of {} stations; around: {}",
             self.services(Way::Sent),
             self.services(Way::Heard),
-            self.heard_us.len(),
+            self.heard.len(),
             self.around
+        );
+        let _ = write!(
+            text,
+            "; sees {} people, {} waiting, {} on the road",
+            self.sight.people.len(),
+            self.sight.waiting(),
+            self.sight.on_road()
         );
         if let Some(clock) = self.untrusted_clock() {
             let _ = write!(text, "; {clock}");
@@ -224,79 +216,5 @@ impl Tally {
             Some(Phase::Leading(leading)) => leading.members.len(),
             _ => 0,
         }
-    }
-
-    /// How the robot is, in one line.
-    #[must_use]
-    pub fn line(&self) -> String {
-        let Some(state) = &self.state else {
-            return "starting".to_owned();
-        };
-        let mut line = format!("{} {:?}", self.robot, state.state());
-        if let Some(session) = state.session() {
-            let _ = write!(line, ", {} in {session}", state.role());
-        }
-        match state.phase() {
-            Phase::Leading(leading) => {
-                for member in leading.members.iter() {
-                    let _ = write!(line, ", station {}", member.station);
-                    let order = member.order.map(|order| (order.task, order.progress));
-                    match order {
-                        Some((task, Some(progress))) => {
-                            let _ = write!(line, " {task} {progress}");
-                        }
-                        Some((task, None)) => {
-                            let _ = write!(line, " {task}");
-                        }
-                        None => {}
-                    }
-                    if !member.lease.stands() {
-                        line.push_str(" (out of contact)");
-                    }
-                }
-                let corridor = match leading.corridor {
-                    Corridor::Open if self.corridor_open() => "open",
-                    Corridor::Open => "ended by itself, since nothing renewed it",
-                    Corridor::Clear => "closed",
-                    Corridor::Clearing => "closed, road not known to be clear",
-                };
-                let _ = write!(line, ", corridor {corridor}");
-            }
-            Phase::Following(following) => {
-                if let Some(maneuver) = following.executing() {
-                    let _ = write!(line, ", executes {}", maneuver.task);
-                }
-            }
-            _ => {}
-        }
-        if let Some(duty) = state.duty() {
-            let _ = write!(line, ", on duty: {duty}");
-        }
-        if !self.sight.people.is_empty() {
-            let (people, waiting) = (self.sight.people.len(), self.sight.waiting());
-            let on_road = self.sight.on_road();
-            let _ = write!(
-                line,
-                ", sees {people}: {waiting} waiting, {on_road} on the road"
-            );
-        }
-        if let Some(channel) = self.channel {
-            let _ = write!(line, ", {channel}");
-        }
-        if state.role() == Role::None {
-            let _ = write!(line, ", {}", state.availability());
-        }
-        if !self.around.kinds.is_empty() {
-            let _ = write!(line, ", around: {}", self.around);
-        }
-        let without_effect = self.causes.total(|_| true);
-        let _ = write!(
-            line,
-            "; sent {}, heard {} of {} stations, {without_effect} dropped or ignored",
-            self.messages(Way::Sent),
-            self.messages(Way::Heard),
-            self.heard_us.len(),
-        );
-        line
     }
 }

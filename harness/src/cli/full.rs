@@ -25,7 +25,7 @@ pub(super) enum Command {
     Report(report::Arguments),
     /// Look at logs in a browser: the street, the messages, states and timers at any time of the run.
     Studio(studio::Arguments),
-    /// Convert logs to what other tools open: facts as JSON lines, sequence charts.
+    /// Convert logs to what other tools read: facts as JSON lines.
     Export(export::Arguments),
     /// Repeat the paper's evaluation: coverage and channel load on a grid of streets.
     ///

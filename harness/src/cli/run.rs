@@ -15,7 +15,7 @@ mod drops;
 mod output;
 mod typed;
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::VecDeque;
 use std::net::SocketAddrV4;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -24,7 +24,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use crossguard_codec::{MapPlace, Service, SignalsShown};
+use crossguard_codec::Service;
 use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::station::Mode;
 use crossguard_endpoint::station::listen::overhear;
@@ -57,9 +57,6 @@ const ON_DUTY: &str =
 
 /// How long the loop waits before it looks at the other things.
 const TICK: Duration = Duration::from_millis(20);
-
-/// Of how many stations the console knows what they show.
-const STATIONS: usize = 64;
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
@@ -174,12 +171,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let security = arguments.security.of_robot(&file.name, revoked)?;
     let station = security.station_id(&file.identifiers, file.station);
     let names = names(arguments, &file, station);
-    let watch = arguments.watch.begin(
-        address.clone(),
-        arguments.security.mode().name(),
-        names.clone(),
-    )?;
-    let mut outputs = Outputs::open(arguments.log.as_deref(), arguments.json, watch.screen())?;
+    let security_mode = arguments.security.mode().name();
+    let watch = arguments.watch.begin(address.clone(), security_mode)?;
+    let mut outputs = Outputs::open(arguments.log.as_deref(), arguments.json)?;
     let perceived = super::open_feed(arguments.perceived.as_deref())?;
     let body = file.body_or_port(arguments.seed).map_err(|error| {
         let address = file.body_port.as_ref().map(|port| port.address.to_string());
@@ -225,7 +219,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         perceived,
         announced: Announced::default(),
         drops: Drops::default(),
-        described: BTreeMap::new(),
         missing: 0,
     };
     console.say(&format!(
@@ -372,8 +365,6 @@ struct Console<'a> {
     perceived: Option<Feed>,
     announced: Announced,
     drops: Drops,
-    /// What the stations around show to people, and what they serve, as they said last.
-    described: BTreeMap<StationId, (Option<SignalsShown>, Option<MapPlace>)>,
     /// How many records did not get into a log, by the robot's own account.
     missing: u64,
 }
@@ -438,8 +429,7 @@ impl Console<'_> {
         self.watch.record(record);
         if self.lines.is_some() {
             let announced = self.announced(record);
-            let told = self.told(record);
-            for line in self.texts(record).into_iter().chain(announced).chain(told) {
+            for line in self.texts(record).into_iter().chain(announced) {
                 #[expect(clippy::cast_precision_loss, reason = "centuries of microseconds fit")]
                 let time = record.at_us as f64 / 1e6;
                 let line = self.names.tell(line);
@@ -531,32 +521,6 @@ impl Console<'_> {
         };
         let ram = overhear(&self.file.identifiers, octets).ok()?;
         self.announced.note(ram.cluster.as_ref())
-    }
-
-    /// What another robot says that the protocol takes no notice of: where on the map its command is for, and
-    /// what it shows to people now.
-    fn told(&mut self, record: &Record) -> Option<String> {
-        let Entry::Heard { from, octets, .. } = &record.entry else {
-            return None;
-        };
-        let heard = overhear(&self.file.identifiers, octets).ok()?;
-        if let Some(place) = heard.map_place {
-            return Some(format!("station {from} commands at {place}"));
-        }
-        let slow = heard.state?.slow?;
-        if self.described.len() >= STATIONS && !self.described.contains_key(from) {
-            return None;
-        }
-        let now = (slow.signals, slow.area);
-        let before = self.described.insert(*from, now).unwrap_or_default();
-        let shows = now.0.filter(|_| now.0 != before.0);
-        let serves = now.1.filter(|_| now.1 != before.1);
-        let news = [
-            shows.map(|shown| format!("shows {shown}")),
-            serves.map(|place| format!("serves {place}")),
-        ];
-        let news: Vec<_> = news.into_iter().flatten().collect();
-        (!news.is_empty()).then(|| format!("station {from} {}", news.join(" and ")))
     }
 
     /// Takes the next line up if nothing holds it back. Whether it is to quit.

@@ -128,13 +128,11 @@ fn a_full_channel_is_shown_and_bad_frames_are_counted_each_under_its_cause() {
     let stop = Arc::clone(&done);
     let heard = std::thread::spawn(move || busy_unit(&socket, 8_000, &stop));
     let address = format!("127.0.0.1:{}", free_ports(1));
-    let options = ["--status", "always", "--metrics", &address];
-    let [lines, status] = ["lines", "status"].map(|file| street.path(file));
+    let lines = street.path("lines");
     let robot = crossguard(&["run", "--config", &street.configs[ARI]])
-        .args(options)
+        .args(["--metrics", &address])
         .stdin(Stdio::piped())
         .stdout(fs::File::create(&lines).unwrap())
-        .stderr(fs::File::create(&status).unwrap())
         .spawn();
     let mut robot = Killed(robot.unwrap());
     let scrape = || {
@@ -151,9 +149,10 @@ fn a_full_channel_is_shown_and_bad_frames_are_counted_each_under_its_cause() {
     ] {
         wait_until(expected, || scrape().is_ok_and(|it| it.contains(expected)));
     }
+    type_to(&mut robot.0, "status\n");
     let expected = "channel 80 % busy, RAM at most every 1000 ms";
     wait_until(expected, || {
-        let shown = fs::read_to_string(&status).unwrap();
+        let shown = fs::read_to_string(&lines).unwrap();
         shown.contains(expected)
     });
     type_to(&mut robot.0, "quit\n");

@@ -79,10 +79,8 @@ fn start(
 ) -> Result<OfFolder, Failure> {
     let mut command = Command::new(std::env::current_exe()?);
     command.arg("run").arg("--config").arg(path);
-    command
-        .args(named)
-        .args(["--status", "never", "--log"])
-        .arg(path.with_extension("jsonl"));
+    let log = path.with_extension("jsonl");
+    command.args(named).arg("--log").arg(log);
     if let Some(people) = people.filter(|_| file.zone.is_some()) {
         command.arg("--perceived").arg(people);
     }

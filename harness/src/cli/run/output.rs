@@ -10,7 +10,7 @@ use crossguard_robot::journal::{Journal, RECORDS, WhenFull};
 use crossguard_robot::trace::{self, LogFile, LogLimits, Record};
 
 use super::super::Failure;
-use super::super::screen::Screen;
+use super::super::printable::Printable;
 use super::super::writing::{Lines, Writing, complain};
 
 /// What standard output is called.
@@ -27,9 +27,8 @@ pub(super) struct Outputs {
 }
 
 impl Outputs {
-    /// Opens a log file, if there is to be one, and standard output; what people read there stands above
-    /// the status line of `screen`.
-    pub(super) fn open(log: Option<&Path>, is_json: bool, screen: Screen) -> Result<Self, Failure> {
+    /// Opens a log file, if there is to be one, and standard output.
+    pub(super) fn open(log: Option<&Path>, is_json: bool) -> Result<Self, Failure> {
         let mut journal = Journal::new();
         let records = journal.reader(RECORDS, WhenFull::Skip, Cause::OutputFull);
         let mut of_log = || journal.reader(RECORDS, WhenFull::End, Cause::LogFull);
@@ -41,7 +40,7 @@ impl Outputs {
         if is_json {
             writings.push(to_stdout(of_log()));
         } else {
-            let (for_people, writing) = Lines::start(STDOUT, move |line| screen.say(line));
+            let (for_people, writing) = Lines::start(STDOUT, say);
             lines = Some(for_people);
             writings.push(writing);
         }
@@ -70,6 +69,11 @@ impl Writings {
         }
         finished.into_iter().collect()
     }
+}
+
+/// Prints a line for people.
+fn say(line: &str) -> std::io::Result<()> {
+    writeln!(std::io::stdout(), "{}", Printable(line))
 }
 
 /// Writes records to a file.
