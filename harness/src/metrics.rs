@@ -65,23 +65,12 @@ pub fn text(tally: &Tally) -> String {
         info.value(&labels, 1);
         let help = "1 for the state of the paper's model that it is in.";
         let mut states = page.gauge("state", help);
-        for it in [
-            State::Idle,
-            State::HelpRequested,
-            State::RoleEstablished,
-            State::ManeuverExecuting,
-        ] {
+        for it in State::ALL {
             let is_it = u64::from(state.state() == it);
-            states.value(&[("state", &format!("{it:?}"))], is_it);
+            states.value(&[("state", it.name())], is_it);
         }
         let mut roles = page.gauge("role", "1 for the role that it has.");
-        for it in [
-            Role::None,
-            Role::Requester,
-            Role::Helper,
-            Role::Leader,
-            Role::Follower,
-        ] {
+        for it in Role::ALL {
             let is_it = u64::from(state.role() == it);
             roles.value(&[("role", &it.to_string())], is_it);
         }
@@ -130,7 +119,7 @@ pub fn text(tally: &Tally) -> String {
 fn around(page: &mut Page, tally: &Tally) {
     let help = "How many stations were heard since it booted.";
     let mut heard = page.gauge("stations_heard", help);
-    heard.value(&[], tally.heard_us.len());
+    heard.value(&[], tally.heard.len());
     let mut counts = page.gauge("around", "How many road users are on its map, by kind.");
     for kind in Kind::ALL {
         let count = tally.around.of_kind(kind).map_or(0, |it| it.count);

@@ -147,13 +147,4 @@ mod tests {
         let json = serde_json::to_string(&around).unwrap();
         assert_eq!(serde_json::from_str::<Around>(&json).unwrap(), around);
     }
-
-    #[test]
-    fn a_distance_that_is_not_known_is_not_told() {
-        let mut map = LocalDynamicMap::default();
-        map.observe(user(7, Kind::Vehicle, Position::at(49.0, 8.4)), 0);
-        let around = Around::of(&map, &Position::default(), 0);
-        assert_eq!(around.of_kind(Kind::Vehicle).unwrap().nearest, None);
-        assert_eq!(around.of_kind(Kind::Robot), None);
-    }
 }

@@ -15,6 +15,7 @@ use crate::site::Site;
 
 pub use commands::Command;
 use commands::{COMMANDS, Scope};
+pub(crate) use words::means;
 
 /// A line that was typed.
 #[derive(Clone, PartialEq, Debug)]

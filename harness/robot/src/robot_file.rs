@@ -14,7 +14,8 @@ use crossguard_endpoint::ras::clustering;
 use crossguard_endpoint::ras::surroundings::{Awareness, CLUSTER_INTERVAL_MS};
 use crossguard_endpoint::station::Security;
 use crossguard_protocol::{BrokenInequality, Config, Settings, SettingsInFiles, StationId};
-use serde::Deserialize;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
 
 use crate::application::{Application, Traits};
 use crate::body::{Body, BodyPort, Build, Ported, Simulated};
@@ -22,6 +23,7 @@ use crate::boot::Boot;
 use crate::files;
 use crate::journal::Journal;
 use crate::located::{Exact, FileError, Impossible, NEAR_M, Number, cut, is_near, possible};
+use crate::operator::means;
 use crate::plan::Plan;
 use crate::plan_file::PlanFile;
 use crate::port::{NoAddress, PortAddress};
@@ -113,8 +115,8 @@ struct RobotTable {
     crossing: Option<String>,
     zone: Option<ZoneTable>,
     map_place: Option<String>,
-    #[serde(default)]
-    shows: Vec<Means>,
+    #[serde(default, deserialize_with = "shown_by")]
+    shows: Option<SignalMeans>,
     #[serde(default)]
     site: Option<SiteTable>,
     site_file: Option<PathBuf>,
@@ -138,24 +140,11 @@ struct RobotTable {
 }
 
 /// By what a robot shows signals to people.
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Means {
-    Gesture,
-    Display,
-    Lights,
-    Speech,
-}
-
-impl From<Means> for SignalMeans {
-    fn from(means: Means) -> Self {
-        match means {
-            Means::Gesture => Self::GESTURE,
-            Means::Display => Self::DISPLAY,
-            Means::Lights => Self::LIGHTS,
-            Means::Speech => Self::SPEECH,
-        }
-    }
+fn shown_by<'de, D: Deserializer<'de>>(from: D) -> Result<Option<SignalMeans>, D::Error> {
+    let names = Vec::<String>::deserialize(from)?;
+    let means = names.iter().map(|name| means(name));
+    let all = means.reduce(|all, one| Ok(all?.union(one?)));
+    all.transpose().map_err(D::Error::custom)
 }
 
 const fn one() -> f64 {
@@ -477,7 +466,6 @@ impl RobotTable {
                 .or(layout.site.map_place),
             ..layout.site
         };
-        let shows: Vec<_> = self.shows.into_iter().map(SignalMeans::from).collect();
         self.identifiers.check()?;
         self.people.check().map_err(Impossibility::People)?;
         // A plan is for a robot that leads by itself.
@@ -526,7 +514,7 @@ impl RobotTable {
             site,
             speed,
             autopilot,
-            shows: shows.into_iter().reduce(SignalMeans::union),
+            shows: self.shows,
             zone,
             carriageway,
             kerbs,

@@ -48,19 +48,6 @@ impl Milestone {
         Self::FellBack,
     ];
 
-    /// Its name, as in labels and in JSON.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Team => "team",
-            Self::Received => "received",
-            Self::Acknowledged => "acknowledged",
-            Self::Open => "open",
-            Self::Interrupted => "interrupted",
-            Self::FellBack => "fell-back",
-        }
-    }
-
     /// The stage in which it can be reached.
     #[must_use]
     pub const fn stage(self) -> Stage {

@@ -135,7 +135,6 @@ fn read_secret(path: &Path) -> Result<Secret, BootError> {
     let octets = random_octets();
     let mut options = File::options();
     options.write(true).create_new(true);
-    #[cfg(unix)]
     std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
     let mut file = options.open(path).map_err(|cause| unusable(path, cause))?;
     let line = format!("{SECRET} {}\n", hex::encode(octets));
@@ -166,7 +165,6 @@ mod tests {
         let first = Memory::beside(&counter).unwrap();
         let again = Memory::beside(&counter).unwrap();
         assert_eq!(epoch(&first), epoch(&again));
-        #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
             let metadata = fs::metadata(beside(&counter, "secret")).unwrap();

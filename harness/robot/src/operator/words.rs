@@ -1,6 +1,7 @@
 //! Words in a line, and what they can be.
 
 use std::borrow::Cow;
+use std::fmt::Display;
 use std::time::Duration;
 
 use crate::robot_file::job_named;
@@ -16,33 +17,11 @@ pub(super) const INTERSECTION: &str = "intersection";
 pub(super) const NONE: &str = "none";
 pub(super) const CHARGING: &str = "charging";
 
-const STATES: [(&str, State); 4] = [
-    ("idle", State::Idle),
-    ("help-requested", State::HelpRequested),
-    ("role-established", State::RoleEstablished),
-    ("maneuver-executing", State::ManeuverExecuting),
-];
-
 const MEANS: [(&str, SignalMeans); 4] = [
     ("gesture", SignalMeans::GESTURE),
     ("display", SignalMeans::DISPLAY),
     ("lights", SignalMeans::LIGHTS),
     ("speech", SignalMeans::SPEECH),
-];
-
-const URGENCIES: [Urgency; 4] = [
-    Urgency::Low,
-    Urgency::Medium,
-    Urgency::High,
-    Urgency::Emergency,
-];
-
-const REASONS: [Unavailability; 5] = [
-    Unavailability::LowBattery,
-    Unavailability::Teleoperated,
-    Unavailability::EmergencyStop,
-    Unavailability::LocalFault,
-    Unavailability::NotSafe,
 ];
 
 const SIGNALS: [PublicSignal; 4] = [
@@ -56,8 +35,9 @@ fn tasks() -> impl Iterator<Item = TaskType> {
     TaskSet(u16::MAX).iter()
 }
 
-fn name_of(reason: Unavailability) -> String {
-    reason.to_string().replace(' ', "-")
+/// What a value is called in a line: what it displays as, in one word.
+fn name_of(value: impl Display) -> String {
+    value.to_string().replace(' ', "-")
 }
 
 /// An event that comes with nothing, and is not for the kit alone.
@@ -118,19 +98,18 @@ pub(super) fn task(name: &str) -> Result<TaskType, Misunderstood> {
 }
 
 pub(super) fn urgency(name: &str) -> Option<Urgency> {
-    let mut all = URGENCIES.into_iter();
-    all.find(|urgency| urgency.to_string() == name)
+    Urgency::named(name)
 }
 
 pub(super) fn unavailability(name: &str) -> Result<Unavailability, Misunderstood> {
-    let reason = REASONS.into_iter().find(|reason| name_of(*reason) == name);
-    reason.ok_or_else(|| wrong(name, "a reason to be unavailable; see 'help'"))
+    let mut all = Unavailability::ALL.into_iter();
+    all.find(|reason| name_of(reason) == name)
+        .ok_or_else(|| wrong(name, "a reason to be unavailable; see 'help'"))
 }
 
 pub(super) fn state(name: &str) -> Result<State, Misunderstood> {
-    let state = STATES.into_iter().find(|(it, _)| *it == name);
-    state
-        .map(|(_, state)| state)
+    let mut all = State::ALL.into_iter();
+    all.find(|state| name_of(state) == name)
         .ok_or_else(|| wrong(name, "a state; see 'help'"))
 }
 
@@ -143,7 +122,7 @@ pub(super) fn signal(name: &str) -> Option<PublicSignal> {
     all.find(|signal| signal.to_string() == name)
 }
 
-pub(super) fn means(name: &str) -> Result<SignalMeans, Misunderstood> {
+pub(crate) fn means(name: &str) -> Result<SignalMeans, Misunderstood> {
     let means = MEANS.into_iter().find(|(it, _)| *it == name);
     means
         .map(|(_, means)| means)

@@ -1,8 +1,9 @@
 //! Certificates and keys in files. What is written is whole on the disk before it has its name. A key is read only
 //! where nobody else can read or replace it, and its text is wiped from memory.
 
-use std::fs::{self, DirBuilder, File, Metadata};
+use std::fs::{self, DirBuilder, File, Metadata, Permissions};
 use std::io::{self, Read, Write};
+use std::os::unix::fs::{DirBuilderExt as _, MetadataExt as _, PermissionsExt as _};
 use std::path::{Path, PathBuf};
 
 use crossguard_codec::security::{Certificate, NoKey, PrivateKey};
@@ -81,9 +82,7 @@ fn read_key(path: &Path) -> Result<PrivateKey, PkiError> {
 }
 
 /// Whether this user alone can read a key, and replace it.
-#[cfg(unix)]
 fn check_private(path: &Path, metadata: &Metadata) -> Result<(), PkiError> {
-    use std::os::unix::fs::MetadataExt;
     let (owner, user) = (metadata.uid(), nix::unistd::geteuid().as_raw());
     if owner != user {
         return Err(PkiError::KeyOfAnother {
@@ -99,16 +98,9 @@ fn check_private(path: &Path, metadata: &Metadata) -> Result<(), PkiError> {
     check_unchangeable(folder, &fs::metadata(folder).map_err(at(folder))?)
 }
 
-#[cfg(not(unix))]
-fn check_private(_: &Path, _: &Metadata) -> Result<(), PkiError> {
-    Ok(())
-}
-
 /// Whether nobody but this user and root can change a file, or what is in a folder. In a folder with the sticky bit,
 /// others cannot replace what they do not own.
-#[cfg(unix)]
 pub(super) fn check_unchangeable(path: &Path, metadata: &Metadata) -> Result<(), PkiError> {
-    use std::os::unix::fs::MetadataExt;
     let is_of_this_user = [nix::unistd::geteuid().as_raw(), 0].contains(&metadata.uid());
     let is_sticky = metadata.is_dir() && metadata.mode() & 0o1000 != 0;
     let is_open = metadata.mode() & 0o022 != 0 && !is_sticky;
@@ -117,11 +109,6 @@ pub(super) fn check_unchangeable(path: &Path, metadata: &Metadata) -> Result<(),
     } else {
         Err(PkiError::CanBeReplaced(path.to_owned()))
     }
-}
-
-#[cfg(not(unix))]
-pub(super) fn check_unchangeable(_: &Path, _: &Metadata) -> Result<(), PkiError> {
-    Ok(())
 }
 
 fn folder_of(path: &Path) -> &Path {
@@ -136,10 +123,7 @@ fn make_folder(folder: &Path) -> io::Result<()> {
         return Ok(());
     }
     let mut builder = DirBuilder::new();
-    builder.recursive(true);
-    #[cfg(unix)]
-    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o755);
-    builder.create(folder)?;
+    builder.recursive(true).mode(0o755).create(folder)?;
     sync_folder(folder_of(folder))
 }
 
@@ -161,8 +145,7 @@ pub(super) fn replace(path: &Path, octets: &[u8]) -> io::Result<()> {
 fn unnamed(path: &Path, octets: &[u8], mode: u32) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".").suffix(".new");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
+    builder.permissions(Permissions::from_mode(mode));
     let mut new = builder.tempfile_in(folder_of(path))?;
     new.write_all(octets)?;
     new.as_file().sync_all()?;
@@ -279,15 +262,13 @@ mod tests {
         assert_eq!(certificates_in(&pki).unwrap().len(), 1);
     }
 
-    #[cfg(unix)]
     #[test]
     fn keys_are_private_and_have_to_be() {
-        use std::os::unix::fs::PermissionsExt;
         let (_folder, pki) = written();
         let key = pki.join("root.key");
         let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o7777;
         let set = |path: &Path, mode| {
-            fs::set_permissions(path, fs::Permissions::from_mode(mode)).unwrap();
+            fs::set_permissions(path, Permissions::from_mode(mode)).unwrap();
         };
         assert_eq!(mode(&key), 0o600);
         assert_eq!(mode(&pki.join("root.cert")), 0o644);
@@ -309,7 +290,6 @@ mod tests {
     }
 
     /// Only root can give files away; others are told that this was not tried.
-    #[cfg(unix)]
     #[test]
     fn a_key_of_somebody_else_is_refused() {
         use std::os::unix::fs::chown;

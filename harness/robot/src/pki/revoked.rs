@@ -166,7 +166,6 @@ mod tests {
         }
     }
 
-    #[cfg(unix)]
     #[test]
     fn a_list_that_others_can_write_to_is_refused() {
         use std::os::unix::fs::PermissionsExt;

@@ -1,6 +1,6 @@
 //! What `crossguard simulate` can be told on the command line, and what its results depend on.
 
-use std::io::Write;
+use std::ops::Not;
 use std::path::PathBuf;
 
 use crossguard_evaluation::behaviour::Behaviour;
@@ -18,6 +18,7 @@ use toml::{Table, Value};
 use super::Failure;
 use super::parameters::Parameters;
 use crate::cli::destinations;
+use crate::cli::ranges::number;
 
 /// How people move, and the parameters that have no flag of their own.
 #[derive(clap::Args, Serialize)]
@@ -100,8 +101,7 @@ impl Matrix {
     pub(super) fn parameters(&self, air: Option<&Air>) -> Result<Parameters, Failure> {
         let mut flags = table(self)?;
         if let Some(air) = air {
-            let behaviour = air.behaviour().map_err(Failure::Input)?;
-            flags.insert("behaviour".to_owned(), Value::Table(behaviour));
+            flags.insert("behaviour".to_owned(), Value::Table(table(air)?));
         }
         self.mobility.with(flags)
     }
@@ -132,34 +132,7 @@ pub(super) struct Assumptions {
     duration_s: Vec<usize>,
     sample_ms: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
-    true_rates: Option<Rates>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     behaviour: Option<Behaviour>,
-}
-
-/// What a station really sends per second; `None` by rules.
-#[expect(clippy::struct_field_names, reason = "units are last in names")]
-#[derive(Serialize)]
-struct Rates {
-    vam_hz: Option<f64>,
-    ram_hz: Option<f64>,
-    cam_hz: Option<f64>,
-}
-
-impl Rates {
-    fn of(behaviour: &Behaviour) -> Self {
-        let vam_ms = match behaviour.vam {
-            VamRule::Etsi => None,
-            VamRule::Periodic(interval_ms) => Some(interval_ms),
-        };
-        #[expect(clippy::cast_precision_loss, reason = "100..5000")]
-        let hz = |interval_ms: Option<u64>| interval_ms.map(|it| 1_000.0 / it as f64);
-        Self {
-            vam_hz: hz(vam_ms),
-            ram_hz: hz(behaviour.ram_interval_ms),
-            cam_hz: hz(behaviour.cam_interval_ms),
-        }
-    }
 }
 
 /// One number where it is the same in all runs, else all that there are.
@@ -207,7 +180,6 @@ impl Assumptions {
                 .unwrap_or(0),
             duration_s: runs_of(|it| usize::try_from(it.duration_ms() / 1_000).unwrap_or(0)),
             sample_ms: first.map_or(0, |traces| traces.sample_ms),
-            true_rates: behaviour.as_ref().map(Rates::of),
             behaviour,
         }
     }
@@ -242,19 +214,23 @@ pub(super) struct Output {
 }
 
 /// What goes over the air.
-#[derive(clap::Args)]
+#[derive(clap::Args, Serialize)]
 #[command(next_help_heading = "Air")]
 pub(super) struct Air {
     /// When devices send VAM: 'etsi', or 0.2 to 10 a second [default: 10]
-    #[arg(long, value_name = "etsi|HZ")]
-    vam: Option<String>,
+    ///
+    /// Stations check every 100 ms whether they send: 7 a second are one every 200 ms.
+    #[arg(long, value_name = "etsi|HZ", value_parser = vam)]
+    vam: Option<VamRule>,
     /// When robots send RAM: 'rules', or 1 to 10 a second [default: rules]
-    #[arg(long, value_name = "rules|HZ")]
-    ram: Option<String>,
+    #[arg(long, value_name = "rules|HZ", value_parser = ram)]
+    #[serde(rename = "ram_interval_ms")]
+    ram: Option<u64>,
     /// Which announcements devices understand [default: ram]
     ///
     /// RAM: they fall silent when one covers them. Cluster VAM, as every ETSI device: robots send them besides RAM.
     #[arg(long, value_parser = ["ram", "cluster-vam"])]
+    #[serde(rename = "understands")]
     devices: Option<String>,
     /// When devices fall silent [default: strict]
     ///
@@ -264,88 +240,43 @@ pub(super) struct Air {
     suppression: Option<String>,
     /// Packets are signed
     #[arg(long)]
+    #[serde(skip_serializing_if = "Not::not")]
     signed: bool,
     /// Reactive congestion control (TS 102 687) holds stations back
     #[arg(long)]
+    #[serde(skip_serializing_if = "Not::not")]
     dcc: bool,
     /// Write to this file when each device was silent (CSV)
     #[arg(long, value_name = "FILE")]
+    #[serde(skip)]
     pub(super) silences: Option<PathBuf>,
 }
 
-impl Air {
-    /// What these flags say of the behaviour of all stations.
-    fn behaviour(&self) -> Result<Table, String> {
-        let mut behaviour = Table::new();
-        let mut put = |name: &str, value: Option<Value>| {
-            behaviour.extend(value.map(|value| (name.to_owned(), value)));
-        };
-        let words = |value: &str| Value::String(value.to_owned());
-        let rule = |text| interval_ms("--vam", text, "etsi", 0.2);
-        let vam = self.vam.as_deref().map(rule).transpose()?;
-        put(
-            "vam",
-            vam.map(|it| match it {
-                None => words("etsi"),
-                Some(interval_ms) => Value::Table(Table::from_iter([(
-                    "periodic".to_owned(),
-                    interval_ms.into(),
-                )])),
-            }),
-        );
-        let rule = |text| interval_ms("--ram", text, "rules", 1.0);
-        let ram = self.ram.as_deref().map(rule).transpose()?;
-        put(
-            "ram_interval_ms",
-            ram.map(|it| Value::Integer(it.unwrap_or(0))),
-        );
-        put("understands", self.devices.as_deref().map(words));
-        put("suppression", self.suppression.as_deref().map(words));
-        put("signed", self.signed.then_some(Value::Boolean(true)));
-        put("dcc", self.dcc.then_some(Value::Boolean(true)));
-        Ok(behaviour)
+fn vam(text: &str) -> Result<VamRule, String> {
+    if text == "etsi" {
+        return Ok(VamRule::Etsi);
     }
+    interval_ms(text, 0.2).map(VamRule::Periodic)
 }
 
-/// The true interval of a rate; `None` when it is by rules. Stations check every 100 ms whether they send, so it
-/// is a multiple of that.
-fn interval_ms(option: &str, text: &str, rules: &str, min_hz: f64) -> Result<Option<i64>, String> {
-    if text == rules {
-        return Ok(None);
+/// 0 is by the rules.
+fn ram(text: &str) -> Result<u64, String> {
+    if text == "rules" {
+        return Ok(0);
     }
-    match text.parse::<f64>() {
-        Ok(hz) if (min_hz..=10.0).contains(&hz) => {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "100..5000"
-            )]
-            let wanted_ms = (1_000.0 / hz).round() as u64;
-            let interval_ms = wanted_ms.div_ceil(CHECK_MS) * CHECK_MS;
-            if interval_ms != wanted_ms {
-                // Standard error may be gone; the parameters say it as well.
-                let _ = writeln!(
-                    std::io::stderr(),
-                    "crossguard: {option} {text} is not possible: stations check every {CHECK_MS} ms whether \
-                     they send. Taken is {}.",
-                    per_second(interval_ms)
-                );
-            }
-            Ok(i64::try_from(interval_ms).ok())
-        }
-        _ => Err(format!(
-            "{option} is '{rules}' or {min_hz} to 10 per second, not {text:?}"
-        )),
-    }
+    interval_ms(text, 1.0)
 }
 
-/// A rate as people write it.
-#[expect(clippy::cast_precision_loss, reason = "100..5000")]
-fn per_second(interval_ms: u64) -> String {
-    let hz = 1_000.0 / interval_ms as f64;
-    let text = format!("{hz:.2}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    format!("{text} per second, one every {interval_ms} ms")
+/// The true interval of a rate: a multiple of the time after which stations check whether they send.
+fn interval_ms(text: &str, min_hz: f64) -> Result<u64, String> {
+    let hz = number(min_hz..=10.0)(text)?;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "100..5000"
+    )]
+    let wanted_ms = (1_000.0 / hz).round() as u64;
+    Ok(wanted_ms.div_ceil(CHECK_MS) * CHECK_MS)
 }
 
 #[cfg(test)]
@@ -354,11 +285,9 @@ mod tests {
 
     #[test]
     fn a_rate_is_the_one_at_which_stations_really_send() {
-        let interval = |hz| interval_ms("--vam", hz, "etsi", 0.2).unwrap();
-        let intervals = ["10", "9.9", "7", "5", "4", "3", "2", "0.2", "etsi"].map(interval);
-        let expected = [100, 200, 200, 200, 300, 400, 500, 5_000].map(Some);
-        assert_eq!(intervals[..8], expected);
-        assert_eq!(intervals[8], None);
-        assert!(interval_ms("--vam", "11", "etsi", 0.2).is_err());
+        let interval = |hz| interval_ms(hz, 0.2).unwrap();
+        let intervals = ["10", "9.9", "7", "5", "4", "3", "2", "0.2"].map(interval);
+        assert_eq!(intervals, [100, 200, 200, 200, 300, 400, 500, 5_000]);
+        assert!(interval_ms("11", 0.2).is_err());
     }
 }
