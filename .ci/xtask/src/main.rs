@@ -19,9 +19,8 @@ codec/tests/golden/security.json <- cargo test -p crossguard-codec --features se
 codec/wireshark/crossguard.lua: the types <- codec/judges/run
 harness/robot/tests/beside.json <- codec/judges/run
 harness/c/include/crossguard.h <- cargo test -p crossguard-c --test header
-model-check/doc/paper-literal.md <- cargo test -p crossguard-model-check --test it paper_literal::
-harness/conform/src/cases.txt <- cargo test -p crossguard-conform --test generated
-protocol/doc/protocol.md: the state diagram <- cargo test -p crossguard-harness --test it pages::the_state_diagram
+model-check/doc/paper-literal.md: the hazards <- cargo test -p crossguard-model-check --test it paper_literal::
+protocol/doc/protocol.md: the state diagram <- cargo test -p crossguard-model-check --test it state_diagram::
 protocol/doc/protocol.md: the index of rules <- cargo test -p crossguard-harness --test it pages::the_index_of_rules
 harness/tests/cmd/ <- cargo test -p crossguard-harness --test it cmd::
 README.md: the sum of states <- cargo test -p crossguard-harness --test it pages::the_readmes_sum_of_states";

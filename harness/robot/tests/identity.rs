@@ -77,12 +77,17 @@ impl Liar {
 
     /// The RAM that `robot` would send.
     fn ram(&mut self, now_ms: u64, robot: &Robot) -> Vec<u8> {
+        self.ram_from(now_ms, robot, robot.station())
+    }
+
+    /// The same from the address of another station.
+    fn ram_from(&mut self, now_ms: u64, robot: &Robot, from: StationId) -> Vec<u8> {
         let (view, state) = (robot.ram(), RobotState::default());
         let generated = u16::try_from((EPOCH_ITS + now_ms) % 65_536).unwrap();
         let available = Availability::Available;
         let ram = ram_from(&identifiers(), &state, &view, available, generated, false).unwrap();
         let octets = encode(&identifiers(), &ram).unwrap();
-        self.say(now_ms, Service::Ram, robot.station(), &octets)
+        self.say(now_ms, Service::Ram, from, &octets)
     }
 
     /// The CAM of a vehicle with this station id.
@@ -393,19 +398,7 @@ fn who_squats_on_an_id_does_not_keep_its_robot_out() {
 fn the_link_address_is_that_of_the_station() {
     let mut street = Street::new(&[LEADER]);
     let mut liar = Liar::new(&street.pki, &[Part::Help], Some(LIAR));
-    let view = Robot::new(LIAR, 1).ram();
-    let state = RobotState::default();
-    let ram = ram_from(
-        &identifiers(),
-        &state,
-        &view,
-        Availability::Available,
-        0,
-        false,
-    )
-    .unwrap();
-    let octets = encode(&identifiers(), &ram).unwrap();
-    let packet = liar.say(street.now_ms, Service::Ram, FOLLOWER, &octets);
+    let packet = liar.ram_from(street.now_ms, &Robot::new(LIAR, 1), FOLLOWER);
     street.hear(0, &packet);
     assert_eq!(street.heard(0, LIAR), 0);
     assert_eq!(street.dropped(0, "address of another station"), 1);

@@ -87,24 +87,11 @@ fn who_holds_vehicles_back_shows_them_stop_until_the_road_is_clear() {
         ..Plan::crossing(site)
     };
     for (gone, stays) in [(1, 0), (0, 1)] {
-        let body = |east| (Build::Humanoid, Place::new(east, 0.0), 30.0);
-        let leader = support::machine(
-            1,
-            body(1.0),
-            Some(plan.clone()),
-            Road::Unknown,
-            Security::default(),
-        );
-        let robots = vec![
-            Some(leader),
-            Some(support::machine(
-                2,
-                body(2.0),
-                None,
-                Road::Unknown,
-                Security::default(),
-            )),
-        ];
+        let machine = |station, plan| {
+            let body = (Build::Humanoid, Place::new(f64::from(station), 0.0), 30.0);
+            support::machine(station, body, plan, Road::Unknown, Security::default())
+        };
+        let robots = vec![Some(machine(1, Some(plan.clone()))), Some(machine(2, None))];
         let mut street: Street = Street::new(robots, |_, _, _| {});
         for robot in 0..2 {
             let shown = SignalsShown {

@@ -285,25 +285,21 @@ const SILENT: u8 = 1;
 /// Hazard: somebody waits at the kerb while a robot hides.
 #[test]
 fn who_needs_the_robot_breaks_its_silence() {
-    let mut alone = Alone::new(SILENT);
-    let changed_ms = alone.change();
-    alone.pass(200);
-    assert!(
-        !alone.has_sent_since(changed_ms),
-        "this secret is silent for too short"
-    );
     let request = Plan::crossing(Site::default()).request();
-    alone.tell(Stimulus::Event(Event::PedestrianDetected(request)));
-    assert!(alone.has_sent_since(alone.now_ms));
-
-    let mut alone = Alone::new(SILENT);
-    let changed_ms = alone.change();
-    alone.pass(200);
-    assert!(!alone.has_sent_since(changed_ms));
     let person = PerceivedVru::pedestrian(1, [3.0, 0.0]);
-    alone.tell(Stimulus::Perceived(&[person]));
-    alone.pass(200);
-    assert!(alone.has_sent_since(alone.now_ms - 200));
+    for (need, within_ms) in [
+        (Stimulus::Event(Event::PedestrianDetected(request)), 0),
+        (Stimulus::Perceived(&[person]), 200),
+    ] {
+        let mut alone = Alone::new(SILENT);
+        let changed_ms = alone.change();
+        alone.pass(200);
+        let is_silent = !alone.has_sent_since(changed_ms);
+        assert!(is_silent, "this secret is silent for too short");
+        alone.tell(need);
+        alone.pass(within_ms);
+        assert!(alone.has_sent_since(alone.now_ms - within_ms));
+    }
 }
 
 /// A robot that starts again and again would be known by a first pseudonym that is always the same.

@@ -70,24 +70,8 @@ impl Said {
 }
 
 #[test]
-fn every_category_of_the_message_can_be_configured() {
-    for (build, category) in [
-        ("unknown", RobotCategory::Unknown),
-        ("humanoid", RobotCategory::Humanoid),
-        ("quadruped", RobotCategory::Quadruped),
-        ("wheeled", RobotCategory::Wheeled),
-        ("tracked", RobotCategory::Tracked),
-        ("aerial", RobotCategory::Aerial),
-        ("other", RobotCategory::Other),
-    ] {
-        let file = read(&format!("build = \"{build}\"")).unwrap();
-        assert_eq!(Said::by(&file).next(Stimulus::Time).category, category);
-    }
-}
-
-#[test]
-fn every_job_size_and_battery_of_a_file_is_in_its_ram() {
-    for (name, job) in [
+fn every_category_job_size_and_battery_of_a_file_is_in_its_ram() {
+    let jobs = [
         ("none", JobRole::None),
         ("traffic-guard", JobRole::TrafficGuard),
         ("escort", JobRole::Escort),
@@ -95,13 +79,23 @@ fn every_job_size_and_battery_of_a_file_is_in_its_ram() {
         ("delivery", JobRole::Delivery),
         ("maintenance", JobRole::Maintenance),
         ("other", JobRole::Other),
-    ] {
+    ];
+    let builds = [
+        ("unknown", RobotCategory::Unknown),
+        ("humanoid", RobotCategory::Humanoid),
+        ("quadruped", RobotCategory::Quadruped),
+        ("wheeled", RobotCategory::Wheeled),
+        ("tracked", RobotCategory::Tracked),
+        ("aerial", RobotCategory::Aerial),
+        ("other", RobotCategory::Other),
+    ];
+    for ((job, job_role), (build, category)) in jobs.into_iter().zip(builds) {
         let text = format!(
-            "build = \"humanoid\"\njob = \"{name}\"\ndimensions_m = [0.9, 0.6, 1.2]\n\
+            "build = \"{build}\"\njob = \"{job}\"\ndimensions_m = [0.9, 0.6, 1.2]\n\
              battery = {{ charge_percent = 64.0, charging = true }}"
         );
         let state = Said::by(&read(&text).unwrap()).next(Stimulus::Time);
-        assert_eq!(state.job_role, job);
+        assert_eq!((state.job_role, state.category), (job_role, category));
         let size = state.dimensions;
         let size = [size.length, size.width, size.height];
         assert_eq!(size, [Some(0.9), Some(0.6), Some(1.2)]);

@@ -16,6 +16,7 @@ fn demo(more: &str) -> Output {
 /// in the end; and what the log has. Where two detect on busy cores, either may be the one that is led. The leader dies
 /// slowly enough that the dog is on the road when its safety timer runs out.
 const ROWS: &str = r#"
+crossing      | --speed 50 --seed 2 --faults loss=0.2,burst=0.2x3,duplication=0.3,reordering=0.1,delay=1..20 | Go2 initialPos, Go2 move | ARI Idle, Go2 Idle | corridorOpened "taskCompleted" "loss" "burst
 bilateral     | --speed 40                    | ARI-2 initialPos, ARI-2 block       | ARI Idle, ARI-2 Idle             | corridorOpened "taskCompleted"
 trio          | --speed 40 --security enforce | ARI-2 block, Go2 move               | ARI Idle, ARI-2 Idle, Go2 Idle   | corridorOpened "taskCompleted"
 team          | --speed 20 --loss 0.2 --seed 1 | ARI-2 block, ARI-3 block, Go2 move | ARI Idle, ARI-2 Idle, ARI-3 Idle, Go2 Idle | corridorOpened "taskCompleted"
@@ -265,19 +266,6 @@ fn the_results_have_the_papers_times_for_each_maneuver() {
     let of_paper = |maneuver| (paper(maneuver, "tNegS"), paper(maneuver, "tTmctS"));
     assert_eq!(of_paper(&maneuvers[0]), (Some(0.074), Some(0.574)));
     assert_eq!(of_paper(&maneuvers[1]), (Some(0.129), Some(21.729)));
-}
-
-#[test]
-fn faults_are_survived_and_counted() {
-    let faults = "loss=0.2,burst=0.2x3,duplication=0.3,reordering=0.1,delay=1..20";
-    let arguments = format!("--speed 50 --seed 2 --json --faults {faults}");
-    let result = json(&demo(&arguments));
-    assert_eq!(result["crossings"], 1);
-    assert_eq!(result["traceValid"], true, "{}", result["traceError"]);
-    let counters = &result["counters"]["Go2"]["simulated"];
-    for fault in ["loss", "burst loss"] {
-        assert!(counters[fault].as_u64() > Some(0), "{fault}: {counters}");
-    }
 }
 
 #[test]

@@ -9,7 +9,6 @@ mod cut_short;
 mod demo;
 mod full_disk;
 mod keys;
-mod odds;
 mod odds_frequencies;
 mod pages;
 mod people;

@@ -30,7 +30,7 @@ const ROW: Row = Row {
     lacks: [&[], &[]],
 };
 
-const ROWS: [Row; 7] = [
+const ROWS: [Row; 6] = [
     Row {
         what: "the leader is killed and boots again",
         lose: |street| {
@@ -91,16 +91,6 @@ const ROWS: [Row; 7] = [
             &["fallBack", "sessionEnded"],
         ],
         // Released by name, not by silence.
-        lacks: [&[], &["contactLost"]],
-        ..ROW
-    },
-    Row {
-        what: "the leader is interrupted",
-        lose: |street| street.signal(ARI, "-INT"),
-        has: [
-            &["leaveRequested", "corridorClosed"],
-            &["fallBack", "sessionEnded"],
-        ],
         lacks: [&[], &["contactLost"]],
         ..ROW
     },
