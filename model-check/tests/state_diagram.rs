@@ -17,8 +17,8 @@ const WATCHED: [&str; 3] = ["contention", "lying-follower", "two-teams"];
 /// A robot's role and its state of the paper's model.
 type Mode = (Role, State);
 
-/// The inputs that lead from one mode to another.
-type Transitions = BTreeMap<(Mode, Mode), BTreeSet<String>>;
+/// The inputs that lead from one mode to another, by their kind.
+type Transitions = BTreeMap<(Mode, Mode), BTreeMap<&'static str, BTreeSet<String>>>;
 
 #[test]
 fn the_state_diagram_of_the_protocols_page_is_the_one_that_robots_draw() {
@@ -50,8 +50,13 @@ fn diagram() -> String {
         }
     }
     for ((from, to), labels) in transitions {
-        let labels = condense(&labels).join("<br>");
-        let _ = writeln!(text, "    {} --> {}: {labels}", name(from), name(to));
+        let lines = labels.into_iter().map(|(kind, words)| {
+            let words: Vec<_> = words.into_iter().collect();
+            format!("{kind} {}", words.join(", ")).trim().to_owned()
+        });
+        let lines: Vec<_> = lines.collect();
+        let (from, to) = (name(from), name(to));
+        let _ = writeln!(text, "    {from} --> {to}: {}", lines.join("<br>"));
     }
     text
 }
@@ -78,9 +83,10 @@ fn note(model: &Model, transitions: &mut Transitions) {
     let mut note = |before: &Node, input, after: &Node| {
         let (from, to) = (mode(before), mode(after));
         if from != to
-            && let Some(label) = label(input)
+            && let Some((kind, word)) = label(input)
         {
-            transitions.entry((from, to)).or_default().insert(label);
+            let kinds = transitions.entry((from, to)).or_default();
+            kinds.entry(kind).or_default().insert(word);
         }
     };
     let (mut nodes, mut actions) = (HashSet::new(), Vec::new());
@@ -108,41 +114,24 @@ fn note(model: &Model, transitions: &mut Transitions) {
     }
 }
 
-/// Labels of one kind in one line: `timer Help, Lock` rather than `timer Help`, `timer Lock`.
-fn condense(labels: &BTreeSet<String>) -> Vec<String> {
-    let mut kinds: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-    for label in labels {
-        match label.split_once(' ') {
-            Some((kind @ ("RAM" | "timer"), rest)) => kinds.entry(kind).or_default().push(rest),
-            _ => kinds.entry("").or_default().push(label),
-        }
-    }
-    kinds
-        .iter()
-        .map(|(kind, rest)| format!("{kind} {}", rest.join(", ")).trim().to_owned())
-        .collect()
-}
-
-/// A transition's label: the kind of its input, as the code names it. `None` for a RAM with a farewell and more, which does
-/// two things one after the other.
-fn label(input: Input) -> Option<String> {
+/// A transition's label: the kind of its input, and what the code names it. `None` for a RAM with a farewell and more, which
+/// does two things one after the other.
+fn label(input: Input) -> Option<(&'static str, String)> {
     let word = |value: &dyn Debug| {
         let text = format!("{value:?}");
         text.split(['(', ' ']).next().unwrap_or_default().to_owned()
     };
     Some(match input {
         Input::Ram { ram, .. } => match (ram.coordination, ram.farewell) {
-            (Coordination::Follower { last: Some(it), .. }, None) => {
-                format!("RAM {}", word(&it.progress))
-            }
-            (part, None) => format!("RAM {}", word(&part)),
-            (Coordination::None, Some(farewell)) => format!("RAM {}", word(&farewell)),
+            (Coordination::Follower { last: Some(it), .. }, None) => ("RAM", word(&it.progress)),
+            (part, None) => ("RAM", word(&part)),
+            (Coordination::None, Some(farewell)) => ("RAM", word(&farewell)),
             (_, Some(_)) => return None,
         },
-        Input::Rmcm(rmcm) => format!("RMCM {}", word(&rmcm)),
-        Input::Elapsed(_) => "time".to_owned(),
-        Input::Expired(timer) => format!("timer {}", word(&timer)),
-        Input::Local(Event::AvailabilityChanged(_)) => "unavailable".to_owned(),
-        Input::Local(event) => word(&event),
+        Input::Rmcm(rmcm) => ("RMCM", word(&rmcm)),
+        Input::Elapsed(_) => ("", "time".to_owned()),
+        Input::Expired(timer) => ("timer", word(&timer)),
+        Input::Local(Event::AvailabilityChanged(_)) => ("", "unavailable".to_owned()),
+        Input::Local(event) => ("", word(&event)),
     })
 }

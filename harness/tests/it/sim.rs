@@ -194,7 +194,8 @@ fn of_a_failure_the_log_and_the_packets_are_written() {
     let packets = capture::read(&files.pcap).unwrap();
     assert_eq!(packets.map(Result::unwrap).count(), validated.sent);
     let again = fuzz.reproduce(failure.seed);
-    assert_eq!(again, "crossguard fuzz --seeds 1 --robots 4 --seed 5");
+    let expected = "crossguard fuzz --seeds 1 --robots 4 --seed 5 --sensors 0 --liars 0";
+    assert_eq!(again, expected);
     run_well(again.trim_start_matches("crossguard "));
 }
 

@@ -252,18 +252,6 @@ fn robots_that_coordinate_load_the_channel_that_is_measured() {
     );
 }
 
-/// Stations check every 100 ms, so seven VAM a second are five.
-#[test]
-fn the_rate_that_is_printed_is_the_one_that_is_sent() {
-    let cells = "--pedestrians 20 --robots 0 --radius 15 --seeds 1";
-    let report = json(&format!("cbr --json --vam 7 {cells}"));
-    assert_eq!(report["parameters"]["behaviour"]["vam"]["periodic"], 200);
-    let sent = report["cells"][0]["messages_per_s"][0]["mean"]
-        .as_f64()
-        .unwrap();
-    assert!((sent / 20.0 - 5.0).abs() < 0.05, "{sent}");
-}
-
 /// A file has every parameter, a line of it goes before, and flags go before both.
 #[test]
 fn parameters_of_a_file_are_taken_and_flags_win() {

@@ -68,18 +68,6 @@ fn each_packet_has_its_kind_and_what_each_kind_costs_stands_at_the_end() {
     assert_eq!(nothing, "no GeoNetworking packet\n");
 }
 
-/// The message is what `codec decode` prints of it.
-#[test]
-fn json_has_the_whole_message() {
-    let [cam, ..] = packets();
-    let stdout = sniff(&pcap(&[in_ethernet(&cam)]), &["--json"]);
-    let seen = records(&stdout).remove(0);
-    let decoded = json(&run(&["codec", "decode", "--hex", &hex::encode(&cam)]));
-    assert_eq!(seen["message"], decoded["message"]);
-    let parameters = &seen["message"]["cam"]["cam"]["camParameters"];
-    assert_eq!(parameters["basicContainer"]["stationType"], 5, "{seen}");
-}
-
 #[test]
 fn messages_of_release_1_are_read() {
     // As in `codec/tests/it/release1.rs`: an emergency vehicle, whose own container is left out.
