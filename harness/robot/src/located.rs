@@ -34,6 +34,9 @@ impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exact<T, N> 
     }
 }
 
+/// A place in a text, by its metres to the east and to the north.
+pub(crate) type Point = toml::Spanned<Exact<toml::Spanned<f64>, 2>>;
+
 /// A file of a site or a plan that cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub struct FileError {
@@ -142,8 +145,9 @@ pub(crate) fn cut(text: &str) -> String {
 }
 
 /// A place on the site.
-pub(crate) fn place(at: &toml::Spanned<Exact<f64, 2>>) -> Result<Place, Misfit> {
-    place_at(at, at.get_ref().0)
+pub(crate) fn place(at: &Point) -> Result<Place, Misfit> {
+    let Exact(metres) = at.get_ref();
+    place_at(at, metres.each_ref().map(|it| *it.get_ref()))
 }
 
 /// A place on the site, which stands there.

@@ -34,6 +34,7 @@ mod revoked;
 #[cfg(feature = "full")]
 mod starts;
 
+pub(crate) use files::unnamed;
 pub use files::{
     certificates_in, folders_in, read_certificate, sync_folder, write_certificate, write_key,
 };

@@ -27,13 +27,16 @@ use std::path::Path;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::located::{self, Exact, FileError, Misfit};
+use crate::located::{self, Exact, FileError, Misfit, Point};
 use crate::site::{CrossingReference, Place, Site};
 
 mod carriageway;
+mod draft;
 
 pub use carriageway::Carriageway;
 pub(crate) use carriageway::{between, outline};
+pub use draft::Draft;
+use draft::Points;
 
 /// A site, checked: every guard stands on a lane, nobody waits or begins to cross on one.
 #[derive(Clone, PartialEq, Debug)]
@@ -115,21 +118,21 @@ struct CrossingTable {
     along_m: Option<Spanned<f64>>,
 }
 
-type Kerb = Exact<Spanned<Exact<f64, 2>>, 2>;
+type Kerb = Exact<Point, 2>;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct LaneTable {
     name: String,
-    from_m: Spanned<Exact<f64, 2>>,
-    to_m: Spanned<Exact<f64, 2>>,
+    from_m: Point,
+    to_m: Point,
     width_m: Spanned<f64>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SpotTable {
-    at_m: Spanned<Exact<f64, 2>>,
+    at_m: Point,
     #[serde(rename = "for")]
     purpose: Purpose,
 }
@@ -149,9 +152,7 @@ impl SiteFile {
     /// # Errors
     /// The first thing that is wrong, with its line.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        let text = located::read(path)?;
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        Self::parse(&path.display().to_string(), &stem, &text)
+        Draft::read(path).map(|draft| draft.site)
     }
 
     /// The street of the demonstrations.
@@ -160,7 +161,8 @@ impl SiteFile {
     /// Never: a test reads it.
     #[must_use]
     pub fn street() -> Self {
-        Self::parse("site street", "street", STREET).expect("a test reads it")
+        let parsed = Self::parse("site street", "street", STREET);
+        parsed.expect("a test reads it").0
     }
 
     /// The same site, whose origin is elsewhere and whose crossing is another one.
@@ -169,9 +171,12 @@ impl SiteFile {
         Self { site, ..self }
     }
 
-    fn parse(file: &str, name: &str, text: &str) -> Result<Self, FileError> {
+    fn parse(file: &str, name: &str, text: &str) -> Result<(Self, Points), FileError> {
         let tables: Result<SiteTables, _> = located::parse(text);
-        let checked = tables.and_then(|tables| tables.check(name));
+        let checked = tables.and_then(|tables| {
+            let points = tables.points();
+            Ok((tables.check(name)?, points))
+        });
         checked.map_err(|misfit| misfit.of(file, text))
     }
 

@@ -142,7 +142,11 @@ pub(super) fn replace(path: &Path, octets: &[u8]) -> io::Result<()> {
 }
 
 /// A file beside the path with this content, which is on the disk.
-fn unnamed(path: &Path, octets: &[u8], mode: u32) -> io::Result<tempfile::NamedTempFile> {
+pub(crate) fn unnamed(
+    path: &Path,
+    octets: &[u8],
+    mode: u32,
+) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".").suffix(".new");
     builder.permissions(Permissions::from_mode(mode));
