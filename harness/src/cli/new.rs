@@ -49,7 +49,11 @@ const FILES: [(&str, &str, &str); 5] = [
 ];
 
 /// What is otherwise than in the examples.
-const CHANGES: [(&str, &str); 3] = [
+const CHANGES: [(&str, &str); 4] = [
+    (
+        "[link]\n",
+        "[operator] # programs command it there, and the studio's page Live\nlisten = \"unix:NAME-operator.sock\"\n\n[link]\n",
+    ),
     ("autopilot = true\n", "plan_file = \"plan.toml\"\n"),
     (
         "speed = 3.0\n",
@@ -59,13 +63,15 @@ const CHANGES: [(&str, &str); 3] = [
 ];
 
 /// An example without its first comment, which says how to start it where it is.
-fn adapted(example: &str, name: &str) -> String {
+fn adapted(file: &str, example: &str, name: &str) -> String {
     let lines = example.split_inclusive('\n');
     let text: String = lines.skip_while(|line| line.starts_with('#')).collect();
     let text = CHANGES
         .iter()
         .fold(text, |text, (from, to)| text.replace(from, to));
-    text.replace("name = \"street\"", &format!("name = {name:?}"))
+    let robot = file.trim_end_matches(".toml");
+    text.replace("unix:NAME", &format!("unix:{robot}"))
+        .replace("name = \"street\"", &format!("name = {name:?}"))
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -74,7 +80,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     fs::create_dir(folder).map_err(Failure::at(folder))?;
     for (file, what_to_change, example) in FILES {
         let path = folder.join(file);
-        let text = what_to_change.to_owned() + &adapted(example, &name);
+        let text = what_to_change.to_owned() + &adapted(file, example, &name);
         fs::write(&path, text).map_err(Failure::at(&path))?;
     }
     print(next(folder))
