@@ -7,11 +7,13 @@ mod explore;
 mod live;
 mod play;
 mod shell;
+mod site;
 
 pub use after::{Studied, Study, saved};
 pub use explore::GivenRun;
 pub use live::Followed;
 pub use shell::{publish, serve};
+pub use site::Edited;
 
 use shell::View;
 
@@ -26,6 +28,8 @@ pub struct Studio {
     pub live: Option<Followed>,
     /// Runs through scenarios, from files.
     pub given: Vec<GivenRun>,
+    /// A site file that may be written.
+    pub site: Option<Edited>,
 }
 
 impl Studio {
@@ -36,6 +40,7 @@ impl Studio {
             Box::new(play::Play),
             Box::new(explore::Explore::new(self.given)),
             Box::new(after::After::new(self.run, self.study)),
+            Box::new(site::Site::new(self.site)),
         ]
     }
 }

@@ -17,6 +17,7 @@ pub(super) struct Arguments {
 const SITE: &str = "\
 # The corner, in metres east and north of an origin that all robots here share. Change origin, kerbs, lanes and places to
 # yours, and look whether the plan still fits: crossguard site check --site site.toml --plan plan.toml
+# Or move them on the street in a browser: crossguard studio --site site.toml --plan plan.toml
 ";
 const PLAN: &str = "\
 # Who does what here. Change robot and station of each role to those of your robot files, and the stages to what your
@@ -92,6 +93,8 @@ fn next(folder: &Path) -> String {
         "{at} has a site, a plan, two robots with simulated bodies, people who come to the kerb, and a car. They run as they are:\n\
          \x20 crossguard run --all {at}\n\
          Then change the files, each of which begins with what to change, and look whether they fit:\n\
-         \x20 crossguard site check --site {at}/site.toml --plan {at}/plan.toml"
+         \x20 crossguard site check --site {at}/site.toml --plan {at}/plan.toml\n\
+         Or move kerbs, lanes and places on the street in a browser, which checks the same and saves:\n\
+         \x20 crossguard studio --site {at}/site.toml --plan {at}/plan.toml"
     )
 }

@@ -28,18 +28,21 @@ pub(super) struct Files {
 pub(super) fn run(command: &Command) -> Result<(), Failure> {
     let Command::Check(files) = command;
     let site = or_street(files.site.as_deref())?;
-    let plan = files.plan.as_deref();
-    let plan = plan.map(|name| PlanFile::open(name, site.clone()));
-    let plan = plan.transpose().map_err(Failure::input)?;
+    print(said(&site, files.plan.as_deref()).map_err(Failure::Input)?)
+}
+
+/// What is said of a site that fits, alone or with a plan; the error says why it does not.
+pub(super) fn said(site: &SiteFile, plan: Option<&Path>) -> Result<String, String> {
     let (name, lanes, places) = (&site.name, site.lanes.len(), site.places.len());
-    print(format_args!("site {name}: {lanes} lanes, {places} places"))?;
-    plan.map_or(Ok(()), |plan| {
-        let (roles, stages) = (plan.roles.len(), plan.stages.len());
-        print(format_args!(
-            "plan {}: {roles} roles, {stages} stages; it fits",
-            plan.name
-        ))
-    })
+    let site_said = format!("site {name}: {lanes} lanes, {places} places");
+    let Some(plan) = plan else {
+        return Ok(site_said);
+    };
+    let plan = PlanFile::open(plan, site.clone()).map_err(|cause| cause.to_string())?;
+    let (name, roles, stages) = (&plan.name, plan.roles.len(), plan.stages.len());
+    Ok(format!(
+        "{site_said}\nplan {name}: {roles} roles, {stages} stages; it fits"
+    ))
 }
 
 /// The site in a file; without one the street of the demonstrations.

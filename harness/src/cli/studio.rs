@@ -12,7 +12,7 @@ use crossguard_robot::site_file::SiteFile;
 
 use super::interrupts::interrupts_that;
 use super::{Failure, complain, open_logs, print, report};
-use crate::studio::{self, Followed, GivenRun, Studied, Studio};
+use crate::studio::{self, Edited, Followed, GivenRun, Studied, Studio};
 
 /// The longest run that is read, in octets.
 const RUN_MAX: u64 = 1 << 26;
@@ -23,9 +23,13 @@ pub(super) struct Arguments {
     /// The logs of a run that is looked at: of one robot or of several, from one machine or from several.
     #[arg(value_name = "LOG")]
     logs: Vec<PathBuf>,
-    /// The site, for kerbs and lanes on the map: a file, or `street` for the street of the demonstrations.
+    /// The site, for kerbs and lanes on the map: a file, which the page Site may change, or `street` for the street of the
+    /// demonstrations.
     #[arg(long, value_name = "FILE|street")]
     site: Option<PathBuf>,
+    /// The plan that the site has to fit before the page Site saves it: a file, or the name of one that comes with the kit.
+    #[arg(long, value_name = "FILE|NAME", requires = "site")]
+    plan: Option<PathBuf>,
     /// Follow the logs while robots write them, on the page Live; a log may come later.
     #[arg(long, requires = "logs")]
     follow: bool,
@@ -56,6 +60,7 @@ Examples:
   crossguard studio --follow crossing.jsonl --site street    while `crossguard demo --log crossing.jsonl` runs
   crossguard studio --follow go2.jsonl --operator unix:go2-operator.sock    commands Go2 from the page
   crossguard check my.toml --charts found; crossguard studio --replay found/my-I2.json
+  crossguard studio --site corner/site.toml --plan corner/plan.toml    changes the street of `crossguard new corner`
 
 Without files, the pages Play and Explore are there: the protocol to play with, and scenarios step by step. The page After \
 opens logs that are dropped on it, too.
@@ -97,6 +102,19 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             "--operator: others than this machine would command the robot; leave --address out";
         return Err(Failure::input(cause.to_owned()));
     }
+    let file = arguments
+        .site
+        .as_ref()
+        .filter(|it| is_own && it.as_os_str() != "street");
+    let site = file.map(|file| {
+        let plan = arguments.plan.clone();
+        let check = Box::new(move |site: &SiteFile| super::site::said(site, plan.as_deref()));
+        Edited {
+            file: file.clone(),
+            check,
+        }
+    });
+    let is_edited = site.is_some();
     let wanted = SocketAddr::new(arguments.address, arguments.port);
     let given = arguments.replay.iter().map(|path| given(path));
     let given = given.collect::<Result<_, _>>()?;
@@ -105,6 +123,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         study,
         live,
         given,
+        site,
     };
     let served = studio::serve(wanted, shown).map_err(|error| {
         Failure::Input(format!(
@@ -116,6 +135,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (arguments.follow, "live/"),
         (is_run, "after/"),
         (!arguments.replay.is_empty(), "explore/"),
+        (is_edited, "site/"),
     ];
     let first = given_to.into_iter().find(|(is_given, _)| *is_given);
     let first = first.map_or("", |(_, page)| page);

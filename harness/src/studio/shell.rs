@@ -84,7 +84,7 @@ pub(super) trait View: Send + Sync {
     fn fixed(&self) -> &'static [&'static str] {
         &[]
     }
-    /// The question that commands robots: only a page of this server tells it, for the user of this process.
+    /// The question that commands robots or writes a file: only a page of this server asks it, for the user of this process.
     fn commands(&self) -> Option<&'static str> {
         None
     }

@@ -18,6 +18,7 @@ mod safety;
 mod security;
 mod sim;
 mod simulate;
+mod site;
 mod sniff;
 mod studio;
 mod validate;

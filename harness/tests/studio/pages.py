@@ -646,11 +646,65 @@ def commanded(studio, folder):
         robot.wait()
 
 
+def site(studio, folder):
+    run("new", folder / "corner")
+    file = folder / "corner/site.toml"
+    before = file.read_text()
+    at = studio("--site", file, "--plan", folder / "corner/plan.toml")
+    page = at.open()
+    chip, said, where = (page.locator(it) for it in ("#chip", "#said", "#at"))
+    expect(said).to_contain_text("plan plan: 2 roles, 2 stages; it fits")
+    at.assert_reached_by_tab(29, "skip", "save", "again", "dot kerb chosen", "dot lane chosen", "dot place chosen", "dot line kerb chosen")
+    # By the mouse, off its lane and back: the check's words at once, and nothing is written that does not fit.
+    dot = page.get_by_role("button", name="place far-lane")
+    centre = lambda: [dot.bounding_box()[it] + 12 for it in ("x", "y")]
+    x, y = centre()
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 30, y - 120, steps=4)
+    expect(where).to_have_text(re.compile(r"^place far-lane: 7\.0\d m east, 9\.0\d m north$"))
+    expect(said).to_contain_text("site.toml:39: place 'far-lane' is for guarding, and on no lane")
+    page.mouse.up()
+    expect(chip).to_have_text("✗ Does not fit")
+    page.click("#save")
+    expect(said).to_contain_text("Not saved.")
+    assert file.read_text() == before
+    at.assert_fits()
+    # By keys alone: a place by the metre, both ends of a kerb by 0.1 m.
+    dot.focus()
+    for _ in range(4):
+        page.keyboard.press("Shift+ArrowDown")
+    expect(said).to_contain_text("it fits")
+    page.get_by_role("button", name="kerb 2", exact=True).focus()
+    page.keyboard.press("ArrowUp")
+    expect(where).to_have_text("kerb 2: -3.00 m east, 7.10 m north; 5.00 m east, 7.10 m north")
+    expect(chip).to_have_text("3 moved, not saved")
+    dot.focus()
+    east, north = re.fullmatch(r"place far-lane: (\S+) m east, (\S+) m north", where.inner_text()).groups()
+    page.focus("#save")
+    page.keyboard.press("Enter")
+    expect(chip).to_have_text("✓ As the file")
+    moved = before.replace("[6.0, 5.0]", f"[{float(east)}, {float(north)}]").replace("[-3.0, 7.0], [5.0, 7.0]", "[-3.0, 7.1], [5.0, 7.1]")
+    assert file.read_text() == moved != before
+    at.assert_clean()
+    # What somebody else writes meanwhile is not lost.
+    file.write_text(before)
+    page.focus("#save")
+    page.keyboard.press("Enter")
+    expect(page.locator("#troubles")).to_contain_text("has changed since this page read it. Nothing was written")
+    assert file.read_text() == before
+    page.click("#again")
+    expect(chip).to_have_text("✓ As the file")
+    dot.focus()
+    expect(where).to_have_text("place far-lane: 6.00 m east, 5.00 m north")
+    expect(page.locator("#troubles")).to_be_empty()
+
+
 def main():
     passed = failed = 0
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
-        for test in (after, opened, report, hostile_log, play, guide, published, explore, live, commanded):
+        for test in (after, opened, report, hostile_log, play, guide, published, explore, live, commanded, site):
             with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as closing:
                 def studio(*arguments):
                     at = Studio(browser, *arguments)

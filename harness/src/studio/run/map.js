@@ -32,7 +32,7 @@ export class StreetMap {
     if (this.street.waiting.some((it) => it.length)) items.push([box("zone"), "waiting zone"]);
     if (this.street.road.some((it) => it.length)) items.push([box("zone-road"), "its part of the road"]);
     if (this.street.places.length) items.push([sample(svg("path", { d: "M11 8h6m-3 -3v6", class: "spot" })), "place of the site"]);
-    items.push([box("corridor"), "escort; filled while the corridor is open"], [sample(svg("circle", { cx: 14, cy: 8, r: 6, class: "goal" })), "commanded place"]);
+    if (this.robots.length) items.push([box("corridor"), "escort; filled while the corridor is open"], [sample(svg("circle", { cx: 14, cy: 8, r: 6, class: "goal" })), "commanded place"]);
     if (this.robots.some((it) => it.waiting.length) || this.street.waiting.length) {
       items.push([box("cluster"), "cluster in RAM"], [sample(svg("rect", { x: 6, y: 4, width: 16, height: 8, class: "car" })), "vehicle, and its way in a second"]);
       for (const [conduct, words] of Object.entries(CONDUCTS)) items.push([sample(this.person(conduct, 14, 8)), words]);
@@ -56,7 +56,7 @@ export class StreetMap {
     const scale = Math.min((width - 2 * MARGIN) / room[0], (HEIGHT - 2 * MARGIN) / room[1]);
     const x = (metres) => width / 2 + (metres - (west + east) / 2) * scale;
     const y = (metres) => HEIGHT / 2 - (metres - (south + north) / 2) * scale;
-    const view = { width, scale, at: ([e, n]) => [x(e), y(n)] };
+    const view = this.view = { width, scale, at: ([e, n]) => [x(e), y(n)] };
     const labels = [];
     // Labels stay clear of all bodies.
     view.bodies = moment.robots.flatMap((robot) => robot.body ? [view.at(robot.body.place)] : []);
