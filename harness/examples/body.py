@@ -15,7 +15,8 @@ while True:
         text, heard = text + octets, time.monotonic()
         if not octets: sys.exit("the robot has closed the port")
     except socket.timeout: pass
-    if time.monotonic() - heard > 0.5: target = None  # the robot is silent: stand still
+    if target and time.monotonic() - heard > 0.5:  # the robot is silent: stand still, and say what that ends
+        target, done = None, done and done[1] and say("failed", **done[1])
     *lines, text = text.split(b"\n")
     for line in map(json.loads, lines):
         if line["type"] not in ("beat", "release"): waits = line["type"] == "wait"

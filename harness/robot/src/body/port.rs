@@ -350,6 +350,11 @@ impl Body for Ported {
         self.known_s = (self.known_s - seconds).max(0.0);
         self.silent_s += seconds;
         self.beat_s += seconds;
+        let silence_s = self.port.silence.as_secs_f64();
+        // The robot was held, and with it what it says. The body stands still by its own rule, and may not say so.
+        if self.presence == Presence::Here && self.beat_s > silence_s {
+            self.lose("the body was told nothing, so it stands still");
+        }
         let heard = self.listening.heard.try_iter().take(LINES_AT_A_TIME);
         let heard: Vec<_> = heard.collect();
         // The time before the first of these turns is not the body's: the robot may have been suspended.
@@ -358,7 +363,6 @@ impl Body for Ported {
         for heard in heard {
             self.hear(heard);
         }
-        let silence_s = self.port.silence.as_secs_f64();
         if self.stream.is_some() && self.silent_s > silence_s {
             self.lose("nothing was heard of the body");
         }

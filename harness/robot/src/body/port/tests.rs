@@ -150,6 +150,22 @@ fn a_body_is_told_to_wait_and_to_go_on_in_its_maneuver() {
     assert!(body.act(BodyAct::GoOn).is_err());
 }
 
+/// Hazard: a robot hangs and goes on while its escort is on the way. The body has stood still meanwhile, and the person crosses alone
+/// under go, since the maneuver seems to run.
+#[test]
+fn a_body_that_was_told_nothing_for_so_long_is_lost_although_it_says_that_it_is_there() {
+    for (held_s, lost) in [
+        (0.4, None),
+        (0.6, Some(silent("was told nothing, so it stands still"))),
+    ] {
+        let (mut body, tell, _other) = open_by_hand();
+        assert_eq!(body.advance(0.1), []);
+        tell.send(Heard::Line(0, r#"{"type": "beat"}"#.to_owned()))
+            .unwrap();
+        assert_eq!(body.advance(held_s).into_iter().next(), lost, "{held_s}");
+    }
+}
+
 /// A body that is there, and what the port hears of it from now on, by hand.
 fn open_by_hand() -> (Ported, SyncSender<Heard>, UnixStream) {
     let (mut body, other, _) = open(HELLO);
