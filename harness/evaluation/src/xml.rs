@@ -84,6 +84,12 @@ impl Element<'_> {
     }
 }
 
+/// The longest element, comment or text between elements, in octets.
+const EVENT_MAX: u64 = 1 << 20;
+
+/// How many elements may be in one another.
+const DEPTH_MAX: u32 = 64;
+
 /// Calls `each` for every element below the root, which has this name.
 pub(super) fn elements(
     from: impl Read,
@@ -97,12 +103,25 @@ pub(super) fn elements(
     } else {
         Box::new(from)
     };
-    let mut reader = Reader::from_reader(from);
+    // Without limits, a device without an end or a small packed file fills the memory.
+    let mut reader = Reader::from_reader(from.take(EVENT_MAX));
     let (mut buffer, mut depth, mut is_whole) = (Vec::new(), 0_u32, false);
     loop {
         buffer.clear();
+        reader.get_mut().set_limit(EVENT_MAX);
         let event = reader.read_event_into(&mut buffer);
         let at = reader.buffer_position();
+        let too_much = match reader.get_ref().limit() {
+            0 => Some(format!(
+                "an element or a text of more than {EVENT_MAX} octets"
+            )),
+            _ => (depth > DEPTH_MAX)
+                .then(|| format!("more than {DEPTH_MAX} elements in one another")),
+        };
+        if let Some(what) = too_much {
+            let why = format!("has {what} at octet {at}: a file that SUMO wrote is wanted");
+            return Err(SumoFileError::Root(why));
+        }
         let event = event.map_err(|cause| SumoFileError::NotXml { at, cause })?;
         if let Event::Start(start) | Event::Empty(start) = &event {
             let element = Element { start, at };
@@ -126,6 +145,30 @@ pub(super) fn elements(
                 return Err(SumoFileError::Root(why));
             }
             _ => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Hazard: a small packed file, or a device without an end, takes all the memory of the machine.
+    #[test]
+    fn what_has_no_end_is_refused() {
+        let text = std::io::repeat(b'a').take(1 << 30);
+        let name = b"<".chain(std::io::repeat(b'a'));
+        let nested = format!("<net>{}", "<a>".repeat(1 << 10));
+        for from in [
+            &mut b"<net>".chain(text) as &mut dyn Read,
+            &mut { name },
+            &mut nested.as_bytes(),
+        ] {
+            let error = elements(from, "net", |_| Ok(())).unwrap_err().to_string();
+            assert!(
+                error.contains(" of more than ") || error.contains("in one another"),
+                "{error}"
+            );
         }
     }
 }

@@ -7,6 +7,8 @@ mod reader;
 pub use reader::{Captured, NoCapture, read};
 
 use std::fs::File;
+use std::io;
+use std::os::unix::fs::OpenOptionsExt as _;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -15,6 +17,8 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use crossguard_codec::geonet::ethernet;
 use crossguard_endpoint::station::listen::link_layer_of;
+use nix::errno::Errno;
+use nix::fcntl::{FcntlArg, OFlag, fcntl};
 use pcap_file::PcapError;
 use pcap_file::pcap::{PcapPacket, PcapWriter};
 
@@ -57,6 +61,22 @@ pub enum Incomplete {
     Stuck,
 }
 
+/// Creates a file, or opens a FIFO that is read: nobody waits for its reader.
+fn create(path: &Path) -> io::Result<File> {
+    let mut options = File::options();
+    let options = options.write(true).create(true).truncate(true);
+    let opened = options.custom_flags(OFlag::O_NONBLOCK.bits()).open(path);
+    let file = opened.map_err(|error| match error.raw_os_error() {
+        Some(errno) if errno == Errno::ENXIO as i32 => io::Error::new(
+            error.kind(),
+            "nobody reads this FIFO: start its reader first",
+        ),
+        _ => error,
+    })?;
+    fcntl(&file, FcntlArg::F_SETFL(OFlag::empty()))?;
+    Ok(file)
+}
+
 impl Capture {
     /// Creates the file.
     ///
@@ -64,7 +84,7 @@ impl Capture {
     /// When it cannot be created or written to.
     pub fn create(path: &Path) -> Result<Self, PcapError> {
         // Without a buffer, so that nothing is missing when the process is killed.
-        let writer = PcapWriter::new(File::create(path).map_err(PcapError::IoError)?)?;
+        let writer = PcapWriter::new(create(path).map_err(PcapError::IoError)?)?;
         let (items, queue) = sync_channel(WAITING);
         std::thread::spawn(move || write(writer, &queue));
         Ok(Self {
@@ -186,7 +206,29 @@ impl Receiver for RecordingReceiver {
 
 #[cfg(test)]
 mod tests {
+    use nix::sys::stat::Mode;
+    use nix::unistd::mkfifo;
+
     use super::*;
+
+    /// Hazard: a robot that waits for the reader of its capture does not start, and nobody is told why.
+    #[test]
+    fn nobody_waits_for_the_reader_of_a_fifo() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("some.pcap");
+        mkfifo(&path, Mode::S_IRWXU).unwrap();
+        let refused = create(&path).unwrap_err().to_string();
+        assert!(refused.contains("nobody reads this FIFO"), "{refused}");
+        let nonblocking = OFlag::O_NONBLOCK.bits();
+        let _reader = File::options()
+            .read(true)
+            .custom_flags(nonblocking)
+            .open(&path)
+            .unwrap();
+        let capture = Capture::create(&path).unwrap();
+        capture.record(&[0x11; 60]);
+        capture.finish().unwrap();
+    }
 
     #[test]
     fn what_is_recorded_can_be_read_again() {

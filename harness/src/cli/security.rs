@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 #[cfg(feature = "full")]
 use crossguard_codec::Identifiers;
-use crossguard_codec::security::Time64;
+use crossguard_codec::security::{Time64, Unsigned};
 use crossguard_endpoint::station::{Credentials, Mode, Security};
 use crossguard_robot::pki;
 use crossguard_robot::transport::Link;
@@ -107,7 +107,13 @@ impl SecurityArguments {
         let period_ms = u64::from(self.pseudonym_period) * 1_000;
         let period_ms = (period_ms > 0).then_some(period_ms);
         let now: Time64 = pki::now();
-        Security::new(self.security, credentials, period_ms, now).map_err(Failure::input)
+        let security = Security::new(self.security, credentials, period_ms, now);
+        security.map_err(|error| match error {
+            Unsigned::NoValidTicket => Failure::Input(format!(
+                "{error}: if the clock of this machine is right, 'crossguard pki tickets' makes new ones"
+            )),
+            error => Failure::input(error),
+        })
     }
 }
 

@@ -5,6 +5,7 @@ use std::io::BufRead;
 
 use super::{Entry, Record};
 use crate::lines::{LineError, read_line};
+use crate::perception;
 
 /// How long a record is held back for one that is late in its log, in µs.
 pub const HELD_US: u64 = 1_000_000;
@@ -29,6 +30,11 @@ pub enum Unreadable {
     /// It holds nothing.
     #[error("there is nothing in this log")]
     Empty,
+    /// Its first line is what a sensor saw.
+    #[error(
+        "is a frame of a sensor, and no record: this file is for --perceived; give the logs alone"
+    )]
+    Frames,
     /// A line is no record.
     #[error("is not a record: {0}")]
     NotARecord(serde_json::Error),
@@ -96,6 +102,11 @@ impl<'a> Records<'a> {
         let record = match serde_json::from_slice::<Record>(&text) {
             Ok(record) => record,
             Err(_) if !text.ends_with(b"\n") && self.line > 1 => return Ok(None),
+            Err(_)
+                if self.line == 1 && perception::parse(&String::from_utf8_lossy(&text)).is_ok() =>
+            {
+                return Err(Unreadable::Frames);
+            }
             Err(cause) => return Err(Unreadable::NotARecord(cause)),
         };
         self.follow_clock(&record);
@@ -343,6 +354,15 @@ mod tests {
         assert!(error.starts_with("a, line 2: is not a record"), "{error}");
         assert_eq!(broken.take().unwrap().unwrap().record.robot, "ARI");
         assert!(broken.take().unwrap().is_none());
+        let frames = Box::new(br#"{"at_s": 0.0, "people": []}"#.as_slice());
+        let name = "people.jsonl".to_owned();
+        let frames = Merged::new(vec![Log {
+            name,
+            lines: frames,
+        }])
+        .err();
+        let error = frames.unwrap().to_string();
+        assert!(error.contains("is a frame of a sensor"), "{error}");
         let empty = Merged::new(vec![log(&[])]).err().unwrap().to_string();
         assert_eq!(empty, "some.jsonl, line 1: there is nothing in this log");
     }
