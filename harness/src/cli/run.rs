@@ -40,7 +40,6 @@ use crossguard_robot::perception::{Announced, Feed};
 use crossguard_robot::port::{self, Listening};
 use crossguard_robot::robot_file::{Besides, RobotFile};
 use crossguard_robot::runtime::{Order, Panicked, Running};
-use crossguard_robot::street::Road;
 use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Faults, Halves, Link, Reopening, Transport, WithFaults};
 use drops::Drops;
@@ -158,13 +157,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let read = read.into_iter().flatten().chain([config, &file.boot_file]);
     let written = [&arguments.log, &arguments.pcap].into_iter().flatten();
     destinations::others(written, read)?;
-    if matches!(file.road(), Road::Unknown) {
-        super::complain(format_args!(
-            "warning: the site of {} has no kerbs_m, so it does not know where the carriageway is: it steps on it in front of \
-             vehicles, and does not leave it by itself; say kerbs_m in the site file, or road_m in [zone]",
-            file.name
-        ));
-    }
+    output::warn_of_no_road(&file);
     if arguments.check {
         return print(can_be_run(config, &file));
     }

@@ -7,6 +7,8 @@ use std::sync::mpsc::Receiver;
 
 use crossguard_endpoint::cause::Cause;
 use crossguard_robot::journal::{Journal, RECORDS, WhenFull};
+use crossguard_robot::robot_file::RobotFile;
+use crossguard_robot::street::Road;
 use crossguard_robot::trace::{self, LogFile, LogLimits, Record};
 
 use super::super::Failure;
@@ -95,4 +97,15 @@ fn to_stdout(records: Receiver<Arc<Record>>) -> Writing {
         write,
         Stdout::flush,
     )
+}
+
+/// Says on standard error that a robot does not know where its carriageway is.
+pub(super) fn warn_of_no_road(file: &RobotFile) {
+    if matches!(file.road(), Road::Unknown) {
+        complain(format_args!(
+            "warning: the site of {} has no kerbs_m, so it does not know where the carriageway is: it steps on it in front of \
+             vehicles, and does not leave it by itself; say kerbs_m in the site file, or road_m in [zone]",
+            file.name
+        ));
+    }
 }
