@@ -148,11 +148,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return all::run(arguments.all.as_deref().unwrap_or(Path::new(".")));
     };
     destinations::files([&arguments.log, &arguments.pcap])?;
-    let besides = Besides {
-        site_file: arguments.site.as_deref(),
-        plan_file: arguments.plan.as_deref(),
-    };
-    let file = RobotFile::read_with(config, besides).map_err(Failure::input)?;
+    let file = RobotFile::read_with(config, besides(arguments));
+    let file = file.map_err(Failure::input)?;
     let read = [&arguments.site, &arguments.plan, &arguments.perceived];
     let read = read.into_iter().flatten().chain([config, &file.boot_file]);
     let written = [&arguments.log, &arguments.pcap].into_iter().flatten();
@@ -243,6 +240,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     });
     // The worst comes first.
     ended.and(outcome).and(captured).and(written)
+}
+
+fn besides(arguments: &Arguments) -> Besides<'_> {
+    Besides {
+        site_file: arguments.site.as_deref(),
+        plan_file: arguments.plan.as_deref(),
+    }
 }
 
 /// The operator port, open, and the records for it.
