@@ -256,6 +256,10 @@ impl<const N: usize> Crossing<N> {
     }
 
     fn elapse(&mut self, setup: &Setup, time: Millis, out: &mut Outputs) {
+        // A robot without sensors learns by the end of its part alone that somebody who was lost on the road has left it.
+        if !self.occupancy.has_sources() && self.standing == Standing::Free {
+            self.tracks.resolve();
+        }
         self.tracks.elapse(setup, time, self.sign > Millis::ZERO);
         self.occupancy.elapse(setup, time);
         self.traffic.elapse(setup, time);

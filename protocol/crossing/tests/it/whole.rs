@@ -363,6 +363,24 @@ fn a_robot_without_a_part_leaves_the_road_unless_somebody_is_on_it() {
     assert_eq!(team.robots[1].body.at, home);
 }
 
+/// Hazard: the sensor of the leader stalls while somebody is on the road. A guard without sensors stands on the lane for ever, and
+/// an escort waits in the middle of each later crossing.
+#[test]
+fn a_robot_without_sensors_leaves_the_road_when_nobody_reports_the_person_any_more() {
+    let mut team = blocking();
+    team.robots[1].sees = false;
+    team.pass_until("go", Team::shows_go);
+    team.hear(1, Input::Heard(person(2, 300, 300), Millis(0)));
+    walk_across(&mut team);
+    let is_released = |team: &Team| team.is_idle() && is_on_road(&team.robots[1].body);
+    team.pass_until("idle", is_released);
+    team.robots[0].setup.calls = false;
+    let home = Point::new(-100, -150);
+    team.robots[1].setup.home = Some(home);
+    team.pass(10_000);
+    assert_eq!(team.robots[1].body.at, home);
+}
+
 /// Hazard I: a car at 50 km/h, 16 m away.
 #[test]
 fn go_does_not_begin_in_front_of_a_car_and_ends_before_one() {
