@@ -22,6 +22,7 @@ mod destinations;
 mod etsi;
 #[cfg(feature = "full")]
 mod export;
+mod fsm;
 #[cfg(feature = "full")]
 mod full;
 #[cfg(feature = "full")]
@@ -102,6 +103,8 @@ enum Command {
     Check(check::Arguments),
     /// Print how long each response takes at most, with a robot's own settings.
     Bounds(bounds::Arguments),
+    /// Print the state diagram of the protocol in Mermaid, drawn from what the transition function does.
+    Fsm(fsm::Arguments),
     /// Check the site of a crossing, and a plan on it.
     #[command(subcommand)]
     Site(site::Command),
@@ -173,6 +176,7 @@ pub fn main(version: &'static str) -> ExitCode {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Bounds(arguments) => bounds::run(&arguments),
+        Command::Fsm(arguments) => fsm::run(&arguments),
         Command::Site(command) => site::run(&command),
         #[cfg(feature = "full")]
         Command::Other(command) => full::carry_out(command),

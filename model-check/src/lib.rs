@@ -36,7 +36,8 @@
 //! - [`sequence`] draws counterexamples, [`replay`] follows them again, [`walk`] goes through a scenario step by
 //!   step.
 //! - [`model::portable`] takes states from one process to another, for `crossguard-workers`.
-//! - [`monitor`] judges running robots by the same rules.
+//! - [`monitor`] judges running robots by the same rules; [`universe`], [`transitions`] and [`fsm`] are one
+//!   robot against everything, and the diagram of that.
 //! - [`paper`] is the paper's text as it stands, which fails.
 //!
 //! There are no features. In WebAssembly, which stateright is not made for, [`walk`] and what it needs are there: no check, no
@@ -62,6 +63,7 @@ mod exploration;
 mod explore;
 pub mod fair;
 mod fairness;
+pub mod fsm;
 mod held;
 pub mod history;
 mod intern;
@@ -93,7 +95,9 @@ mod store;
 pub mod subject;
 pub mod symmetry;
 pub mod timed;
+pub mod transitions;
 mod transmission;
+pub mod universe;
 pub mod utterances;
 pub mod walk;
 

@@ -3,8 +3,8 @@
 use std::fmt;
 
 use crossguard_protocol::{
-    Config, Event, Input, ManeuverId, Millis, Output, Outputs, Phase, Renaming, Robot, StationId,
-    Timer,
+    Config, Corridor, Event, Identity, Input, ManeuverId, Millis, Output, Outputs, Phase, Renaming,
+    Robot, StationId, Timer,
 };
 
 use serde::{Deserialize, Serialize};
@@ -192,6 +192,23 @@ impl Node {
         robot.is_some_and(|robot| {
             matches!(robot.phase(), Phase::Following(following) if following.contact.is_lost())
         })
+    }
+
+    /// Whether what the body does is what the protocol state says.
+    #[must_use]
+    pub fn actuation_agrees(&self) -> bool {
+        let (mut running, mut corridor_open, mut identity_locked) = (None, false, false);
+        if let Some(robot) = &self.robot {
+            match robot.phase() {
+                Phase::Following(following) => running = following.executing().map(|m| m.id),
+                Phase::Leading(leading) => corridor_open = leading.corridor == Corridor::Open,
+                Phase::Idle | Phase::Requesting(_) | Phase::Offering(_) => {}
+            }
+            identity_locked = robot.identity() != Identity::Unlocked;
+        }
+        self.actuation.running() == running
+            && self.actuation.corridor_open == corridor_open
+            && self.actuation.identity_locked == identity_locked
     }
 
     /// The node without its durations: every armed timer has 1 ms left. Which timers are armed

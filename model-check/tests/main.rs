@@ -12,7 +12,6 @@ mod safety;
 mod scenario_files;
 mod scenarios;
 mod spin;
-mod state_diagram;
 mod symmetry;
 #[path = "theorem/main.rs"]
 mod theorem;

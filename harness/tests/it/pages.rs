@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
 use crossguard_model_check::scenario::Scenario;
+use crossguard_testkit::command::*;
 use indicatif::HumanCount;
 
 fn repository() -> PathBuf {
@@ -168,6 +169,15 @@ fn the_commands_that_pages_tell_to_type_can_be_typed() {
         }
     }
     assert!(typed > 40, "{typed}");
+}
+
+#[test]
+fn the_state_diagram_of_the_protocols_page_is_the_one_that_the_code_makes() {
+    let diagram = stdout(&run_line("fsm"));
+    let (path, page) = read("protocol/doc/protocol.md");
+    let (head, rest) = page.split_once("```mermaid\n").expect("a diagram");
+    let (_, tail) = rest.split_once("```").expect("it ends");
+    assert_is(&path, &format!("{head}```mermaid\n{diagram}```{tail}"));
 }
 
 fn read(page: &str) -> (PathBuf, String) {
