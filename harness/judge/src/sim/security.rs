@@ -4,12 +4,11 @@ use std::sync::OnceLock;
 
 use crossguard_codec::Identifiers;
 use crossguard_codec::security::{PrivateKey, Time64};
-use crossguard_codec::si::timestamp_its;
 use crossguard_endpoint::station::{Mode, Secret, Security};
 use crossguard_protocol::StationId;
 use crossguard_robot::pki::Pki;
 
-use super::world::EPOCH_UNIX_MS;
+use super::world::timestamp_at;
 
 /// How many pseudonyms a robot has.
 const TICKETS: usize = 2;
@@ -32,10 +31,7 @@ fn keys(first: usize) -> impl FnMut() -> PrivateKey {
 pub(super) fn of(place: usize, station: StationId, now_ms: u64) -> Security {
     static PKI: OnceLock<Pki> = OnceLock::new();
     let identifiers = Identifiers::default();
-    let at = |ms: u64| {
-        let ms = i64::try_from(ms).unwrap_or(i64::MAX);
-        Time64::of_timestamp_its(timestamp_its(EPOCH_UNIX_MS + ms))
-    };
+    let at = |ms: u64| Time64::of_timestamp_its(timestamp_at(ms));
     let pki = PKI.get_or_init(|| {
         Pki::with_keys(&identifiers, at(0), &mut keys(1)).expect("these are certificates")
     });

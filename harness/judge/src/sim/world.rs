@@ -49,7 +49,12 @@ use super::swarm::{HEALED_DELAY_MS, Hazard, RobotDraw, Swarm};
 use super::times::{Judged, Measure, Times, Worst};
 
 /// When runs begin, in milliseconds since 1970: 2026-01-01. Any moment does.
-pub(super) const EPOCH_UNIX_MS: i64 = 1_767_225_600_000;
+const EPOCH_UNIX_MS: i64 = 1_767_225_600_000;
+
+/// The timestamp of messages, in ms since 2004, so many ms after a run began.
+pub(super) fn timestamp_at(since_ms: u64) -> u64 {
+    timestamp_its(EPOCH_UNIX_MS + i64::try_from(since_ms).unwrap_or(i64::MAX))
+}
 
 /// How long after the network was healed, and a crossing was to be completed, all robots are at rest at the
 /// latest: a leader gives up after its patience of 40 s, and what it has set off takes as long again.
@@ -504,11 +509,10 @@ impl<'a> World<'a> {
             return Ok(());
         };
         let shows_us = seat.clock.shows_us(self.now_us);
-        // That of satellites, whatever the robot's own clock does.
-        let since_ms = i64::try_from(self.now_us / 1_000).unwrap_or(i64::MAX);
+        // The timestamp is that of satellites, whatever the robot's own clock does.
         let moment = Moment {
             now_ms: shows_us / 1_000,
-            timestamp_its: timestamp_its(EPOCH_UNIX_MS + since_ms),
+            timestamp_its: timestamp_at(self.now_us / 1_000),
         };
         #[expect(clippy::cast_precision_loss, reason = "runs take minutes")]
         let now_s = shows_us as f64 / 1e6;

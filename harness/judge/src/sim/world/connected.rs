@@ -3,7 +3,6 @@
 use std::rc::Rc;
 
 use crossguard_codec::geonet::{EgoPosition, Stack};
-use crossguard_codec::si::timestamp_its;
 use crossguard_codec::{Heard, Identity, Kind, RoadUser, RobotState, Service};
 use crossguard_endpoint::Stimulus;
 use crossguard_endpoint::station::LocalDynamicMap;
@@ -13,7 +12,7 @@ use crossguard_robot::site::Place;
 use rand::Rng;
 
 use super::flow::{STOP_M, Sent};
-use super::{EPOCH_UNIX_MS, Finding, World};
+use super::{Finding, World, timestamp_at};
 use crate::sim::place::along_m;
 use crate::sim::swarm::Demand;
 
@@ -147,8 +146,7 @@ impl World<'_> {
         let Some(site) = self.seats.first().map(|seat| seat.draw.plan.site) else {
             return;
         };
-        let since_ms = i64::try_from(self.now_us / 1_000).unwrap_or(i64::MAX);
-        let now_its = timestamp_its(EPOCH_UNIX_MS + since_ms);
+        let now_its = timestamp_at(self.now_us / 1_000);
         for at in 0..self.flow.drivers.len() {
             let driver = &mut self.flow.drivers[at];
             let asked = driver.connection.as_mut().and_then(|it| it.asked.take());

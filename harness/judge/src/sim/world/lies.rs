@@ -2,12 +2,11 @@
 
 use std::rc::Rc;
 
-use crossguard_codec::si::timestamp_its;
 use crossguard_endpoint::Moment;
 use crossguard_endpoint::station::Security;
 use crossguard_protocol::{Phase, StationId};
 
-use super::{EPOCH_UNIX_MS, Next, World};
+use super::{Next, World, timestamp_at};
 use crate::sim::insider::Insider;
 use crate::sim::security;
 use crate::sim::swarm::Swarm;
@@ -44,10 +43,9 @@ impl World<'_> {
     fn say(&mut self, insider: &mut Insider) {
         let seat = &self.seats[insider.hearer(self.seats.len())];
         let Some(machine) = &seat.machine else { return };
-        let since_ms = i64::try_from(self.now_us / 1_000).unwrap_or(i64::MAX);
         let moment = Moment {
             now_ms: self.now_us / 1_000,
-            timestamp_its: timestamp_its(EPOCH_UNIX_MS + since_ms),
+            timestamp_its: timestamp_at(self.now_us / 1_000),
         };
         let (hearer, request) = (machine.endpoint().robot(), seat.draw.plan.request());
         let packets = insider.lie(moment, hearer, &seat.draw.config, request);

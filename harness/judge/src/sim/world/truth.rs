@@ -158,8 +158,7 @@ impl World<'_> {
         let demand = self.swarm.demand.as_ref();
         let asks_s = demand.map_or(0.0, |it| it.habits.asks_vehicles_s);
         let soon = self.flow.drivers.iter().filter(move |it| {
-            let heard_us = self.seats[place].heard_us.get(&it.number);
-            heard_us.is_some_and(|at_us| self.now_us - at_us <= HEARD_US)
+            self.has_heard(place, it.number)
                 && it.speed_mps > MOVES_MPS
                 && (0.0..it.speed_mps * (0.8 * asks_s - 1.0)).contains(&-it.front_m)
         });
@@ -169,12 +168,15 @@ impl World<'_> {
         })
     }
 
+    /// Whether a robot has heard a vehicle lately.
+    fn has_heard(&self, place: usize, number: usize) -> bool {
+        let heard_us = self.seats[place].heard_us.get(&number);
+        heard_us.is_some_and(|at_us| self.now_us - at_us <= HEARD_US)
+    }
+
     /// How far each vehicle that a robot has heard lately is before the crossing, in metres, and how fast it is, in m/s.
     fn vehicles_heard(&self, place: usize) -> impl Iterator<Item = [f64; 2]> {
-        let is_heard = move |number: &usize| {
-            let heard = self.seats[place].heard_us.get(number);
-            heard.is_some_and(|at_us| self.now_us - at_us <= HEARD_US)
-        };
+        let is_heard = move |number: &usize| self.has_heard(place, *number);
         let cars = self.swarm.sensing.iter().flat_map(|it| it.cars.iter());
         let cars = cars.enumerate().filter(move |(number, _)| is_heard(number));
         let cars = cars.map(move |(_, car)| {
