@@ -1,4 +1,4 @@
-//! Who is around a robot, in few numbers: its local dynamic map as logs, status lines and metrics have it.
+//! Who is around a robot, in few numbers: its local dynamic map as logs, `status` and metrics have it.
 
 use std::fmt::{self, Display, Formatter};
 

@@ -1,4 +1,4 @@
-//! A running robot at a glance, for who types `status` and for Prometheus.
+//! A running robot at a glance, for a person who types `status` and for Prometheus.
 
 use std::net::{Ipv4Addr, SocketAddr};
 
