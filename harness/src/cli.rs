@@ -66,11 +66,15 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use crossguard_protocol::Config;
+#[cfg(feature = "full")]
 use crossguard_robot::capture::Capture;
 use crossguard_robot::perception::Feed;
+#[cfg(feature = "full")]
 use crossguard_robot::robot_file::RobotFile;
 use crossguard_robot::trace::Log;
 use printable::{Printable, printable_json};
+#[cfg(not(feature = "full"))]
+use small::read_config;
 use writing::{complain, finish_complaints};
 
 /// A formally verified coordination kit for robots that work as crossing guards in V2X traffic.
@@ -216,6 +220,7 @@ fn open_logs(paths: &[PathBuf]) -> Result<Vec<Log<'static>>, Failure> {
 }
 
 /// Creates a file for packets, if there is to be one.
+#[cfg(feature = "full")]
 fn create_capture(path: Option<&Path>) -> Result<Option<Capture>, Failure> {
     let Some(path) = path else { return Ok(None) };
     destinations::file(path)?;
@@ -230,6 +235,7 @@ fn cause(error: &dyn std::error::Error) -> String {
 }
 
 /// Looks whether every packet was written to this file, and tells why not.
+#[cfg(feature = "full")]
 fn finish_capture(path: Option<&Path>, capture: Option<Capture>) -> Result<(), Failure> {
     if let (Some(path), Some(Err(error))) = (path, capture.map(Capture::finish)) {
         let (path, why) = (path.display(), cause(&error));
@@ -241,9 +247,13 @@ fn finish_capture(path: Option<&Path>, capture: Option<Capture>) -> Result<(), F
 
 /// The protocol's configuration in a robot's file; the default one without a file.
 fn config_or_default(file: Option<&Path>) -> Result<Config, Failure> {
-    let file = file.map(RobotFile::read).transpose();
-    let file = file.map_err(Failure::input)?;
-    Ok(file.map(|file| file.config).unwrap_or_default())
+    file.map_or_else(|| Ok(Config::default()), read_config)
+}
+
+#[cfg(feature = "full")]
+fn read_config(file: &Path) -> Result<Config, Failure> {
+    let file = RobotFile::read(file).map_err(Failure::input)?;
+    Ok(file.config)
 }
 
 /// Opens a file of people that sensors report.

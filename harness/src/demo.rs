@@ -32,6 +32,7 @@ use crossguard_judge::validate::{self, Validated};
 use crossguard_robot::application::Application;
 use crossguard_robot::body::Simulated;
 use crossguard_robot::boot::Boot;
+#[cfg(feature = "full")]
 use crossguard_robot::capture::Capture;
 use crossguard_robot::journal::{Journal, WhenFull};
 use crossguard_robot::machine::is_at_rest;
@@ -71,6 +72,7 @@ pub struct Options {
     /// The security of each participant, in their order; off for those beyond the list.
     pub security: Vec<Security>,
     /// Where packets are recorded.
+    #[cfg(feature = "full")]
     pub capture: Option<Capture>,
     /// People that the robots' sensors report.
     pub perceived: Option<Feed>,

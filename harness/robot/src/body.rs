@@ -8,6 +8,7 @@
 //! [`Simulated`] walks to targets by itself, [`Ported`] is another process, by lines on a socket. An act that a body does not
 //! take is a fault that the robot announces.
 
+#[cfg(feature = "full")]
 mod port;
 mod simulated;
 
@@ -21,6 +22,7 @@ use crossguard_endpoint::cause::Cause;
 use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId, StopReason};
 use serde::{Deserialize, Serialize};
 
+#[cfg(feature = "full")]
 pub use self::port::{BodyPort, Ported, VERSION as PORT_VERSION};
 pub use self::simulated::Simulated;
 use crate::site::{Place, Site};

@@ -27,6 +27,7 @@ pub mod around;
 pub mod attachment;
 pub mod body;
 pub mod boot;
+#[cfg(feature = "full")]
 pub mod capture;
 pub mod channel;
 pub mod clock;
@@ -35,12 +36,15 @@ pub mod journal;
 pub mod lines;
 mod located;
 pub mod machine;
+#[cfg(feature = "full")]
 pub mod operator;
 pub mod perception;
 pub mod pki;
 pub mod plan;
 pub mod plan_file;
+#[cfg(feature = "full")]
 pub mod port;
+#[cfg(feature = "full")]
 pub mod robot_file;
 pub mod runtime;
 pub mod sight;

@@ -10,9 +10,6 @@ use serde::{Deserialize, Deserializer};
 use crate::files;
 use crate::site::Place;
 
-/// Farthest place that a body says, in metres.
-const METRES_MAX: f64 = 1e5;
-
 /// Farthest place of a configuration from the origin of its site, in metres: the crossing is there, and nobody has to do
 /// with it from farther off.
 pub(crate) const NEAR_M: f64 = 1_000.0;
@@ -169,11 +166,6 @@ pub(crate) fn place_at<T>(
 /// Whether a place of a configuration is near the origin of its site.
 pub(crate) fn is_near(place: [f64; 2]) -> bool {
     place.iter().all(|metres| metres.abs() <= NEAR_M)
-}
-
-/// Whether a body can be at a place.
-pub(crate) fn is_on_site(place: [f64; 2]) -> bool {
-    place.iter().all(|metres| metres.abs() <= METRES_MAX)
 }
 
 /// A number within a range.

@@ -29,7 +29,7 @@ use crate::plan_file::PlanFile;
 use crate::port::{NoAddress, PortAddress};
 use crate::runtime::Setup;
 use crate::site::{CrossingReference, NoCrossing, NoOrigin, Place, Site};
-use crate::site_file::{SiteFile, outline};
+use crate::site_file::SiteFile;
 use crate::street::{Road, Street};
 use crate::transport::{Halves, Link};
 use crate::zone::Zone;
@@ -40,7 +40,7 @@ use self::link::LinkTable;
 use self::traits::{BatteryTable, JobName};
 pub use self::traits::{NoTraits, job_named};
 pub use self::zone::NoZone;
-use self::zone::ZoneTable;
+use self::zone::{ZoneTable, outline};
 
 /// A robot's configuration, checked.
 #[derive(Clone, Debug)]

@@ -34,7 +34,8 @@ mod carriageway;
 mod draft;
 
 pub use carriageway::Carriageway;
-pub(crate) use carriageway::{between, outline};
+#[cfg(feature = "full")]
+pub(crate) use carriageway::between;
 pub use draft::Draft;
 use draft::Points;
 

@@ -167,7 +167,11 @@ fn lines(chart: &mut Chart, first: &str, seen: Seen<'_>) -> Vec<String> {
 /// Whether these options can be had of this scenario.
 fn check(arguments: &Arguments, scenario: &Scenario) -> Result<(), Failure> {
     #[cfg(not(feature = "full"))]
-    if arguments.report.is_some() || arguments.etsi.are_given() || scenario.car().is_some() {
+    if arguments.report.is_some()
+        || arguments.pcap.is_some()
+        || arguments.etsi.are_given()
+        || scenario.car().is_some()
+    {
         return Err(super::small::build_all());
     }
     let is_signed = arguments.security.mode() != Mode::Off;
@@ -203,6 +207,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         port: arguments.port,
         security_mode: arguments.security.mode(),
         security: arguments.security.of_robots(&names)?,
+        #[cfg(feature = "full")]
         capture: super::create_capture(arguments.pcap.as_deref())?,
         perceived: super::open_feed(arguments.perceived.as_deref())?,
         awareness: arguments.etsi.add_to(Awareness::default()),
@@ -261,12 +266,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (None, None) if !arguments.json => print(NEXT),
         _ => Ok(()),
     });
-    let captured = super::finish_capture(arguments.pcap.as_deref(), options.capture);
+    #[cfg(feature = "full")]
+    let told = told.and(super::finish_capture(
+        arguments.pcap.as_deref(),
+        options.capture,
+    ));
     let written = match &arguments.report {
         Some(path) => write_page(path, options.scenario.street(), &log, arguments.json),
         None => Ok(()),
     };
-    told.and(captured).and(written)?;
+    told.and(written)?;
     if log_file.is_some_and(|file| file.has_failed) || outcome.stopped && outcome.trace_valid {
         Err(Failure::Incomplete)
     } else if outcome.succeeded() {

@@ -5,6 +5,7 @@ use std::os::unix::process::CommandExt;
 use std::path::Path;
 use std::process::Command;
 
+use crossguard_protocol::Config;
 use crossguard_robot::site_file::SiteFile;
 
 use super::{Failure, complain};
@@ -13,6 +14,11 @@ use super::{Failure, complain};
 #[expect(clippy::unnecessary_wraps, reason = "as in a full build")]
 pub(super) fn write_page(_: &Path, _: &SiteFile, _: &[u8], _: bool) -> Result<(), Failure> {
     Ok(())
+}
+
+/// Robot files are read by all of the command.
+pub(super) fn read_config(_: &Path) -> Result<Config, Failure> {
+    Err(build_all())
 }
 
 /// Starts the same command with all that it has, and returns only when that is impossible.

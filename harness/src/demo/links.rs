@@ -57,10 +57,12 @@ fn open(options: &Options, first: u16, robots: usize) -> Result<Vec<Halves>, Lin
         };
         let seed = options.seed.wrapping_add(seed);
         let halves = WithFaults::new(link, options.faults.clone(), seed).open()?;
-        Ok(match &options.capture {
+        #[cfg(feature = "full")]
+        let halves = match &options.capture {
             Some(capture) => capture.of_sent(halves),
             None => halves,
-        })
+        };
+        Ok(halves)
     };
     addresses.iter().zip(100..).map(open).collect()
 }

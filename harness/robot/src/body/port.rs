@@ -23,9 +23,11 @@ use crossguard_protocol::{FallbackPolicy, Maneuver, TaskSet};
 pub use self::lines::VERSION;
 use self::lines::{At, FromBody, Start, ToBody, policy};
 use super::{Body, BodyAct, Build, Fallback, NotTaken, Pose, Report, state_of};
-use crate::located::is_on_site;
 use crate::port::{Heard, LINES, Listening, PortAddress, Stream, listen};
 use crate::site::{Place, Site};
+
+/// Farthest place that a body says, in metres.
+const METRES_MAX: f64 = 1e5;
 
 /// For how long a body is where it said that it is, in seconds.
 const POSE_LASTS_S: f64 = 1.0;
@@ -241,7 +243,8 @@ impl Ported {
                 heading_deg,
                 speed_mps,
             } => {
-                let can_be = is_on_site([east_m, north_m])
+                let is_on_site = [east_m, north_m].iter().all(|it| it.abs() <= METRES_MAX);
+                let can_be = is_on_site
                     && error_m.is_none_or(|it| it > 0.0 && it <= ERROR_MAX_M)
                     && heading_deg.is_none_or(f64::is_finite)
                     && speed_mps.is_none_or(f64::is_finite);

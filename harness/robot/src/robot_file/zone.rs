@@ -22,7 +22,7 @@ use serde::{Deserialize, Deserializer};
 use crate::located::{Exact, Impossible, NEAR_M, Number, is_near, possible};
 use crate::plan::millis;
 use crate::site::Place;
-use crate::site_file::{Purpose, SiteFile, Spot, between, outline};
+use crate::site_file::{Purpose, SiteFile, Spot, between};
 use crate::zone::{NoPolygon, Zone, polygon};
 
 #[derive(Deserialize)]
@@ -43,6 +43,11 @@ pub(super) struct ZoneTable {
     speed_max_mps: Option<f64>,
     approach_s: Option<f64>,
     clear_s: Option<f64>,
+}
+
+/// An outline, each corner in metres to the east and to the north.
+pub(super) fn outline(corners: [Place; 4]) -> Vec<[f64; 2]> {
+    corners.map(|at| [at.east, at.north]).to_vec()
 }
 
 /// Corners, each with two coordinates.

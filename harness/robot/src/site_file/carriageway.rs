@@ -52,11 +52,6 @@ impl Carriageway {
     }
 }
 
-/// An outline, each corner in metres to the east and to the north.
-pub(crate) fn outline(corners: [Place; 4]) -> Vec<[f64; 2]> {
-    corners.map(|at| [at.east, at.north]).to_vec()
-}
-
 /// The corners of the area between two kerbs, and so many metres behind them, counter-clockwise.
 pub(crate) fn between(near: [Place; 2], far: [Place; 2], behind_m: f64) -> [Place; 4] {
     let behind = |[a, b]: [Place; 2], other: [Place; 2]| {
