@@ -21,6 +21,7 @@ shipped! {
     quick plain stable "stable";
     quick plain blocker "blocker";
     quick plain trio_corridor "trio-corridor";
+    quick plain corridor_of_four "corridor-of-four";
     quick plain drift "drift";
     quick plain own_sight "own-sight";
     quick plain two_teams "two-teams";
@@ -35,6 +36,7 @@ shipped! {
     long plain team_of_four "team-of-four";
     long plain team_symmetric "team-symmetric";
     long plain team_of_six "team-of-six";
+    long plain corridor_of_five "corridor-of-five";
     long timed timed_in_use "timed-in-use";
     long timed timed_trio_drift "timed-trio-drift";
     long timed timed_trio_delay "timed-trio-delay";

@@ -301,3 +301,11 @@ fn each_check_of_an_open_corridor_is_missed() {
         assert_breaks(scenario, Overlooks(check), &[I11]);
     }
 }
+
+/// Each guard counts, and not the first two alone.
+#[test]
+fn the_third_guard_is_missed() {
+    let overlooks_third =
+        Overlooks(|why| matches!(why, CorridorClosure::NotEngaged(StationId(4), _)));
+    assert_breaks("corridor-of-four", overlooks_third, &[I11]);
+}

@@ -256,7 +256,8 @@ impl<const N: usize> Crossing<N> {
     }
 
     fn elapse(&mut self, setup: &Setup, time: Millis, out: &mut Outputs) {
-        // A robot without sensors learns by the end of its part alone that somebody who was lost on the road has left it.
+        // Nothing tells a robot without sensors that somebody who was lost on the road has left it. Without a part it guards nobody,
+        // and would stand on the lane for them for ever.
         if !self.occupancy.has_sources() && self.standing == Standing::Free {
             self.tracks.resolve();
         }
