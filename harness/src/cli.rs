@@ -75,7 +75,7 @@ use crossguard_robot::trace::Log;
 use printable::{Printable, printable_json};
 #[cfg(not(feature = "full"))]
 use small::read_config;
-use writing::{complain, finish_complaints};
+use writing::{Complaints, complain};
 
 /// A formally verified coordination kit for robots that work as crossing guards in V2X traffic.
 #[derive(Parser)]
@@ -176,6 +176,7 @@ pub fn main(version: &'static str) -> ExitCode {
     let command = command().version(version);
     let arguments = Arguments::from_arg_matches(&command.get_matches());
     let arguments = arguments.unwrap_or_else(|error| error.exit());
+    let _complaints = Complaints::begin();
     let done = match arguments.command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
@@ -187,7 +188,7 @@ pub fn main(version: &'static str) -> ExitCode {
         #[cfg(not(feature = "full"))]
         Command::Other(_) => Err(small::build_all()),
     };
-    let code = match done {
+    match done {
         Ok(()) | Err(Failure::NobodyReads) => ExitCode::SUCCESS,
         Err(Failure::Wrong) => ExitCode::from(1),
         Err(Failure::Input(message)) => {
@@ -195,9 +196,7 @@ pub fn main(version: &'static str) -> ExitCode {
             ExitCode::from(2)
         }
         Err(Failure::Incomplete) => ExitCode::from(3),
-    };
-    finish_complaints();
-    code
+    }
 }
 
 /// Prints a line to standard output.

@@ -129,6 +129,9 @@ impl Setup {
     }
 
     /// Starts the robot in threads of its own.
+    ///
+    /// A loop that panics halts the body after the program's panic hook has returned. The hook of the standard library
+    /// writes to standard error: where that may be a pipe that nobody reads, set one that waits for nobody.
     #[must_use]
     pub fn start(mut self) -> Running {
         let (deliveries, inbox) = sync_channel(DATAGRAMS + OF_PARTNERS + ORDERS);

@@ -3,7 +3,7 @@
 use std::io::{ErrorKind, Write, stderr};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError};
 use std::sync::mpsc::{channel, sync_channel};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use crossguard_robot::journal;
@@ -17,28 +17,46 @@ const LINES: usize = 1_024;
 /// How long the end of the program waits for what is still to be written.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// What is told on standard error, once something is.
-static COMPLAINTS: Mutex<Option<(Lines, Writing)>> = Mutex::new(None);
+/// What is told on standard error, from the start of the program to its end.
+static TOLD: Mutex<Option<(Lines, Writing)>> = Mutex::new(None);
+
+/// Complaints are told on standard error until this is dropped.
+pub(super) struct Complaints(());
+
+impl Complaints {
+    /// Panics are complaints as well: where standard error is not read, the hook of the standard library keeps a thread
+    /// that panics from halting its body.
+    pub(super) fn begin() -> Self {
+        let write = |line: &str| {
+            let _ = stderr().write_all(line.as_bytes());
+            Ok(())
+        };
+        *told() = Some(Lines::start("standard error", write));
+        std::panic::set_hook(Box::new(|panic| complain(panic)));
+        Self(())
+    }
+}
+
+impl Drop for Complaints {
+    /// Waits until standard error has what was told, but not for a reader who does not read.
+    fn drop(&mut self) {
+        let told = told().take();
+        if let Some((lines, writing)) = told {
+            drop(lines);
+            let _ = writing.result.recv_timeout(PATIENCE);
+        }
+    }
+}
+
+fn told() -> MutexGuard<'static, Option<(Lines, Writing)>> {
+    TOLD.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Tells on standard error. If that is gone as well, there is nobody to tell.
 pub(super) fn complain(what: impl std::fmt::Display) {
-    let write = |line: &str| {
-        let _ = stderr().write_all(line.as_bytes());
-        Ok(())
-    };
-    let mut complaints = COMPLAINTS.lock().unwrap_or_else(PoisonError::into_inner);
-    let (lines, _) = complaints.get_or_insert_with(|| Lines::start("standard error", write));
-    lines.say(format!("crossguard: {}\n", Printable(what)));
-}
-
-/// Waits until standard error has what was told, but not for a reader who does not read.
-pub(super) fn finish_complaints() {
-    let mut complaints = COMPLAINTS.lock().unwrap_or_else(PoisonError::into_inner);
-    let told = complaints.take();
-    drop(complaints);
-    if let Some((lines, writing)) = told {
-        drop(lines);
-        let _ = writing.result.recv_timeout(PATIENCE);
+    let line = format!("crossguard: {}\n", Printable(what));
+    if let Some((lines, _)) = &mut *told() {
+        lines.say(line);
     }
 }
 

@@ -1,6 +1,7 @@
 /* Puts the wall clock of one process forward or back, by the seconds in the file CLOCK_STEP_FILE, which
-   may change at any moment. Preloaded; other clocks go on as they are. */
+   may change at any moment; by INT64_MIN there is none. Preloaded; other clocks go on as they are. */
 #define _GNU_SOURCE
+#include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -24,7 +25,13 @@ __attribute__((constructor)) static void find_step(void) {
 
 int clock_gettime(clockid_t clock, struct timespec *time) {
     int result = (int)syscall(SYS_clock_gettime, clock, time);
-    if (result == 0 && clock == CLOCK_REALTIME && step_s)
-        time->tv_sec += *step_s;
+    if (result == 0 && clock == CLOCK_REALTIME && step_s) {
+        int64_t step = *step_s;
+        if (step == INT64_MIN) {
+            errno = EINVAL;
+            return -1;
+        }
+        time->tv_sec += step;
+    }
     return result;
 }

@@ -14,14 +14,24 @@ use crate::street::{ARI, GO2, Street};
 const HOUR: i64 = 3_600;
 
 /// A wall clock that only one process has.
-struct WallClock {
+pub(crate) struct WallClock {
     library: PathBuf,
     file: PathBuf,
 }
 
 impl WallClock {
-    /// Puts the clock so far ahead of the true one.
-    fn set(&self, ahead_s: i64) {
+    /// One that shows the true time, of a robot on the street.
+    pub(crate) fn of(street: &Street, library: &Path) -> Self {
+        let clock = Self {
+            library: library.to_owned(),
+            file: street.path("step").into(),
+        };
+        clock.set(0);
+        clock
+    }
+
+    /// Puts the clock so far ahead of the true one; `i64::MIN` takes it away, and who looks at it panics.
+    pub(crate) fn set(&self, ahead_s: i64) {
         let mut file = File::options();
         let file = file
             .write(true)
@@ -38,15 +48,21 @@ impl WallClock {
         command.env("CLOCK_STEP_FILE", &self.file);
         command
     }
+
+    /// ARI, with this clock and a log.
+    pub(crate) fn ari(&self, street: &Street) -> Command {
+        let log = File::create(street.path("ARI.log")).unwrap();
+        let run = ["run", "--config", &street.configs[ARI], "--json"];
+        let mut ari = self.rules(crossguard(&run));
+        ari.stdin(Stdio::piped()).stdout(log).stderr(Stdio::null());
+        ari
+    }
 }
 
 /// Robots that cross, and ARI's clock. Certificates are of two hours ago, so that they are valid whatever it says.
 fn crossing(library: &Path, is_signed: bool) -> (Street, WallClock) {
     let mut street = Street::new(&[("speed = 40.0", "speed = 5.0")]);
-    let clock = WallClock {
-        library: library.to_owned(),
-        file: street.path("step").into(),
-    };
+    let clock = WallClock::of(&street, library);
     let pki = street.path("pki");
     clock.set(-2 * HOUR);
     let mut init = clock.rules(crossguard(&["pki", "init", &pki]));
@@ -54,19 +70,9 @@ fn crossing(library: &Path, is_signed: bool) -> (Street, WallClock) {
     clock.set(0);
     let security = ["--security", "enforce", "--pki", &pki];
     let security = if is_signed { &security[..] } else { &[] };
-    let log = File::create(street.path("ARI.log")).unwrap();
-    let mut ari = clock.rules(crossguard(&[
-        "run",
-        "--config",
-        &street.configs[ARI],
-        "--json",
-    ]));
-    ari.args(security)
-        .stdin(Stdio::piped())
-        .stdout(log)
-        .stderr(Stdio::null());
+    let ari = clock.ari(&street).args(security).spawn();
     street.robots = vec![
-        Killed(ari.spawn().unwrap()),
+        Killed(ari.unwrap()),
         Killed(start_with(&street.configs[GO2], security)),
     ];
     street.say(ARI, "wait 0.5\ndetect\n");

@@ -1,9 +1,13 @@
 //! A reader of an output that does not read: the robot goes on, and hears a signal.
 
+use std::io::Write as _;
+use std::os::fd::OwnedFd;
+use std::os::unix::net::UnixStream;
 use std::process::Stdio;
 
 use crossguard_testkit::command::*;
 
+use crate::clock_step::WallClock;
 use crate::street::{ARI, GO2, PATIENCE, Street, assert_valid, side_by_side};
 
 /// Arguments, and lines that make it say more than a pipe holds.
@@ -54,4 +58,24 @@ fn cross_unread((arguments, chatter): &Row) {
 #[test]
 fn an_output_that_nobody_reads_does_not_stop_the_robot() {
     side_by_side(&ROWS, cross_unread);
+}
+
+/// Hazard: a robot's thread panics, and waits for who reads standard error before it halts its body.
+#[test]
+fn a_robot_that_panics_ends_although_nobody_reads_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(library) = shim(folder.path(), "tests/clock/step.c") else {
+        return;
+    };
+    let street = Street::new(&[]);
+    let clock = WallClock::of(&street, &library);
+    let (_unread, mut full) = UnixStream::pair().unwrap();
+    full.set_nonblocking(true).unwrap();
+    while full.write(b" ").is_ok() {}
+    full.set_nonblocking(false).unwrap();
+    let ari = clock.ari(&street).stderr(OwnedFd::from(full)).spawn();
+    let mut ari = Killed(ari.unwrap());
+    street.until(ARI, "\"started\"");
+    clock.set(i64::MIN);
+    assert_eq!(wait_for(&mut ari.0, PATIENCE).code(), Some(1));
 }
