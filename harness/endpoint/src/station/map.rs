@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 
 use crossguard_codec::distance;
+use crossguard_codec::si::generation_delta_time;
 use crossguard_codec::{Identity, Kind, Position, RoadUser};
 use crossguard_protocol::Decimetres;
 
@@ -41,8 +42,8 @@ pub struct LocalDynamicMap {
 }
 
 impl LocalDynamicMap {
-    /// Takes in what was told at `now_ms`, unless it is older than what is known. A robot whose RAM was
-    /// heard is that robot, whatever else it sends: its CAM for other stations says less.
+    /// Takes in what was told at `now_ms`, unless it is older than what is known, by 32.768 s at most. A robot whose RAM
+    /// was heard is that robot, whatever else it sends: its CAM for other stations says less.
     pub fn observe(&mut self, user: RoadUser, now_ms: u64) {
         let neighbour = Neighbour {
             user,
@@ -61,7 +62,9 @@ impl LocalDynamicMap {
         }
         let users = self.kinds.entry(user.kind).or_default();
         if let Some(known) = users.get_mut(&user.identity) {
-            if known.user.measured_its <= user.measured_its {
+            // Modulo 2^16 ms, as GenerationDeltaTime: the own wall clock, by which both were rebuilt, may have been put.
+            let newer_ms = user.measured_its.wrapping_sub(known.user.measured_its);
+            if generation_delta_time(newer_ms) < 0x8000 {
                 // It is in some of a robot's RAM, twice a second at most.
                 let signals = user.signals.or(known.user.signals);
                 *known = neighbour;
@@ -117,6 +120,8 @@ impl LocalDynamicMap {
 
 #[cfg(test)]
 mod tests {
+    use crossguard_codec::si::rebuild_timestamp;
+
     use super::*;
 
     fn user(identity: Identity, kind: Kind, measured_its: u64) -> RoadUser {
@@ -164,16 +169,30 @@ mod tests {
     }
 
     #[test]
-    fn what_is_older_than_known_changes_nothing() {
-        // Hazard: by a message that comes long after a newer one, a vehicle is far away and a guard at its place.
-        for (measured_its, is_taken) in [(10_000, true), (9_999, false), (7_000, false), (0, false)]
-        {
+    fn what_is_older_than_known_changes_nothing_whatever_the_own_wall_clock_shows() {
+        const KNOWN_ITS: u64 = 694_694_401_000;
+        const HOUR: i64 = 3_600_000;
+        // How much newer it is, and by how much the own wall clock was put meanwhile, in ms.
+        for (newer, put, is_taken) in [
+            (0, 0, true),
+            // Hazard: by a message that comes long after a newer one, a vehicle is far away and a guard at its place.
+            (-1, 0, false),
+            (-3_000, 0, false),
+            (-10_000, 0, false),
+            // Hazard: the clock is put back, and people are at their old places for 10 s.
+            (50, -HOUR, true),
+            (-3_000, -HOUR, false),
+            (50, HOUR, true),
+            (-3_000, HOUR, false),
+        ] {
             let mut map = LocalDynamicMap::default();
             let identity = Identity::Object { by: 7, number: 1 };
-            map.observe(user(identity, Kind::Vru, 10_000), 0);
+            map.observe(user(identity, Kind::Vru, KNOWN_ITS), 0);
+            let said = generation_delta_time(KNOWN_ITS.strict_add_signed(newer));
+            let measured_its = rebuild_timestamp(KNOWN_ITS.strict_add_signed(put), said);
             map.observe(user(identity, Kind::Vru, measured_its), 50);
             let heard_ms = map.get(identity).unwrap().heard_ms;
-            assert_eq!(heard_ms == 50, is_taken, "{measured_its}");
+            assert_eq!(heard_ms == 50, is_taken, "{newer} {put}");
         }
     }
 
