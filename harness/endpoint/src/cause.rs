@@ -36,7 +36,7 @@ named! {
         Body = "body",
         /// The programs at its operator port.
         Operator = "operator",
-        /// The files of the boot counter, of the time and of the revocation list.
+        /// What the robot keeps: boot counter, time, revocation list and tickets.
         Storage = "storage",
         /// The log.
         Log = "log",
@@ -104,6 +104,8 @@ pub enum Cause {
     TimeNotKept,
     /// The revocation list cannot be read any more; the robot keeps the one that it has.
     RevokedUnread,
+    /// No ticket of the robot lasts for a session: it is unavailable until one does.
+    TicketsEnd,
     /// The log's reader was too slow, or the log has no room: the record is not in the log.
     LogFull,
     /// A reader of records that need not have all of them was too slow.
@@ -134,7 +136,9 @@ impl Cause {
             | Self::OperatorSlow
             | Self::OperatorsFull
             | Self::OperatorStranger => Layer::Operator,
-            Self::EpochNotRenewed | Self::TimeNotKept | Self::RevokedUnread => Layer::Storage,
+            Self::EpochNotRenewed | Self::TimeNotKept | Self::RevokedUnread | Self::TicketsEnd => {
+                Layer::Storage
+            }
             Self::LogFull => Layer::Log,
             Self::OutputFull => Layer::Output,
         }
@@ -180,6 +184,7 @@ impl Display for Reason {
             Cause::EpochNotRenewed => "boot counter not renewed",
             Cause::TimeNotKept => "time not kept",
             Cause::RevokedUnread => "revocation list not read",
+            Cause::TicketsEnd => "tickets end",
         })
     }
 }

@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 
 use crossguard_codec::geonet::{Address, BasicHeader, Headers};
-use crossguard_codec::security::{PrivateKey, SignedMessage, Time64};
-use crossguard_codec::{Identifiers, Position, RobotState, TaskParameters};
+use crossguard_codec::security::{Duration, PrivateKey, SignedMessage, Ticket, Time64, Unit};
+use crossguard_codec::{Identifiers, Part, Position, RobotState, TaskParameters};
 
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
@@ -13,9 +13,10 @@ use crossguard_endpoint::station::listen::overhear;
 use crossguard_endpoint::station::{Mode, Secret, Security};
 use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{
-    Config, Event, Identity, Input, ManeuverId, Phase, Robot, SessionId, StationId, TaskType,
+    Availability, Config, Event, Identity, Input, ManeuverId, Phase, Robot, SessionId, StationId,
+    TaskType, Unavailability,
 };
-use crossguard_robot::pki::Pki;
+use crossguard_robot::pki::{EARLY_S, Pki, Term, new_ticket, robot_permissions};
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::Site;
 
@@ -33,17 +34,40 @@ struct Street {
     /// Under which pseudonyms each robot was heard, in order.
     heard_as: [Vec<Sender>; 2],
     started: Option<ManeuverId>,
+    /// How often a robot said that its tickets end.
+    ends: [usize; 2],
 }
 
 impl Street {
     fn new() -> Self {
+        Self::with(&[None; 2])
+    }
+
+    /// Each robot has many tickets for a day, or one for each of these times, from and until, in s after the start.
+    fn with(tickets: &[Option<&[[u16; 2]]>; 2]) -> Self {
         let identifiers = Identifiers::default();
         let now = Time64::of_timestamp_its(EPOCH_ITS);
         let pki = Pki::for_a_day(&identifiers, now).unwrap();
-        let robots = [1, 2].map(|id| {
-            let credentials = pki.credentials(&identifiers, (40, None), now).unwrap();
+        let robots = [1_usize, 2].map(|id| {
+            let mut credentials = pki.credentials(&identifiers, (40, None), now).unwrap();
+            if let Some(times) = tickets[id - 1] {
+                let ticket = |[from_s, until_s]: &[u16; 2]| {
+                    let term = Term {
+                        from: Time64(now.0 + (u64::from(*from_s) + EARLY_S) * 1_000_000),
+                        duration: Duration {
+                            number: until_s - from_s,
+                            unit: Unit::Seconds,
+                        },
+                    };
+                    let may = robot_permissions(&identifiers, &[Part::Lead, Part::Help], None);
+                    let ticket = new_ticket(&pki.authority, term, None, may).unwrap();
+                    Ticket::new(ticket.certificate, ticket.key).unwrap()
+                };
+                credentials.tickets = times.iter().map(ticket).collect();
+            }
             let security = Security::new(Mode::Enforce, credentials, Some(PERIOD_MS), now);
             let number = u8::try_from(id).unwrap();
+            let id = number.into();
             let security = security.unwrap().with_secret(Secret::new([number; 32]));
             let id = security.station_id(&identifiers, StationId(id));
             let robot = Robot::new(id, security.epoch(id, 1));
@@ -54,6 +78,7 @@ impl Street {
             robots,
             heard_as: [Vec::new(), Vec::new()],
             started: None,
+            ends: [0; 2],
         }
     }
 
@@ -82,6 +107,9 @@ impl Street {
                     identity = state.identity();
                 }
                 Effect::Act(Act::Start(maneuver, _)) => self.started = Some(maneuver.id),
+                Effect::Dropped { cause, .. } if cause.to_string() == "storage: tickets end" => {
+                    self.ends[robot] += 1;
+                }
                 Effect::Dropped { cause, detail, .. } => panic!("{cause:?}: {detail}"),
                 _ => {}
             }
@@ -117,11 +145,16 @@ impl Street {
         self.robots[robot].robot().station()
     }
 
-    /// One session, longer than pseudonyms last; its name.
-    fn cross(&mut self) -> SessionId {
+    /// Somebody waits, and the first robot asks for help.
+    fn ask(&mut self) {
         let request = Plan::crossing(Site::default()).request();
         self.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
         self.pass(1_000);
+    }
+
+    /// One session, longer than pseudonyms last; its name.
+    fn cross(&mut self) -> SessionId {
+        self.ask();
         let (leader, follower) = (self.id(0), self.id(1));
         assert!(matches!(self.robots[0].robot().phase(), Phase::Leading(_)));
         let session = self.robots[0].robot().session().unwrap();
@@ -173,6 +206,55 @@ fn a_pseudonym_changes_outside_of_sessions_only_and_as_a_whole() {
         assert!(heard_as.len() > 6, "{heard_as:?}");
         assert_eq!(signers.len(), heard_as.len(), "none twice");
         assert_eq!(stations.len(), heard_as.len(), "none twice");
+    }
+}
+
+/// Hazard: the last ticket of a leader ends in the middle of a crossing, and nobody who verifies hears it any more.
+#[test]
+fn a_robot_whose_tickets_end_within_a_session_begins_none() {
+    let t_lock_s = u16::try_from(Config::default().settings().t_lock.0 / 1_000).unwrap();
+    let [short, long] = [t_lock_s, t_lock_s + 2].map(|until_s| [[0, until_s]]);
+    for (tickets, leads, ends) in [
+        ([&long, &long], true, [0, 0]),
+        ([&[[0, 2]], &long], false, [1, 0]),
+        ([&short, &long], false, [1, 0]),
+        ([&long, &short], false, [0, 1]),
+    ] {
+        let mut street = Street::with(&tickets.map(|it| Some(&it[..])));
+        street.pass(100);
+        street.ask();
+        assert_eq!(street.ends, ends);
+        let phase = street.robots[0].robot().phase();
+        assert_eq!(matches!(phase, Phase::Leading(_)), leads, "{phase:?}");
+        if leads {
+            // As long as a session may take, whatever it is that both say in it.
+            street.pass(u64::from(t_lock_s) * 1_000);
+            let identities = street.robots.each_ref().map(|it| it.robot().identity());
+            assert_eq!(identities, [Identity::Unlocked; 2]);
+        }
+    }
+}
+
+#[test]
+fn a_robot_takes_part_again_when_its_next_ticket_begins_unless_a_person_said_otherwise() {
+    let begins_s = 10;
+    let tickets = [[0, begins_s + 1], [begins_s, 3_600]];
+    let not_safe = Availability::Unavailable(Unavailability::NotSafe);
+    for (told, after) in [(None, Availability::Available), (Some(not_safe), not_safe)] {
+        let mut street = Street::with(&[None, Some(&tickets)]);
+        let told_of = |told| Stimulus::Event(Event::AvailabilityChanged(told));
+        let is = |street: &Street| street.robots[1].robot().availability();
+        street.pass(100);
+        assert_eq!((is(&street), street.ends), (not_safe, [0, 1]));
+        // The word of a person makes no ticket last longer.
+        street.tell(1, told_of(Availability::Available));
+        street.pass(100);
+        assert_eq!((is(&street), street.ends), (not_safe, [0, 2]));
+        if let Some(told) = told {
+            street.tell(1, told_of(told));
+        }
+        street.pass(u64::from(begins_s) * 1_000);
+        assert_eq!((is(&street), street.ends), (after, [0, 2]));
     }
 }
 

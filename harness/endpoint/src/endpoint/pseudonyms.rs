@@ -3,11 +3,12 @@
 use std::collections::BTreeSet;
 
 use crossguard_codec::geonet::Envelope;
-use crossguard_codec::security::{HashedId8, TrustedTime};
-use crossguard_protocol::{Event, Identity, StateMachine};
+use crossguard_codec::security::{HashedId8, Time64, TrustedTime};
+use crossguard_protocol::{Availability, Event, Identity, StateMachine, Unavailability};
 
 use super::Endpoint;
 use super::turn::Turn;
+use crate::cause::Cause;
 use crate::exchange::{Exchange, Host as _};
 pub(super) use crate::station::Pseudonyms;
 use crate::station::Security;
@@ -39,7 +40,8 @@ impl<P: StateMachine> Endpoint<P> {
 }
 
 impl Pseudonyms {
-    /// Looks at the clock, and changes the pseudonym when that is due and no session knows the robot by its old one.
+    /// Looks at the clock, and changes the pseudonym when that is due and no session knows the robot by its old one. A
+    /// robot that has none for a session takes part in none.
     pub(super) fn renew<P: StateMachine>(
         &mut self,
         exchange: &mut Exchange<P>,
@@ -60,10 +62,50 @@ impl Pseudonyms {
             turn.renew_clusters(taken.clusters);
             self.fall_silent(taken.station, now_ms);
         }
+        self.watch_end(exchange, turn, lock_ms);
+    }
+
+    /// Makes the robot unavailable while the ticket in use ends within `lock_ms`, as long as a session may take: a robot
+    /// that began one would fall silent in the middle of a crossing.
+    fn watch_end<P: StateMachine>(
+        &mut self,
+        exchange: &mut Exchange<P>,
+        turn: &mut Turn<'_>,
+        lock_ms: u64,
+    ) {
+        let Envelope::Secured(secured) = exchange.stack().envelope() else {
+            return;
+        };
+        let validity = secured.station().ticket().certificate().content().validity;
+        let session_end = turn.moment().timestamp_its.saturating_add(lock_ms);
+        let lasts = Time64::of_timestamp_its(session_end) < validity.until();
+        let not_safe = Availability::Unavailable(Unavailability::NotSafe);
+        let availability = match exchange.robot().availability() {
+            Availability::Available if !lasts => not_safe,
+            told if lasts && self.have_ended && told == not_safe => Availability::Available,
+            _ => return,
+        };
+        self.have_ended = !lasts;
+        if self.have_ended {
+            let detail = format_args!(
+                "no ticket is valid for {} s from now, as long as a session may take (t_lock); the robot is unavailable \
+                 until one is. Make new ones ('crossguard pki tickets') and start it again",
+                lock_ms / 1_000
+            );
+            turn.dropped(Cause::TicketsEnd, &detail, &[]);
+        }
+        exchange.event(turn, Event::AvailabilityChanged(availability));
     }
 
     /// The event as the protocol is to have it: another boot counter stands for one that was persisted.
-    pub(super) fn disguise<P: StateMachine>(&self, exchange: &Exchange<P>, event: Event) -> Event {
+    pub(super) fn disguise<P: StateMachine>(
+        &mut self,
+        exchange: &Exchange<P>,
+        event: Event,
+    ) -> Event {
+        if let Event::AvailabilityChanged(_) = event {
+            self.have_ended = false;
+        }
         match (event, exchange.stack().envelope()) {
             (Event::EpochRenewed(boot), Envelope::Secured(_)) => {
                 Event::EpochRenewed(self.epoch(exchange.robot().station(), boot))

@@ -110,6 +110,8 @@ pub(crate) struct Pseudonyms {
     silent_until_ms: u64,
     /// The numbers that come next under own station ids that may come back.
     numbers: BTreeMap<StationId, UniqueNumber>,
+    /// Whether the robot is unavailable because no ticket lasts for a session, and nobody said anything of it since.
+    pub(crate) have_ended: bool,
 }
 
 impl Pseudonyms {
@@ -121,6 +123,7 @@ impl Pseudonyms {
             moment: None,
             silent_until_ms: 0,
             numbers: BTreeMap::new(),
+            have_ended: false,
         }
     }
 
