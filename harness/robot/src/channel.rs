@@ -42,7 +42,6 @@ pub(crate) struct Monitored {
 }
 
 impl Monitored {
-    /// Takes in what the link measured.
     pub(crate) fn measure(&mut self, radio: Radio, now_ms: u64) {
         self.is_measured = true;
         self.power_dbm = radio.power_dbm().or(self.power_dbm);

@@ -90,7 +90,6 @@ pub fn text(path: &Path, octets_max: u64) -> Result<String> {
     text_of(read(path, octets_max)?)
 }
 
-/// Octets as text.
 pub(crate) fn text_of(octets: Vec<u8>) -> Result<String> {
     String::from_utf8(octets).map_err(|_| Error::new(ErrorKind::InvalidData, "is no text in UTF-8"))
 }

@@ -93,7 +93,6 @@ impl Misfit {
     }
 }
 
-/// The text of a file.
 pub(crate) fn read(path: &Path) -> Result<String, FileError> {
     files::text(path, files::TEXT_MAX).map_err(|cause| FileError {
         file: path.display().to_string(),
@@ -102,7 +101,6 @@ pub(crate) fn read(path: &Path) -> Result<String, FileError> {
     })
 }
 
-/// The tables of a text.
 pub(crate) fn parse<'a, T: Deserialize<'a>>(text: &'a str) -> Result<T, Misfit> {
     toml::from_str(text).map_err(|cause| Misfit {
         span: cause.span(),
@@ -141,7 +139,6 @@ pub(crate) fn cut(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// A place on the site.
 pub(crate) fn place(at: &Point) -> Result<Place, Misfit> {
     let Exact(metres) = at.get_ref();
     place_at(at, metres.each_ref().map(|it| *it.get_ref()))
@@ -168,7 +165,6 @@ pub(crate) fn is_near(place: [f64; 2]) -> bool {
     place.iter().all(|metres| metres.abs() <= NEAR_M)
 }
 
-/// A number within a range.
 pub(crate) fn within(
     value: &toml::Spanned<f64>,
     possible: RangeInclusive<f64>,

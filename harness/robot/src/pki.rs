@@ -261,7 +261,6 @@ pub fn credentials_but(
 
 #[cfg(all(test, feature = "full"))]
 mod tests {
-    use crossguard_codec::security::Duration;
     use crossguard_codec::{Identifiers, Part};
     use crossguard_endpoint::station::{Mode, Security};
 
@@ -273,10 +272,7 @@ mod tests {
         let pki = Pki::for_a_day(&identifiers, now()).unwrap();
         pki.root.write(folder.path(), "root").unwrap();
         let robot = robot_folder(folder.path(), "Go2");
-        let term = Term {
-            from: now(),
-            duration: Duration::hours(1),
-        };
+        let term = Term::hours(now(), 1);
         let permissions = robot_permissions(&identifiers, &[Part::Help], None);
         let ticket = new_ticket(&pki.authority, term, None, permissions).unwrap();
         write_ticket(&ticket, &robot).unwrap();

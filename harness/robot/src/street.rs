@@ -52,7 +52,6 @@ struct People {
     walking: Vec<Walker>,
 }
 
-/// Somebody who waits.
 #[derive(Clone, Copy, Debug)]
 struct Waiting {
     /// How long they take to cross, in microseconds.
@@ -61,7 +60,6 @@ struct Waiting {
     comes_back: bool,
 }
 
-/// Somebody who crosses.
 #[derive(Clone, Copy, Debug)]
 struct Walker {
     /// Whether they come from the other side.
@@ -155,7 +153,6 @@ impl Street {
         self.is_clear() && self.people().waiting.is_empty()
     }
 
-    /// The width of the carriageway, in metres.
     fn width_m(&self) -> f64 {
         let [from, to] = self.way;
         (from.distance(to) - 2.0 * PAVEMENT_M).max(0.1)

@@ -1,4 +1,16 @@
-//! Tables in tests, as text.
+//! What unit tests share: tables as text, and a maneuver.
+
+use crossguard_protocol::{
+    Maneuver, ManeuverId, RequestId, SessionId, SessionNumber, StationId, TaskType, UniqueNumber,
+};
+
+/// The first maneuver of the first session of station 1.
+pub(crate) const fn maneuver(task: TaskType) -> Maneuver {
+    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
+    let session = SessionId::of(StationId(1), number);
+    let id = ManeuverId::of(session, RequestId(0));
+    Maneuver { id, task }
+}
 
 /// The rows of a table: one in each line, with bars between its cells. A line break in a cell is written `\n`.
 pub(crate) fn rows<const CELLS: usize>(table: &str) -> impl Iterator<Item = [String; CELLS]> {

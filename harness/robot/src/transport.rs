@@ -60,6 +60,14 @@ pub struct Halves {
     pub receiver: Box<dyn Receiver>,
 }
 
+impl Halves {
+    /// Both of them, boxed.
+    pub fn of(sender: impl Sender + 'static, receiver: impl Receiver + 'static) -> Self {
+        let (sender, receiver) = (Box::new(sender), Box::new(receiver));
+        Self { sender, receiver }
+    }
+}
+
 /// Where datagrams go out.
 pub trait Sender: Send {
     /// Sends one datagram to everybody in reach. It never waits for a receiver.

@@ -8,7 +8,7 @@ mod zone;
 
 use std::collections::BTreeMap;
 
-use crossguard_codec::security::{Certificate, Duration, Time64};
+use crossguard_codec::security::{Certificate, Time64};
 use crossguard_codec::{Identifiers, Identity, Kind, Part};
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::station::{Mode, Security};
@@ -98,10 +98,7 @@ fn street(others: &Others) -> Street<Done> {
         let folder = folder.path();
         let parts = [Part::Lead, Part::Help];
         let permissions = pki::robot_permissions(&identifiers, &parts, Some(StationId(station)));
-        let term = Term {
-            from: now,
-            duration: Duration::hours(1),
-        };
+        let term = Term::hours(now, 1);
         let ticket = pki::new_ticket(&own.authority, term, None, permissions).unwrap();
         pki::write_ticket(&ticket, folder).unwrap();
         for (certificate, name) in [

@@ -2,7 +2,7 @@
 
 use crossguard_codec::Identifiers;
 use crossguard_codec::Part;
-use crossguard_codec::security::{Certificate, Duration, PrivateKey, Time64};
+use crossguard_codec::security::{Certificate, PrivateKey, Time64};
 use crossguard_robot::pki::{self, Term};
 use rasn_its::ieee1609dot2 as dot2;
 use rasn_its::ieee1609dot2::base_types as base;
@@ -10,13 +10,6 @@ use rasn_its::ts103097::EtsiTs103097Certificate;
 
 /// 2026-01-05.
 const NOW: Time64 = Time64(694_694_401_000_000);
-
-fn term(hours: u16) -> Term {
-    Term {
-        from: NOW,
-        duration: Duration::hours(hours),
-    }
-}
 
 fn its_aids() -> Vec<u32> {
     pki::its_aids(&Identifiers::default())
@@ -65,11 +58,18 @@ const fn is_compressed(point: &base::EccP256CurvePoint) -> bool {
 #[test]
 fn root_authority_and_ticket_have_the_profiles_of_ts_103_097() {
     let encryption = PrivateKey::generate().public_key();
-    let root = pki::new_root("root", term(1_000), None, &its_aids()).unwrap();
-    let authority =
-        pki::new_authority(&root, "below", term(500), None, &its_aids(), encryption).unwrap();
+    let root = pki::new_root("root", Term::hours(NOW, 1_000), None, &its_aids()).unwrap();
+    let authority = pki::new_authority(
+        &root,
+        "below",
+        Term::hours(NOW, 500),
+        None,
+        &its_aids(),
+        encryption,
+    )
+    .unwrap();
     let permissions = pki::robot_permissions(&Identifiers::default(), &[Part::Help], None);
-    let ticket = pki::new_ticket(&authority, term(24), None, permissions).unwrap();
+    let ticket = pki::new_ticket(&authority, Term::hours(NOW, 24), None, permissions).unwrap();
     let issuer = dot2::IssuerIdentifier::Sha256AndDigest(base::HashedId8(
         authority.certificate.id().0.into(),
     ));

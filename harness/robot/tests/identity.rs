@@ -37,10 +37,7 @@ fn epoch() -> Time64 {
 
 /// A ticket of the PKI, the key with it.
 fn ticket(pki: &Pki, permissions: Vec<Permission>) -> Ticket {
-    let term = Term {
-        from: epoch(),
-        duration: crossguard_codec::security::Duration::hours(1),
-    };
+    let term = Term::hours(epoch(), 1);
     let holder = pki::new_ticket(&pki.authority, term, None, permissions).unwrap();
     Ticket::new(holder.certificate, holder.key).unwrap()
 }
@@ -340,10 +337,7 @@ fn one_ticket_is_one_robot() {
 fn a_ticket_and_its_mirror_are_one_robot() {
     let mut street = Street::new(&[LEADER]);
     let permissions = pki::robot_permissions(&identifiers(), &[Part::Help], None);
-    let term = Term {
-        from: epoch(),
-        duration: crossguard_codec::security::Duration::hours(1),
-    };
+    let term = Term::hours(epoch(), 1);
     let Holder { certificate, key } =
         pki::new_ticket(&street.pki.authority, term, None, permissions).unwrap();
     let [certificate, mirror] = lower_first(certificate);

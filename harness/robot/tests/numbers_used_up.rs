@@ -15,7 +15,7 @@ use crossguard_robot::plan::Plan;
 use crossguard_robot::runtime::{Order, Setup};
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::trace::Entry;
-use crossguard_robot::transport::{Framing, Link, Transport};
+use crossguard_robot::transport::{Link, Transport};
 
 /// The robot takes 32,768 requests, and a record of each step.
 const PATIENCE: Duration = Duration::from_mins(15);
@@ -34,12 +34,7 @@ fn the_next_boot_counter_is_persisted_and_used_before_numbers_run_out() {
     let records = journal.reader(4_096, WhenFull::Skip, Cause::OutputFull);
     let body = Simulated::new(Build::Quadruped, Site::default(), Place::default(), 1.0, 1);
     let application = Application::new(Box::new(body), None);
-    let alone = Link::Peers {
-        address: "127.0.0.1:0".parse().unwrap(),
-        peers: Vec::new(),
-        framing: Framing::default(),
-    };
-    let link = alone.open().unwrap();
+    let link = Link::loopback(0, Vec::new()).open().unwrap();
     let robot = Setup {
         boot,
         journal,

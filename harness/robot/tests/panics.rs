@@ -10,7 +10,7 @@ use crossguard_robot::application::Application;
 use crossguard_robot::body::{Body, BodyAct, Build, Fallback, NotTaken, Report, Simulated};
 use crossguard_robot::runtime::{Order, Panicked, Running, Setup};
 use crossguard_robot::site::{Place, Site};
-use crossguard_robot::transport::{Framing, Link, Transport};
+use crossguard_robot::transport::{Link, Transport};
 
 /// A body whose driver has a mistake in it, which shows when it is told to.
 #[derive(Debug)]
@@ -63,12 +63,7 @@ fn start(shows: &Arc<AtomicBool>, is_halted: &Arc<AtomicBool>) -> Running {
         is_halted: Arc::clone(is_halted),
     };
     let application = Application::new(Box::new(body), None);
-    let alone = Link::Peers {
-        address: "127.0.0.1:0".parse().unwrap(),
-        peers: Vec::new(),
-        framing: Framing::default(),
-    };
-    let link = alone.open().unwrap();
+    let link = Link::loopback(0, Vec::new()).open().unwrap();
     Setup::new("R1", StationId(1), application, link).start()
 }
 

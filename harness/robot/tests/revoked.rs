@@ -18,7 +18,7 @@ use crossguard_robot::pki::{self, Pki, add_revoked};
 use crossguard_robot::runtime::{Running, Setup};
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::trace::{Entry, Record};
-use crossguard_robot::transport::{Framing, Link, Transport};
+use crossguard_robot::transport::{Link, Transport};
 use nix::sys::stat;
 use nix::unistd::mkfifo;
 
@@ -33,12 +33,8 @@ fn robot(
     let records = journal.reader(4_096, WhenFull::Skip, Cause::OutputFull);
     let body = Simulated::new(Build::Quadruped, Site::default(), Place::default(), 1.0, 1);
     let application = Application::new(Box::new(body), None);
-    let link = Link::Peers {
-        address: own,
-        peers: vec![other],
-        framing: Framing::default(),
-    };
-    let (name, link) = (format!("R{}", own.port()), link.open().unwrap());
+    let link = Link::loopback(own.port(), vec![other]).open().unwrap();
+    let name = format!("R{}", own.port());
     let setup = Setup {
         security: Security::new(Mode::Enforce, credentials, None, pki::now()).unwrap(),
         journal,

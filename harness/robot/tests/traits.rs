@@ -53,15 +53,11 @@ impl Said {
                     ..
                 } = effect
                 {
-                    last = Some(
-                        decode::<RAM>(&Identifiers::default(), &octets)
-                            .unwrap()
-                            .message,
-                    );
+                    last = Some(decode::<RAM>(&Identifiers::default(), &octets).unwrap());
                 }
             }
         }
-        state_of(&last.expect("no RAM within a second"))
+        state_of(&last.expect("no RAM within a second").message)
     }
 
     fn availability(&self) -> Availability {
@@ -71,25 +67,21 @@ impl Said {
 
 #[test]
 fn every_category_job_size_and_battery_of_a_file_is_in_its_ram() {
-    let jobs = [
-        ("none", JobRole::None),
-        ("traffic-guard", JobRole::TrafficGuard),
-        ("escort", JobRole::Escort),
-        ("patrol", JobRole::Patrol),
-        ("delivery", JobRole::Delivery),
-        ("maintenance", JobRole::Maintenance),
-        ("other", JobRole::Other),
-    ];
-    let builds = [
-        ("unknown", RobotCategory::Unknown),
-        ("humanoid", RobotCategory::Humanoid),
-        ("quadruped", RobotCategory::Quadruped),
-        ("wheeled", RobotCategory::Wheeled),
-        ("tracked", RobotCategory::Tracked),
-        ("aerial", RobotCategory::Aerial),
-        ("other", RobotCategory::Other),
-    ];
-    for ((job, job_role), (build, category)) in jobs.into_iter().zip(builds) {
+    use {JobRole as Job, RobotCategory as Build};
+    for (job, job_role, build, category) in [
+        ("none", Job::None, "unknown", Build::Unknown),
+        (
+            "traffic-guard",
+            Job::TrafficGuard,
+            "humanoid",
+            Build::Humanoid,
+        ),
+        ("escort", Job::Escort, "quadruped", Build::Quadruped),
+        ("patrol", Job::Patrol, "wheeled", Build::Wheeled),
+        ("delivery", Job::Delivery, "tracked", Build::Tracked),
+        ("maintenance", Job::Maintenance, "aerial", Build::Aerial),
+        ("other", Job::Other, "other", Build::Other),
+    ] {
         let text = format!(
             "build = \"{build}\"\njob = \"{job}\"\ndimensions_m = [0.9, 0.6, 1.2]\n\
              battery = {{ charge_percent = 64.0, charging = true }}"
@@ -176,30 +168,17 @@ fn a_low_battery_keeps_a_robot_out_until_it_is_charged() {
 
 #[test]
 fn what_no_robot_is_like_is_refused_by_the_name_of_its_field() {
-    for (text, cause) in [
-        ("build = \"car\"", "unknown variant `car`"),
-        (
-            "build = \"other\"\njob = \"cook\"",
-            "unknown variant `cook`",
-        ),
-        (
-            "build = \"other\"\ndimensions_m = [1, 0, 1]",
-            "dimensions_m has 0: length, width and height in metres",
-        ),
-        (
-            "build = \"other\"\nbattery = { charge_percent = 120 }",
-            "[battery] charge_percent is 120: 0 to 100 is wanted",
-        ),
-        (
-            "build = \"other\"\nbattery = { charging = true }",
-            "[battery] 'charging' wants 'charge_percent', too",
-        ),
-        (
-            "build = \"other\"\nbattery = { low_percent = -1 }",
-            "[battery] low_percent is -1",
-        ),
+    for row in [
+        "job = 'cook' => unknown variant `cook`",
+        "dimensions_m = [1, 0, 1] => dimensions_m has 0: length, width and height in metres",
+        "battery = { charge_percent = 120 } => [battery] charge_percent is 120: 0 to 100 is wanted",
+        "battery = { charging = true } => [battery] 'charging' wants 'charge_percent', too",
+        "battery = { low_percent = -1 } => [battery] low_percent is -1",
     ] {
-        let error = read(text).unwrap_err();
+        let (text, cause) = row.split_once(" => ").unwrap();
+        let error = read(&format!("build = 'other'\n{text}")).unwrap_err();
         assert!(error.contains(cause), "{text}: {error}");
     }
+    let error = read("build = 'car'").unwrap_err();
+    assert!(error.contains("unknown variant `car`"), "{error}");
 }

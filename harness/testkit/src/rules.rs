@@ -442,13 +442,10 @@ fn order_and_report<'a>(robot: &Robot, ram: &'a mut Ram) -> Option<(Order, &'a m
 
 /// What a robot puts out that starts the maneuver of a command.
 fn start_of(command: &Command) -> Output {
-    let Command {
-        session,
-        request,
-        task,
-        ..
-    } = *command;
-    let id = ManeuverId { session, request };
+    let (id, task) = (
+        ManeuverId::of(command.session, command.request),
+        command.task,
+    );
     Output::StartManeuver(Maneuver { id, task })
 }
 

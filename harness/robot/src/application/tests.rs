@@ -5,10 +5,7 @@ use std::sync::{Arc, Mutex};
 use crossguard_codec::{Identity, Kind, Position, RobotState, TaskParameters};
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_endpoint::station::LocalDynamicMap;
-use crossguard_protocol::{
-    Maneuver, ManeuverId, RequestId, Robot, SessionId, SessionNumber, StationId, StopReason,
-    TaskType, UniqueNumber,
-};
+use crossguard_protocol::{Robot, StationId, StopReason, TaskType};
 
 use super::*;
 use crate::body::{Build, NotTaken, Report, Simulated};
@@ -16,6 +13,7 @@ use crate::perception::SensorFrame;
 use crate::sight::Sight;
 use crate::site::{Place, Site};
 use crate::street::Street;
+use crate::table::maneuver;
 use crate::zone::Zone;
 
 /// A body that starts, and takes nothing after that. It takes down what it is told, and is still falling back.
@@ -61,16 +59,10 @@ impl Body for Broken {
 #[test]
 fn a_body_that_does_not_take_a_stop_is_a_fault_that_is_told_at_once() {
     let mut application = Application::new(Box::new(Broken::default()), None);
-    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
-    let leader = StationId(1);
-    let session = SessionId { leader, number };
-    let request = RequestId(0);
-    let id = ManeuverId { session, request };
-    let (task, why) = (TaskType::MOVE, StopReason::Superseded);
-    let maneuver = Maneuver { id, task };
+    let maneuver = maneuver(TaskType::MOVE);
     application.act(&Act::Start(maneuver, TaskParameters::default()));
     assert_eq!(application.next_wish(), None);
-    application.act(&Act::Stop(maneuver, why));
+    application.act(&Act::Stop(maneuver, StopReason::Superseded));
     let fault = Availability::Unavailable(Unavailability::LocalFault);
     let told = Stimulus::Event(Event::AvailabilityChanged(fault));
     assert_eq!(application.next_wish(), Some(told));

@@ -55,7 +55,6 @@ pub struct BodyPort {
     pub stands_m: f64,
 }
 
-/// Whether the body is there.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Presence {
     /// It never said hello.

@@ -288,27 +288,12 @@ impl Body for Simulated {
 
 #[cfg(test)]
 mod tests {
-    use crossguard_protocol::{
-        ManeuverId, RequestId, SessionId, SessionNumber, StationId, TaskType, UniqueNumber,
-    };
+    use crossguard_protocol::TaskType;
 
     use super::*;
+    use crate::table::maneuver;
 
-    fn maneuver() -> Maneuver {
-        let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
-        let session = SessionId {
-            leader: StationId(1),
-            number,
-        };
-        let id = ManeuverId {
-            session,
-            request: RequestId(0),
-        };
-        Maneuver {
-            id,
-            task: TaskType::MOVE,
-        }
-    }
+    const ESCORT: Maneuver = maneuver(TaskType::MOVE);
 
     fn walking(time_scale: f64) -> Simulated {
         let site = Site::default();
@@ -318,7 +303,7 @@ mod tests {
             maximum_speed: Some(0.5),
             ..TaskParameters::default()
         };
-        body.start(maneuver(), parameters);
+        body.start(ESCORT, parameters);
         body
     }
 
@@ -327,34 +312,20 @@ mod tests {
         while body.advance(0.01).is_empty() {
             seconds += 0.01;
             assert!(seconds < 60.0, "never arrives");
+            let speed = body.state().speed.unwrap().value;
+            assert!(speed <= 0.5 * (1.0 + GAIT_VARIATION), "{speed}");
         }
         seconds
     }
 
     #[test]
-    fn a_body_takes_the_time_that_its_speed_and_acceleration_allow() {
-        let mut body = walking(1.0);
-        let seconds = seconds_until_done(&mut body);
-        // 5 m at 0.5 m/s, and 0.4 s for speeding up and slowing down; 3 % either way.
-        assert!((10.0..11.0).contains(&seconds), "{seconds}");
-        assert!(body.place().distance(Place::new(0.0, 5.0)) < 0.01);
-    }
-
-    #[test]
-    fn a_body_whose_time_runs_faster_takes_less_of_ours() {
-        let (slow, fast) = (
-            seconds_until_done(&mut walking(1.0)),
-            seconds_until_done(&mut walking(10.0)),
-        );
-        assert!((slow / fast - 10.0).abs() < 0.5, "{slow} against {fast}");
-    }
-
-    #[test]
-    fn a_body_never_exceeds_the_speed_it_is_allowed() {
-        let mut body = walking(1.0);
-        while body.advance(0.05).is_empty() {
-            let speed = body.state().speed.unwrap().value;
-            assert!(speed <= 0.5 * (1.0 + GAIT_VARIATION), "{speed}");
+    fn a_body_takes_the_time_that_its_speed_acceleration_and_time_scale_allow() {
+        for time_scale in [1.0, 10.0] {
+            let mut body = walking(time_scale);
+            let seconds = seconds_until_done(&mut body) * time_scale;
+            // 5 m at 0.5 m/s, and 0.4 s for speeding up and slowing down; 3 % either way.
+            assert!((10.0..11.0).contains(&seconds), "{seconds}");
+            assert!(body.place().distance(Place::new(0.0, 5.0)) < 0.01);
         }
     }
 
@@ -363,7 +334,7 @@ mod tests {
         let mut body = walking(1.0);
         let block = Maneuver {
             task: TaskType::BLOCK,
-            ..maneuver()
+            ..ESCORT
         };
         let parameters = TaskParameters {
             target: Some(Site::default().target(Place::new(0.0, 5.0))),
@@ -390,10 +361,7 @@ mod tests {
         assert_eq!(body.advance(60.0).pop(), None);
         assert_eq!(body.place(), waits_at);
         body.act(BodyAct::GoOn).unwrap();
-        assert_eq!(
-            body.advance(60.0).pop(),
-            Some(Report::Completed(maneuver().id))
-        );
+        assert_eq!(body.advance(60.0).pop(), Some(Report::Completed(ESCORT.id)));
         assert!(body.place().distance(Place::new(0.0, 5.0)) < 0.01);
     }
 
@@ -412,11 +380,8 @@ mod tests {
         assert_eq!(body.fallback(), Some(Fallback::Finished));
         assert!(body.place().distance(Place::default()) < 0.01);
         let mut body = waiting();
-        body.start(maneuver(), TaskParameters::default());
-        assert_eq!(
-            body.advance(1.0).pop(),
-            Some(Report::Completed(maneuver().id))
-        );
+        body.start(ESCORT, TaskParameters::default());
+        assert_eq!(body.advance(1.0).pop(), Some(Report::Completed(ESCORT.id)));
     }
 
     fn fallen_back(after_s: f64, policy: FallbackPolicy) -> Simulated {
@@ -427,13 +392,23 @@ mod tests {
     }
 
     #[test]
-    fn going_to_safety_takes_its_time_and_finishes_no_maneuver() {
-        let mut body = fallen_back(4.0, FallbackPolicy::GoToSafePosition);
-        assert_eq!(body.advance(0.5).pop(), None);
-        assert_eq!(body.fallback(), Some(Fallback::UnderWay));
-        assert_eq!(body.advance(30.0).pop(), None);
-        assert_eq!(body.fallback(), Some(Fallback::Finished));
-        assert!(body.place().distance(Place::default()) < 0.01);
+    fn a_fallback_to_a_place_takes_its_time_there_and_finishes_no_maneuver() {
+        for (after_s, policy, north) in [
+            (4.0, FallbackPolicy::GoToSafePosition, 0.0),
+            // An escort goes to the nearer kerb.
+            (3.0, FallbackPolicy::EscortToKerb, 0.0),
+            (8.0, FallbackPolicy::EscortToKerb, 5.0),
+        ] {
+            let mut body = fallen_back(after_s, policy);
+            assert_eq!(body.advance(0.1).pop(), None);
+            assert_eq!(body.fallback(), Some(Fallback::UnderWay));
+            let is_at_persons_pace =
+                body.state().speed.unwrap().value <= 0.5 * (1.0 + GAIT_VARIATION);
+            assert!(is_at_persons_pace || policy != FallbackPolicy::EscortToKerb);
+            assert_eq!(body.advance(30.0).pop(), None);
+            assert_eq!(body.fallback(), Some(Fallback::Finished));
+            assert!(body.place().distance(Place::new(0.0, north)) < 0.01);
+        }
     }
 
     #[test]
@@ -446,18 +421,6 @@ mod tests {
         assert_eq!(body.fallback(), Some(Fallback::Finished));
         let way = body.place().distance(before);
         assert!((0.05..0.2).contains(&way), "{way}");
-    }
-
-    #[test]
-    fn an_escort_goes_to_the_nearer_kerb_at_the_pace_of_its_person() {
-        for (after_s, kerb) in [(3.0, 0.0), (8.0, 5.0)] {
-            let mut body = fallen_back(after_s, FallbackPolicy::EscortToKerb);
-            body.advance(0.1);
-            assert!(body.state().speed.unwrap().value <= 0.5 * (1.0 + GAIT_VARIATION));
-            body.advance(30.0);
-            assert_eq!(body.fallback(), Some(Fallback::Finished));
-            assert!(body.place().distance(Place::new(0.0, kerb)) < 0.01);
-        }
     }
 
     #[test]

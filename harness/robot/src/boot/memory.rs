@@ -48,10 +48,8 @@ impl Memory {
         }
     }
 
-    /// What is kept beside this boot counter; what is not there yet is made.
-    ///
-    /// # Errors
-    /// When a file cannot be read or made, or holds something else.
+    /// What is kept beside this boot counter; what is not there yet is made. Fails where a file cannot be read or made,
+    /// or holds something else.
     pub(super) fn beside(counter: &Path) -> Result<Self, BootError> {
         let (secret, time) = (beside(counter, "secret"), beside(counter, "time"));
         Ok(Self {

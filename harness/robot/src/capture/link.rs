@@ -142,63 +142,34 @@ mod tests {
         // The CRC-32 of `ethernet` and of a frame of 802.11, by Python's zlib.
         let ethernet_checked = [&ethernet[..], &[0x20, 0xd1, 0x2d, 0x90]].concat();
         let data_checked = [&data(0x0088, 2, &snap)[..], &[0x61, 0xc8, 0x81, 0x3d]].concat();
+        let tagged = |tags: &[u8]| [&addresses[..], tags, &plain].concat();
+        let cooked = |protocol: &[u8]| [&[0; 14][..], protocol].concat();
+        let in_cooked = [&IPV4.to_be_bytes()[..], &ipv4(UDP, 0, PACKET)].concat();
+        let version_2 = [&ETHERTYPE.to_be_bytes()[..], &[0; 18], PACKET].concat();
+        let (ip, air) = (DataLink::RAW, DataLink::IEEE802_11);
+        let air_checked = DataLink::IEEE802_11_RADIOTAP;
+        let two_tags = [0x88, 0xa8, 0, 5, 0x81, 0, 0, 6];
         let found: &[(&str, DataLink, Vec<u8>)] = &[
             ("Ethernet", DataLink::ETHERNET, ethernet.clone()),
             ("its check sequence", DataLink::ETHERNET, ethernet_checked),
-            (
-                "802.1Q",
-                DataLink::ETHERNET,
-                [&addresses[..], &[0x81, 0, 0, 5], &plain].concat(),
-            ),
-            (
-                "802.1ad",
-                DataLink::ETHERNET,
-                [&addresses[..], &[0x88, 0xa8, 0, 5, 0x81, 0, 0, 6], &plain].concat(),
-            ),
-            ("802.11, QoS", DataLink::IEEE802_11, data(0x0088, 2, &snap)),
-            (
-                "802.11 without QoS",
-                DataLink::IEEE802_11,
-                data(0x0008, 0, &snap),
-            ),
-            (
-                "802.11, relayed",
-                DataLink::IEEE802_11,
-                data(0x0388, 8, &snap),
-            ),
-            (
-                "802.11, high throughput",
-                DataLink::IEEE802_11,
-                data(0x8088, 6, &snap),
-            ),
-            (
-                "802.11, ethertype alone",
-                DataLink::IEEE802_11,
-                data(0x0088, 2, &plain),
-            ),
-            (
-                "radiotap",
-                DataLink::IEEE802_11_RADIOTAP,
-                radiotap(&data_checked),
-            ),
-            (
-                "Linux cooked",
-                DataLink::LINUX_SLL,
-                [&[0; 14][..], &plain].concat(),
-            ),
-            (
-                "Linux cooked, version 2",
-                DataLink::LINUX_SLL2,
-                [&ETHERTYPE.to_be_bytes()[..], &[0; 18], PACKET].concat(),
-            ),
-            ("raw IPv4", DataLink::RAW, ipv4(UDP, 0, PACKET)),
-            ("raw IPv6", DataLink::RAW, ipv6(PACKET)),
+            ("802.1Q", DataLink::ETHERNET, tagged(&[0x81, 0, 0, 5])),
+            ("802.1ad", DataLink::ETHERNET, tagged(&two_tags)),
+            ("802.11, QoS", air, data(0x0088, 2, &snap)),
+            ("802.11 without QoS", air, data(0x0008, 0, &snap)),
+            ("802.11, relayed", air, data(0x0388, 8, &snap)),
+            ("802.11, high throughput", air, data(0x8088, 6, &snap)),
+            ("802.11, ethertype alone", air, data(0x0088, 2, &plain)),
+            ("radiotap", air_checked, radiotap(&data_checked)),
+            ("Linux cooked", DataLink::LINUX_SLL, cooked(&plain)),
+            ("Linux cooked, version 2", DataLink::LINUX_SLL2, version_2),
+            ("raw IPv4", ip, ipv4(UDP, 0, PACKET)),
+            ("raw IPv6", ip, ipv6(PACKET)),
             ("IPv4", DataLink::IPV4, ipv4(UDP, 0, &ethernet)),
             ("IPv6", DataLink::IPV6, ipv6(PACKET)),
             (
-                "UDP in a Linux cooked frame",
+                "UDP in Linux cooked",
                 DataLink::LINUX_SLL,
-                [&[0; 14][..], &IPV4.to_be_bytes(), &ipv4(UDP, 0, PACKET)].concat(),
+                cooked(&in_cooked),
             ),
         ];
         for (name, link, frame) in found {
@@ -214,30 +185,16 @@ mod tests {
     #[test]
     fn frames_without_a_packet_have_none() {
         let snap = [&SNAP[..], &with_ethertype(ETHERTYPE)].concat();
+        let arp = [&[2; 12][..], &with_ethertype(0x0806)].concat();
+        let (ip, air) = (DataLink::RAW, DataLink::IEEE802_11);
         let none: &[(&str, DataLink, Vec<u8>)] = &[
-            (
-                "ARP",
-                DataLink::ETHERNET,
-                [&[2; 12][..], &with_ethertype(0x0806)].concat(),
-            ),
-            ("a beacon", DataLink::IEEE802_11, data(0x0080, 0, &snap)),
-            (
-                "an encrypted frame",
-                DataLink::IEEE802_11,
-                data(0x4088, 2, &snap),
-            ),
-            (
-                "a frame without data",
-                DataLink::IEEE802_11,
-                data(0x00c8, 2, &snap),
-            ),
-            ("TCP", DataLink::RAW, ipv4(6, 0, PACKET)),
-            ("a fragment", DataLink::RAW, ipv4(UDP, 1, PACKET)),
-            (
-                "a datagram of another program",
-                DataLink::RAW,
-                ipv4(UDP, 0, b"GET /"),
-            ),
+            ("ARP", DataLink::ETHERNET, arp),
+            ("a beacon", air, data(0x0080, 0, &snap)),
+            ("an encrypted frame", air, data(0x4088, 2, &snap)),
+            ("a frame without data", air, data(0x00c8, 2, &snap)),
+            ("TCP", ip, ipv4(6, 0, PACKET)),
+            ("a fragment", ip, ipv4(UDP, 1, PACKET)),
+            ("another program's datagram", ip, ipv4(UDP, 0, b"GET /")),
         ];
         for (name, link, frame) in none {
             assert_eq!(reader_of(*link).expect(name)(frame), None, "{name}");

@@ -140,7 +140,6 @@ impl<O: Obeys> Counter<O> {
         }
     }
 
-    /// Takes in what the robot did.
     fn record(&mut self, record: &Record, now_us: u64) {
         let at_us = record.at_us;
         match &record.entry {
@@ -208,7 +207,6 @@ impl<O: Obeys> Counter<O> {
         self.tell(&line);
     }
 
-    /// Takes in what comes by the port.
     fn hear(&mut self, heard: Heard, now_us: u64) {
         match heard {
             Heard::Connected(_, mut stream) if self.clients.len() >= CLIENTS => {

@@ -46,7 +46,6 @@ pub(super) fn event_of(name: &str) -> Option<Event> {
     event.filter(|event| super::port::order_of(*event).is_ok())
 }
 
-/// Their names.
 pub(super) fn event_names() -> Vec<&'static str> {
     let names = EventKind::ALL.iter().map(|kind| kind.name());
     names.filter(|name| event_of(name).is_some()).collect()

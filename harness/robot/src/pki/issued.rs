@@ -30,6 +30,13 @@ pub struct Term {
 }
 
 impl Term {
+    /// So many hours from a time on.
+    #[must_use]
+    pub const fn hours(from: Time64, hours: u16) -> Self {
+        let duration = Duration::hours(hours);
+        Self { from, duration }
+    }
+
     fn validity(self) -> Validity {
         let seconds = (self.from.0 / 1_000_000).saturating_sub(EARLY_S);
         Validity {
@@ -192,10 +199,8 @@ impl Pki {
         keys: &mut dyn FnMut() -> PrivateKey,
     ) -> Result<Self, IssueError> {
         let pseudonyms = Duration::hours(23);
-        let term = Term {
-            from: Time64(now.0.saturating_sub(early_us(pseudonyms))),
-            duration: Duration::hours(27),
-        };
+        let from = Time64(now.0.saturating_sub(early_us(pseudonyms)));
+        let term = Term::hours(from, 27);
         let its_aids = its_aids(identifiers);
         let root = root_with(keys(), "test root", term, None, &its_aids)?;
         let name = "test authority";

@@ -93,7 +93,8 @@ fn point_7_what_is_wrong_is_refused_with_line_or_key_and_remedy() {
     }
 }
 
-fn read(protocol: &str) -> Result<RobotFile, String> {
+/// A robot with these settings and this plan.
+fn robot(protocol: &str, plan_file: Option<&Path>) -> Result<RobotFile, String> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("robot.toml");
     let text = format!(
@@ -102,32 +103,30 @@ fn read(protocol: &str) -> Result<RobotFile, String> {
     );
     std::fs::write(&path, text).unwrap();
     let besides = Besides {
-        plan_file: Some(Path::new("crossing")),
+        plan_file,
         ..Besides::default()
     };
     RobotFile::read_with(&path, besides).map_err(|error| error.to_string())
 }
 
+fn read(protocol: &str) -> Result<RobotFile, String> {
+    robot(protocol, Some(Path::new("crossing")))
+}
+
+/// Settings, and what is said of them.
+const UNSAFE: &str = "
+holding = 0     | [protocol] the settings break 'block-holds'
+guarding = 0    | [protocol] the settings break 'named-tasks-guard'
+t_cross = 1     | [protocol] t_cross is 0.001 s: a slow walker (0.9 m/s) is between the kerbs of the site for 7.8 s
+t_cross = 20000 | plan crossing:27: role 'escort' goes 9.0 m at 0.424 m/s, which takes 21.2 s: t_cross is 20 s
+";
+
 #[test]
 fn settings_that_switch_a_protection_off_are_refused() {
     assert!(read("").is_ok());
-    for (protocol, cause) in [
-        ("holding = 0", "[protocol] the settings break 'block-holds'"),
-        (
-            "guarding = 0",
-            "[protocol] the settings break 'named-tasks-guard'",
-        ),
-        (
-            "t_cross = 1",
-            "[protocol] t_cross is 0.001 s: a slow walker (0.9 m/s) is between the kerbs of the site for 7.8 s",
-        ),
-        (
-            "t_cross = 20000",
-            "plan crossing:27: role 'escort' goes 9.0 m at 0.424 m/s, which takes 21.2 s: t_cross is 20 s",
-        ),
-    ] {
-        let error = read(protocol).unwrap_err();
-        assert!(error.contains(cause), "{protocol}: {error}");
+    for [protocol, cause] in rows(UNSAFE) {
+        let error = read(&protocol).unwrap_err();
+        assert!(error.contains(&cause), "{protocol}: {error}");
     }
 }
 
@@ -135,12 +134,7 @@ fn settings_that_switch_a_protection_off_are_refused() {
 /// knows no road.
 #[test]
 fn a_robot_without_a_zone_knows_the_carriageway_of_its_site() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("robot.toml");
-    let text = "name = \"Spot\"\nstation = 2\nbuild = \"quadruped\"\nboot_file = \"spot.boot\"\n\
-         [link]\naddress = \"127.0.0.1:1\"\npeers = [\"127.0.0.1:2\"]\n";
-    std::fs::write(&path, text).unwrap();
-    let file = RobotFile::read_with(&path, Besides::default()).unwrap();
+    let file = robot("", None).unwrap();
     let Road::Heard(road) = file.road() else {
         panic!("{:?}", file.road());
     };

@@ -81,7 +81,6 @@ pub enum NoTraits {
     Dimension(f64),
 }
 
-/// Checks them.
 pub(super) fn check(
     job: Option<JobName>,
     dimensions_m: Option<[f64; 3]>,

@@ -116,10 +116,8 @@ fn make_place(path: &Path, kept: u32) -> io::Result<()> {
 /// # Errors
 /// When the file cannot be read.
 pub fn open(path: &Path) -> io::Result<Log<'static>> {
-    Ok(Log {
-        name: path.display().to_string(),
-        lines: Box::new(BufReader::new(File::open(path)?)),
-    })
+    let lines = BufReader::new(File::open(path)?);
+    Ok(Log::new(path.display().to_string(), lines))
 }
 
 #[cfg(test)]

@@ -21,6 +21,14 @@ pub struct Log<'a> {
     pub lines: Box<dyn BufRead + 'a>,
 }
 
+impl<'a> Log<'a> {
+    /// A log of this name.
+    pub fn new(name: impl Into<String>, lines: impl BufRead + 'a) -> Self {
+        let (name, lines) = (name.into(), Box::new(lines));
+        Self { name, lines }
+    }
+}
+
 /// Why a log cannot be read on.
 #[derive(Debug, thiserror::Error)]
 pub enum Unreadable {
@@ -276,10 +284,7 @@ mod tests {
         for record in records {
             write(&mut text, record).unwrap();
         }
-        Log {
-            name: "some.jsonl".to_owned(),
-            lines: Box::new(std::io::Cursor::new(text)),
-        }
+        Log::new("some.jsonl", std::io::Cursor::new(text))
     }
 
     fn times(logs: Vec<Log<'static>>) -> Vec<(u64, String)> {
@@ -339,12 +344,7 @@ mod tests {
             let mut text = Vec::new();
             write(&mut text, &started("ARI", 0, 0)).unwrap();
             text.extend(tail.as_bytes());
-            let lines = Box::new(std::io::Cursor::new(text));
-            Merged::new(vec![Log {
-                name: "a".to_owned(),
-                lines,
-            }])
-            .unwrap()
+            Merged::new(vec![Log::new("a", std::io::Cursor::new(text))]).unwrap()
         };
         let mut cut_off = text("{\"atUs\":5,\"rob");
         assert!(cut_off.take().unwrap().is_some());
@@ -354,13 +354,8 @@ mod tests {
         assert!(error.starts_with("a, line 2: is not a record"), "{error}");
         assert_eq!(broken.take().unwrap().unwrap().record.robot, "ARI");
         assert!(broken.take().unwrap().is_none());
-        let frames = Box::new(br#"{"at_s": 0.0, "people": []}"#.as_slice());
-        let name = "people.jsonl".to_owned();
-        let frames = Merged::new(vec![Log {
-            name,
-            lines: frames,
-        }])
-        .err();
+        let frames = br#"{"at_s": 0.0, "people": []}"#.as_slice();
+        let frames = Merged::new(vec![Log::new("people.jsonl", frames)]).err();
         let error = frames.unwrap().to_string();
         assert!(error.contains("is a frame of a sensor"), "{error}");
         let empty = Merged::new(vec![log(&[])]).err().unwrap().to_string();

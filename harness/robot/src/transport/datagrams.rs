@@ -22,7 +22,6 @@ pub(super) struct Datagrams<S> {
 }
 
 impl<S: AsFd + AsRawFd> Datagrams<S> {
-    /// Those of this socket.
     pub(super) fn of(socket: S) -> Self {
         Self {
             stamps: Stamps::of(&socket),
@@ -32,10 +31,8 @@ impl<S: AsFd + AsRawFd> Datagrams<S> {
         }
     }
 
-    /// Waits for the next one, for so long at most: who sent it, what it holds, and when it arrived.
-    ///
-    /// # Errors
-    /// Those of the operating system that will not go away by themselves.
+    /// Waits for the next one, for so long at most: who sent it, what it holds, and when it arrived. Fails by what the
+    /// operating system says and will not go away by itself.
     pub(super) fn next(
         &mut self,
         at_most: Duration,

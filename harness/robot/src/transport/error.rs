@@ -49,17 +49,13 @@ pub enum LinkError {
     },
 }
 
-/// Whether this is the name of a loopback interface.
 pub(super) fn is_loopback(name: &str) -> bool {
     let mut interfaces = getifaddrs().into_iter().flatten();
     interfaces
         .any(|it| it.interface_name == name && it.flags.contains(InterfaceFlags::IFF_LOOPBACK))
 }
 
-/// The first address of an interface that `of` takes, as `of` gives it.
-///
-/// # Errors
-/// When there is none of that name that has such an address.
+/// The first address of an interface that `of` takes, as `of` gives it. Fails where none of that name has one.
 pub(super) fn address_of<T>(
     name: &str,
     of: fn(&SockaddrStorage) -> Option<T>,
@@ -78,10 +74,7 @@ pub(super) fn address_of<T>(
     Err(LinkError::NoInterface { name, known })
 }
 
-/// The index and the IPv4 address of an interface.
-///
-/// # Errors
-/// When there is none of that name that has such an address.
+/// The index and the IPv4 address of an interface. Fails where none of that name has one.
 pub(super) fn interface_of(name: &str) -> Result<(u32, Ipv4Addr), LinkError> {
     let address = address_of(name, |it| Some(it.as_sockaddr_in()?.ip()))?;
     let index = if_nametoindex(name).map_err(|cause| LinkError::Unusable {

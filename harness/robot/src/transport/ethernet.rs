@@ -18,10 +18,7 @@ use super::datagrams::Datagrams;
 use super::error::address_of;
 use super::{Arrival, Halves, LinkError, NotSent, Receiver, Sender, Source};
 
-/// Opens a raw socket on an interface.
-///
-/// # Errors
-/// When there is no such interface, or the right to open raw sockets is missing.
+/// Opens a raw socket on an interface. Fails where there is none, or without the right to open raw sockets.
 pub(super) fn open(interface: &str) -> Result<Halves, LinkError> {
     let failed = |errno: Errno| LinkError::Ethernet {
         interface: interface.to_owned(),
@@ -40,10 +37,7 @@ pub(super) fn open(interface: &str) -> Result<Halves, LinkError> {
     let receiver = EthernetReceiver {
         frames: Datagrams::of(Arc::clone(&socket)),
     };
-    Ok(Halves {
-        sender: Box::new(EthernetSender { socket }),
-        receiver: Box::new(receiver),
-    })
+    Ok(Halves::of(EthernetSender { socket }, receiver))
 }
 
 struct EthernetSender {

@@ -179,8 +179,7 @@ mod tests {
 
     impl Transport for CameIn {
         fn open(&self) -> Result<Halves, LinkError> {
-            let (sender, receiver) = (Box::new(self.clone()), Box::new(self.clone()));
-            Ok(Halves { sender, receiver })
+            Ok(Halves::of(self.clone(), self.clone()))
         }
     }
 

@@ -1,7 +1,7 @@
 //! What robots are configured with: where they meet.
 
 use std::fmt;
-use std::net::{SocketAddr, SocketAddrV4};
+use std::net::{Ipv4Addr, SocketAddr, SocketAddrV4};
 
 use super::error::is_loopback;
 use super::{Framing, Halves, LinkError, Transport, ethernet, udp, unit};
@@ -45,6 +45,16 @@ pub enum Link {
 }
 
 impl Link {
+    /// A socket at a port of 127.0.0.1, and that of each peer; any free port where it is 0.
+    #[must_use]
+    pub fn loopback(port: u16, peers: Vec<SocketAddr>) -> Self {
+        Self::Peers {
+            address: (Ipv4Addr::LOCALHOST, port).into(),
+            peers,
+            framing: Framing::default(),
+        }
+    }
+
     /// How packets lie in its datagrams, as far as it has any.
     #[must_use]
     pub fn framing(&self) -> Framing {

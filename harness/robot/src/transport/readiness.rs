@@ -10,10 +10,7 @@ use nix::errno::Errno;
 use nix::poll::{PollFd, PollFlags, ppoll};
 use nix::sys::time::TimeSpec;
 
-/// Waits until the socket has something, or an error, for so long at most.
-///
-/// # Errors
-/// `EINTR` when a signal came.
+/// Waits until the socket has something, or an error, for so long at most. Fails by `EINTR` when a signal came.
 pub(super) fn wait_for(socket: &impl AsFd, at_most: Duration) -> Result<(), Errno> {
     if at_most.is_zero() {
         return Ok(());

@@ -24,15 +24,13 @@ impl<T: Transport + Clone + Send + 'static> Transport for Reopening<T> {
     fn open(&self) -> Result<Halves, LinkError> {
         let Halves { sender, receiver } = self.0.open()?;
         let (hand_over, coming) = sync_channel(1);
-        Ok(Halves {
-            sender: Box::new(ReopeningSender {
-                transport: self.0.clone(),
-                sender,
-                hand_over,
-                tried: None,
-            }),
-            receiver: Box::new(ReopeningReceiver { receiver, coming }),
-        })
+        let sender = ReopeningSender {
+            transport: self.0.clone(),
+            sender,
+            hand_over,
+            tried: None,
+        };
+        Ok(Halves::of(sender, ReopeningReceiver { receiver, coming }))
     }
 }
 
@@ -85,7 +83,7 @@ mod tests {
     use std::sync::Arc;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    use super::super::{Framing, Link};
+    use super::super::Link;
     use super::*;
 
     /// A transport that never sends, and counts how often it is opened.
@@ -95,12 +93,7 @@ mod tests {
     impl Transport for Failing {
         fn open(&self) -> Result<Halves, LinkError> {
             self.1.fetch_add(1, Ordering::Relaxed);
-            let halves = Link::Peers {
-                address: "127.0.0.1:0".parse().unwrap(),
-                peers: Vec::new(),
-                framing: Framing::default(),
-            }
-            .open()?;
+            let halves = Link::loopback(0, Vec::new()).open()?;
             let sender = Box::new(self.clone());
             Ok(Halves { sender, ..halves })
         }

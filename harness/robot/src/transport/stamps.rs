@@ -17,7 +17,6 @@ use nix::sys::time::TimeSpec;
 /// By how much the two clocks may come apart between two looks at a socket.
 const DRIFT_MAX: Duration = Duration::from_millis(5);
 
-/// What was received.
 pub(super) struct Stamped {
     /// How many octets.
     pub(super) length: usize,
@@ -50,10 +49,7 @@ impl Stamps {
         }
     }
 
-    /// Receives a datagram. What is longer than the buffer is cut off.
-    ///
-    /// # Errors
-    /// Those of the operating system, and that there is nothing.
+    /// Receives a datagram. What is longer than the buffer is cut off. Fails where there is nothing, too.
     pub(super) fn receive(
         &mut self,
         socket: &impl AsRawFd,

@@ -11,7 +11,6 @@ use super::datagrams::Datagrams;
 use super::error::interface_of;
 use super::{Arrival, Framing, Halves, LinkError, NotSent, Receiver, Sender};
 
-/// The sending half of a link.
 #[derive(Debug)]
 struct UdpSender {
     socket: UdpSocket,
@@ -19,17 +18,13 @@ struct UdpSender {
     framing: Framing,
 }
 
-/// The receiving half of a link.
 #[derive(Debug)]
 struct UdpReceiver {
     datagrams: Datagrams<UdpSocket>,
     framing: Framing,
 }
 
-/// Opens a socket of this address, with these peers.
-///
-/// # Errors
-/// When the address is in use, or cannot be used.
+/// Opens a socket of this address, with these peers. Fails where the address is in use, or cannot be used.
 pub(super) fn open(
     address: SocketAddr,
     peers: Vec<SocketAddr>,
@@ -39,10 +34,8 @@ pub(super) fn open(
     halves(socket, address, peers, framing)
 }
 
-/// Joins a group so that several robots on one machine can be in it.
-///
-/// # Errors
-/// When it is no group, there is no such interface, or the address cannot be used.
+/// Joins a group so that several robots on one machine can be in it. Fails where it is no group, there is no such
+/// interface, or the address cannot be used.
 pub(super) fn join(
     group: SocketAddrV4,
     interface: &str,
@@ -80,14 +73,12 @@ fn halves(
         datagrams: Datagrams::of(socket.try_clone().map_err(unusable)?),
         framing,
     };
-    Ok(Halves {
-        sender: Box::new(UdpSender {
-            socket,
-            to,
-            framing,
-        }),
-        receiver: Box::new(receiver),
-    })
+    let sender = UdpSender {
+        socket,
+        to,
+        framing,
+    };
+    Ok(Halves::of(sender, receiver))
 }
 
 pub(super) fn open_error(address: SocketAddr) -> impl Fn(std::io::Error) -> LinkError {
@@ -141,11 +132,7 @@ mod tests {
             UdpSocket::bind(any_port()).unwrap(),
         );
         let peers = vec![a.local_addr().unwrap(), b.local_addr().unwrap()];
-        let link = Link::Peers {
-            address: any_port(),
-            peers,
-            framing: Framing::default(),
-        };
+        let link = Link::loopback(0, peers);
         let mut sender = link.open().unwrap().sender;
         sender.send(b"hello").unwrap();
         for peer in [a, b] {
@@ -158,12 +145,7 @@ mod tests {
     fn an_address_in_use_is_said_to_be() {
         let taken = UdpSocket::bind(any_port()).unwrap().local_addr();
         let holder = UdpSocket::bind(taken.unwrap()).unwrap();
-        let address = holder.local_addr().unwrap();
-        let link = Link::Peers {
-            address,
-            peers: Vec::new(),
-            framing: Framing::default(),
-        };
+        let link = Link::loopback(holder.local_addr().unwrap().port(), Vec::new());
         assert!(matches!(link.open(), Err(LinkError::InUse { .. })));
     }
 

@@ -24,10 +24,7 @@ const SILENCE_MAX: Duration = Duration::from_secs(3);
 /// How often the robot takes in how the channel is, at most.
 const CHANNEL_PERIOD: Duration = Duration::from_millis(100);
 
-/// Opens the link to the unit at this address, from `address` or from any port.
-///
-/// # Errors
-/// When the own address cannot be used.
+/// Opens the link to the unit at this address, from `address` or from any port. Fails where that cannot be used.
 pub(super) fn open(
     unit: SocketAddr,
     address: Option<SocketAddr>,
@@ -48,18 +45,16 @@ pub(super) fn open(
     };
     let (socket, hello, receiver) = connected(address).map_err(open_error(address))?;
     let now = Instant::now();
-    Ok(Halves {
-        sender: Box::new(UnitSender { socket, sends }),
-        receiver: Box::new(UnitReceiver {
-            unit,
-            hello,
-            datagrams: Datagrams::of(receiver),
-            said_hello: None,
-            heard: now,
-            told_channel: None,
-            next: None,
-        }),
-    })
+    let receiver = UnitReceiver {
+        unit,
+        hello,
+        datagrams: Datagrams::of(receiver),
+        said_hello: None,
+        heard: now,
+        told_channel: None,
+        next: None,
+    };
+    Ok(Halves::of(UnitSender { socket, sends }, receiver))
 }
 
 #[derive(Debug)]

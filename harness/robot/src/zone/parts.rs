@@ -23,7 +23,6 @@ const EDGE_M: f64 = 0.01;
 
 type Point = [f64; 2];
 
-/// The parts of a carriageway.
 pub(super) struct Parts {
     /// The direction of the columns, of length 1.
     axis: Point,
@@ -43,7 +42,6 @@ struct Piece {
 }
 
 impl Parts {
-    /// Those of a carriageway with this outline.
     pub(super) fn of(outline: &[Point]) -> Self {
         let directions = sides(outline).map(|(from, to)| [to[0] - from[0], to[1] - from[1]]);
         let longest = directions.max_by(|a, b| length(*a).total_cmp(&length(*b)));
@@ -83,7 +81,6 @@ impl Parts {
         Self { axis, pieces }
     }
 
-    /// All of them.
     pub(super) fn all(&self) -> Coverage {
         together(self.pieces.iter())
     }

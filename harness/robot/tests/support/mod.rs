@@ -56,7 +56,6 @@ impl<Notes: Default> Street<Notes> {
         }
     }
 
-    /// A robot that is not gone.
     pub(crate) fn robot(&mut self, number: usize) -> &mut Machine {
         self.robots[number].as_mut().unwrap()
     }

@@ -121,7 +121,6 @@ impl Start {
     }
 }
 
-/// The name of a policy.
 pub(super) const fn policy(policy: FallbackPolicy) -> &'static str {
     match policy {
         FallbackPolicy::StopInPlace => "stop-in-place",

@@ -8,25 +8,12 @@ use crossguard_codec::geonet::EgoPosition;
 use crossguard_codec::{
     DriveDirection, Heard as Message, Identifiers, Position, TaskParameters, encode, ram_from,
 };
-use crossguard_protocol::{
-    Availability, ManeuverId, RequestId, Robot, SessionId, SessionNumber, StationId, StopReason,
-    TaskType, UniqueNumber,
-};
+use crossguard_protocol::{Availability, Robot, StationId, StopReason, TaskType};
 
 use super::*;
-use crate::table::rows;
+use crate::table::{maneuver, rows};
 
-/// What a body says first.
 const HELLO: &str = r#"{"type": "hello", "crossguard": 2}"#;
-
-fn maneuver(task: TaskType) -> Maneuver {
-    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
-    let leader = StationId(1);
-    let session = SessionId { leader, number };
-    let request = RequestId(0);
-    let id = ManeuverId { session, request };
-    Maneuver { id, task }
-}
 
 /// A port that was without a body until one said this; its folder lasts as long as the test.
 fn open(hello: &str) -> (Ported, UnixStream, tempfile::TempDir) {
@@ -88,19 +75,10 @@ fn acts_go_out_as_lines_and_what_the_body_says_comes_in() {
     assert_eq!(heard(&mut lines)["type"], "hello");
     let line = std::iter::repeat_with(|| heard(&mut lines)).find(|line| line["type"] != "beat");
     let line = line.unwrap();
-    assert_eq!(
-        (&line["type"], &line["task"]),
-        (&"start".into(), &"block".into())
-    );
-    assert_eq!(
-        (&line["id"], &line["report"]),
-        (&"1#1.0/0".into(), &"in-position".into())
-    );
-    assert!(
-        (line["to"]["eastM"].as_f64().unwrap() - 6.0).abs() < 1e-6,
-        "{line}"
-    );
-    assert_eq!(line["headingDeg"], 90.0);
+    let said = ["type", "task", "id", "report"].map(|name| &line[name]);
+    assert_eq!(said, ["start", "block", "1#1.0/0", "in-position"]);
+    let off_m = line["to"]["eastM"].as_f64().unwrap() - 6.0;
+    assert!(off_m.abs() < 1e-6 && line["headingDeg"] == 90.0, "{line}");
     let said = "{\"type\": \"pose\", \"eastM\": 6.1, \"northM\": 5}\n{\"type\": \"in-position\", \"id\": \"1#1.0/0\"}";
     writeln!(other, "{said}").unwrap();
     let there = Report::InPosition(maneuver(TaskType::BLOCK).id);
@@ -113,8 +91,8 @@ fn a_body_that_says_nothing_is_silent_once_and_the_end_of_its_connection_is_sile
     let (mut body, _other, folder) = open(HELLO);
     assert_eq!(report(&mut body), Some(Report::Here));
     // It hangs.
-    let hangs = Some(Report::Silent("nothing was heard of the body".to_owned()));
-    assert_eq!(report_of_silence(&mut body), hangs);
+    let hangs = Report::Silent("nothing was heard of the body".to_owned());
+    assert_eq!(report_of_silence(&mut body), Some(hangs));
     assert_eq!(report_of_silence(&mut body), None);
     let stop = BodyAct::Stop(maneuver(TaskType::MOVE), StopReason::Superseded);
     assert_eq!(body.act(stop), Ok(()), "it was told that it is silent");
@@ -244,15 +222,16 @@ fn what_does_not_count_is_counted_and_texts_of_a_body_stay_in_a_line() {
     ] {
         tell.send(heard).unwrap();
     }
+    let dropped = |cause, what: &str, count| Report::Dropped(cause, what.to_owned(), count);
     let text = r"hot\u{a} 12.000 ARI: now Idle\u{1b}[2J";
     let expected = [
-        Report::Dropped(
+        dropped(
             Cause::BodiesFull,
-            "another body wanted to connect: refused".to_owned(),
+            "another body wanted to connect: refused",
             1,
         ),
         Report::Fault(format!("{text}{}", "!".repeat(TEXT_CHARS - 29))),
-        Report::Dropped(Cause::BodyGarbled, too_long.to_owned(), 2),
+        dropped(Cause::BodyGarbled, too_long, 2),
         Report::Silent(too_long.to_owned()),
     ];
     assert_eq!(body.advance(0.0), expected);
@@ -264,30 +243,35 @@ fn what_does_not_count_is_counted_and_texts_of_a_body_stay_in_a_line() {
     let (stream, _) = crate::port::prepare(ours).unwrap();
     tell.send(Heard::Connected(2, stream)).unwrap();
     assert_eq!(body.advance(0.0), []);
-    let mute = "no hello: nothing was heard of the body".to_owned();
-    assert_eq!(
-        report_of_silence(&mut body),
-        Some(Report::Dropped(Cause::BodyGarbled, mute, 1))
+    let mute = dropped(
+        Cause::BodyGarbled,
+        "no hello: nothing was heard of the body",
+        1,
     );
+    assert_eq!(report_of_silence(&mut body), Some(mute));
 }
 
 #[test]
 fn a_body_of_the_version_without_wait_is_refused() {
     let (mut body, other, _folder) = open(r#"{"type": "hello", "crossguard": 1}"#);
-    assert!(matches!(
-        report(&mut body),
-        Some(Report::Dropped(Cause::BodyGarbled, ..))
-    ));
+    is_garbled(&mut body);
     let mut lines = BufReader::new(other);
     assert_eq!(heard(&mut lines)["type"], "hello");
     let refused = heard(&mut lines);
-    assert!(
-        refused["why"]
-            .as_str()
-            .unwrap()
-            .starts_with("version 1: 2 is spoken"),
-        "{refused}"
-    );
+    let why = refused["why"].as_str().unwrap();
+    assert!(why.starts_with("version 1: 2 is spoken"), "{why}");
+}
+
+#[track_caller]
+fn is_garbled(body: &mut Ported) {
+    let said = report(body);
+    let is_it = matches!(said, Some(Report::Dropped(Cause::BodyGarbled, ..)));
+    assert!(is_it, "{said:?}");
+}
+
+/// A pose so far to the east, with more fields.
+fn pose(east: i32, more: &str) -> String {
+    format!(r#"{{"type": "pose", "eastM": {east}, "northM": 0{more}}}"#)
 }
 
 /// What a RAM of a robot in this state says of it.
@@ -316,11 +300,7 @@ fn point_5_what_a_body_does_not_know_of_its_pose_is_unavailable() {
     assert_eq!(report(&mut body), Some(Report::Here));
     for ([more, error, speed, heading, is_accurate], at) in rows(POSES).zip(1..) {
         let comma = if more.is_empty() { "" } else { ", " };
-        writeln!(
-            other,
-            "{{\"type\": \"pose\", \"eastM\": {at}, \"northM\": 0{comma}{more}}}"
-        )
-        .unwrap();
+        writeln!(other, "{}", pose(at, &format!("{comma}{more}"))).unwrap();
         while body.place() != Place::new(f64::from(at), 0.0) {
             std::thread::sleep(Duration::from_millis(1));
             assert_eq!(body.advance(0.0).pop(), None, "{more}");
@@ -343,15 +323,7 @@ fn point_5_what_a_body_does_not_know_of_its_pose_is_unavailable() {
         "\"errorM\": 1001",
         "\"speedMps\": 1e999",
     ] {
-        writeln!(
-            other,
-            "{{\"type\": \"pose\", \"eastM\": 0, \"northM\": 0, {wrong}}}"
-        )
-        .unwrap();
-        let said = report(&mut body);
-        assert!(
-            matches!(said, Some(Report::Dropped(Cause::BodyGarbled, ..))),
-            "{wrong}: {said:?}"
-        );
+        writeln!(other, "{}", pose(0, &format!(", {wrong}"))).unwrap();
+        is_garbled(&mut body);
     }
 }

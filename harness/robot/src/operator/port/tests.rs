@@ -10,11 +10,12 @@ use crossguard_protocol::{
     Availability, Config, StationId, TaskSet, TaskType, Unavailability, Urgency,
 };
 
+use serde_json::json;
+
 use super::*;
 use crate::port::prepare;
 use crate::table::rows;
 
-/// What the robot was told.
 #[derive(Clone, Default)]
 struct Told(Rc<RefCell<Vec<Order>>>);
 
@@ -63,7 +64,6 @@ fn heard(from: &mut impl BufRead) -> Value {
     serde_json::from_str(&line).unwrap()
 }
 
-/// The record of a step.
 fn step(robot: &mut Robot, at_us: u64, event: Event) -> Record {
     let input = Input::Local(event);
     let outputs = Box::new(robot.step(&Config::default(), input));
@@ -79,6 +79,22 @@ fn step(robot: &mut Robot, at_us: u64, event: Event) -> Record {
     }
 }
 
+/// Asserts that a line has these fields.
+#[track_caller]
+fn has(line: &Value, fields: &Value) {
+    for (name, value) in fields.as_object().unwrap() {
+        assert_eq!(&line[name], value, "{line}");
+    }
+}
+
+/// Asserts that the robot was to count this cause once, and was told nothing else.
+#[track_caller]
+fn is_counted(told: &Told, counted: Cause) {
+    let orders = told.take();
+    let is_it = matches!(orders[..], [Order::Count(cause, _)] if cause == counted);
+    assert!(is_it, "{orders:?}");
+}
+
 fn help() -> HelpRequest {
     HelpRequest {
         urgency: Urgency::High,
@@ -92,11 +108,8 @@ fn help() -> HelpRequest {
 fn each_line_is_an_order_or_is_refused_and_counted() {
     let (mut counter, told) = counter();
     let mut lines = connect(&mut counter, 0);
-    assert_eq!(
-        heard(&mut lines),
-        serde_json::json!({"type": "hello", "crossguard": 1, "robot": "Go2", "station": 2, "boot": 7,
-            "trustsRosGraph": true})
-    );
+    let hello = json!({"type": "hello", "crossguard": 1, "robot": "Go2", "station": 2, "boot": 7, "trustsRosGraph": true});
+    assert_eq!(heard(&mut lines), hello);
     say(&mut counter, 0, HELLO);
     let tell = |event| Some(Order::Wish(Stimulus::Event(event)));
     let stopped = Availability::Unavailable(Unavailability::EmergencyStop);
@@ -150,14 +163,9 @@ fn each_line_is_an_order_or_is_refused_and_counted() {
             "" => counter.hear(Heard::Unread(0, "a line has more"), 0),
             line => say(&mut counter, 0, line),
         }
-        let orders = told.take();
-        let is_counted = matches!(orders[..], [Order::Count(Cause::OperatorGarbled, _)]);
-        assert!(is_counted, "{line}: {orders:?}");
+        is_counted(&told, Cause::OperatorGarbled);
         let refused = heard(&mut lines);
-        assert_eq!(
-            (&refused["type"], &refused["line"]),
-            (&"refused".into(), &nth.into())
-        );
+        has(&refused, &json!({"type": "refused", "line": nth}));
         let answer = refused["why"].as_str().unwrap();
         assert!(answer.starts_with(&why), "{line}: {answer}");
     }
@@ -172,7 +180,7 @@ fn the_port_takes_the_commands_that_say_what_they_mean_for_somebody_on_the_road(
             "until" => "until idle",
             name => name,
         };
-        let line = serde_json::json!({"type": "command", "line": words}).to_string();
+        let line = json!({"type": "command", "line": words}).to_string();
         let why = counter.understand(&line).err().unwrap_or_default();
         let is_of_console = why.ends_with("is for the console");
         assert_eq!(is_of_console, command.on_road.is_none(), "{words}: {why}");
@@ -200,25 +208,20 @@ fn what_the_robot_does_is_told_with_its_state_at_every_change_and_as_a_beat() {
     heard(&mut lines);
     say(&mut counter, 0, HELLO);
     counter.record(&step(&mut robot, 5, Event::OpenCorridor), 5);
-    let ignored = heard(&mut lines);
-    assert_eq!(ignored["type"], "ignored");
-    assert_eq!(
-        (&ignored["event"], &ignored["reason"]),
-        (&"openCorridor".into(), &"notLeading".into())
-    );
+    let ignored = json!({"type": "ignored", "event": "openCorridor", "reason": "notLeading"});
+    has(&heard(&mut lines), &ignored);
     assert_eq!(heard(&mut lines)["state"], "Idle");
     counter.record(&step(&mut robot, 9, Event::PedestrianDetected(help())), 9);
-    let act = heard(&mut lines);
-    assert_eq!(
-        (&act["type"], &act["output"]),
-        (&"act".into(), &"lockIdentity".into())
+    has(
+        &heard(&mut lines),
+        &json!({"type": "act", "output": "lockIdentity"}),
     );
     let state = heard(&mut lines);
-    assert_eq!(
-        (&state["state"], &state["role"], &state["session"]["leader"]),
-        (&"HelpRequested".into(), &"requester".into(), &2.into())
+    has(
+        &state,
+        &json!({"state": "HelpRequested", "role": "requester", "corridor": "clear"}),
     );
-    assert!(state.get("openMs").is_none() && state["corridor"] == "clear");
+    assert!(state.get("openMs").is_none() && state["session"]["leader"] == 2);
     // Nothing more is told before it is time.
     counter.elapse(BEAT_US);
     counter.elapse(BEAT_US + 9);
@@ -237,22 +240,14 @@ fn a_client_that_does_not_read_says_no_hello_or_is_one_too_many_loses_its_connec
     say(&mut counter, 2, HELLO);
     say(&mut counter, 3, r#"{"type": "hello", "crossguard": 2}"#);
     heard(&mut other_version);
-    assert_eq!(
-        heard(&mut other_version)["why"],
-        "version 2: 1 is spoken here"
-    );
+    let why = json!({"why": "version 2: 1 is spoken here"});
+    has(&heard(&mut other_version), &why);
     assert_eq!(other_version.read_line(&mut String::new()).unwrap(), 0);
-    assert!(matches!(
-        told.take()[..],
-        [Order::Count(Cause::OperatorGarbled, _)]
-    ));
+    is_counted(&told, Cause::OperatorGarbled);
     counter.elapse(GREETING_US);
     heard(&mut mute);
     assert_eq!(mute.read_line(&mut String::new()).unwrap(), 0);
-    assert!(matches!(
-        told.take()[..],
-        [Order::Count(Cause::OperatorGarbled, _)]
-    ));
+    is_counted(&told, Cause::OperatorGarbled);
     // What nobody reads fills the socket.
     let mut at_us = 0;
     while counter.clients.len() > 1 {
@@ -261,19 +256,11 @@ fn a_client_that_does_not_read_says_no_hello_or_is_one_too_many_loses_its_connec
         counter.record(&step(&mut robot, at_us, Event::OpenCorridor), at_us);
         while heard(&mut reads)["type"] != "ignored" {}
     }
-    assert!(matches!(
-        told.take()[..],
-        [Order::Count(Cause::OperatorSlow, _)]
-    ));
-    let mut more: Vec<_> = (10..18)
-        .map(|number| connect(&mut counter, number))
-        .collect();
-    let mut last = more.pop().unwrap();
-    assert_eq!(heard(&mut last)["type"], "refused");
-    assert!(matches!(
-        told.take()[..],
-        [Order::Count(Cause::OperatorsFull, _)]
-    ));
+    is_counted(&told, Cause::OperatorSlow);
+    let more = (10..18).map(|number| connect(&mut counter, number));
+    let mut more: Vec<_> = more.collect();
+    assert_eq!(heard(&mut more.pop().unwrap())["type"], "refused");
+    is_counted(&told, Cause::OperatorsFull);
     // One that has gone away is not slow, also when a line to it comes first.
     drop(reads);
     counter.record(&step(&mut robot, at_us + 1, Event::OpenCorridor), at_us + 1);
