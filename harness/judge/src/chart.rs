@@ -24,6 +24,7 @@ use crossguard_protocol::{
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_robot::trace::{Entry, Record};
 
+use crate::seconds;
 pub(crate) use gather::Mark;
 use gather::{Arrow, ArrowHead, Gathering};
 use lines::LEFT;
@@ -165,7 +166,6 @@ impl Chart {
         self
     }
 
-    /// A line that is cut where it is too long.
     fn fit(&self, line: String) -> String {
         if self.width == 0 || line.chars().count() <= self.width {
             return line;
@@ -214,7 +214,6 @@ impl Chart {
         self.all_named(due)
     }
 
-    /// A mark with names.
     fn named(&self, mut mark: Mark) -> Mark {
         let (Mark::Note { text, .. } | Mark::Arrow(Arrow { text, .. })) = &mut mark;
         *text = self.names.tell(&*text);
@@ -552,11 +551,6 @@ impl Chart {
     }
 }
 
-#[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
-fn seconds(us: u64) -> f64 {
-    us as f64 / 1e6
-}
-
 /// A note, unless it says the same as the last one; the last one becomes this note.
 fn changed(known: &mut String, text: String) -> Option<String> {
     if *known == text {
@@ -566,7 +560,6 @@ fn changed(known: &mut String, text: String) -> Option<String> {
     Some(text)
 }
 
-/// A message from a column to others.
 fn arrow(from: usize, to: Vec<ArrowHead>, heard: &Heard) -> Mark {
     let text = said_in(heard);
     // What is lost is recorded as a packet, and what is heard without its headers.
@@ -624,7 +617,6 @@ mod tests {
         assert!(chart().within(50).is_none());
     }
 
-    /// What two robots record in a crossing.
     fn crossing() -> Vec<Record> {
         run_recorded(&Swarm::quiet(2)).1
     }

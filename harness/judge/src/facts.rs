@@ -127,7 +127,6 @@ pub struct Placed {
 }
 
 impl Placed {
-    /// Degrees of latitude and longitude.
     pub(crate) const fn degrees(&self) -> Degrees {
         (self.latitude, self.longitude)
     }
@@ -250,11 +249,8 @@ impl Observer {
         let go_until_us = &mut self.robots[robot].go_until_us;
         let since_us = go_until_us.filter(|go_until_us| *go_until_us < at_us)?;
         *go_until_us = None;
-        Some(Fact::Corridor {
-            is_open: false,
-            since_us,
-            why: "the sign ended by itself, since nothing renewed it".to_owned(),
-        })
+        let why = "the sign ended by itself, since nothing renewed it";
+        Some(corridor(false, since_us, why))
     }
 
     /// What the outputs of a step mean for the sign.
@@ -265,21 +261,13 @@ impl Observer {
             match output {
                 Output::CorridorOpened(time) | Output::CorridorExtended(time) => {
                     if go_until_us.is_none() {
-                        facts.push(Fact::Corridor {
-                            is_open: true,
-                            since_us: at_us,
-                            why: String::new(),
-                        });
+                        facts.push(corridor(true, at_us, ""));
                     }
                     let time_us = u64::from(time.0) * 1_000;
                     *go_until_us = Some(at_us.saturating_add(time_us));
                 }
                 Output::CorridorClosed(why) if go_until_us.take().is_some() => {
-                    facts.push(Fact::Corridor {
-                        is_open: false,
-                        since_us: at_us,
-                        why: why.to_string(),
-                    });
+                    facts.push(corridor(false, at_us, why.to_string()));
                 }
                 _ => {}
             }
@@ -306,11 +294,7 @@ impl Observer {
                 }];
                 // A robot that lost power says nothing of what it had a part in.
                 if observed.go_until_us.take().is_some() {
-                    facts.push(Fact::Corridor {
-                        is_open: false,
-                        since_us: at_us,
-                        why: String::new(),
-                    });
+                    facts.push(corridor(false, at_us, ""));
                 }
                 let epoch = epoch.unwrap_or(*boot);
                 facts.extend(self.view(robot, &Robot::new(*station, epoch)));
@@ -497,6 +481,15 @@ impl Observer {
             Mark::Note { .. } | Mark::Arrow(_) => None,
         };
         notes.filter_map(note).collect()
+    }
+}
+
+fn corridor(is_open: bool, since_us: u64, why: impl Into<String>) -> Fact {
+    let why = why.into();
+    Fact::Corridor {
+        is_open,
+        since_us,
+        why,
     }
 }
 

@@ -4,7 +4,7 @@
 //! use crossguard_judge::sim::Fuzz;
 //!
 //! // Three streets of up to four robots, with whatever goes wrong on them.
-//! let streets = Fuzz { first: 1, seeds: 3, robots: 4, faults: None, plan: None, sensors: 0.5, liars: 0.25, threads: 1, failures_max: 1 };
+//! let streets = Fuzz { seeds: 3, robots: 4, sensors: 0.5, liars: 0.25, ..Fuzz::default() };
 //! let totals = streets.run(&|_| true);
 //! assert_eq!((totals.seeds, totals.violations), (3, 0));
 //! ```
@@ -32,3 +32,9 @@ pub mod sniffer;
 pub mod timing;
 pub mod validate;
 pub mod verdict;
+
+/// Microseconds as seconds.
+#[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
+fn seconds(us: u64) -> f64 {
+    us as f64 / 1e6
+}

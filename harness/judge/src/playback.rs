@@ -77,7 +77,6 @@ impl Playback {
         at_us.saturating_sub(self.from_us)
     }
 
-    /// From degrees to metres.
     fn metres(&self, (latitude, longitude): (f64, f64)) -> Metres {
         let place = self.site.place(latitude, longitude);
         [place.east, place.north].map(|metres| (metres * 100.0).round() / 100.0)

@@ -42,10 +42,7 @@ pub struct Timing {
 type Key = (SessionId, StationId, u8);
 
 const fn id_of(command: &Command) -> ManeuverId {
-    ManeuverId {
-        session: command.session,
-        request: command.request,
-    }
+    ManeuverId::of(command.session, command.request)
 }
 
 /// When what happened in one maneuver, in microseconds.

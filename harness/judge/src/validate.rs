@@ -135,10 +135,7 @@ impl std::error::Error for Invalid {}
 /// # Errors
 /// The first record that does not fit.
 pub fn one(lines: impl BufRead) -> Result<Validated, Invalid> {
-    all(vec![Log {
-        name: String::new(),
-        lines: Box::new(lines),
-    }])
+    all(vec![Log::new("", lines)])
 }
 
 /// Validates logs of robots that were together.
@@ -321,7 +318,7 @@ impl LoggedRobots {
             self.crossing.start(&robot, speed.unwrap_or(1.0));
         }
         let crossed = self.robots.get(&robot).map_or(Ok(()), |follow| {
-            let known = (follow.config(), follow.identifiers());
+            let known = (&follow.config, &follow.identifiers);
             self.crossing.take(&robot, unix_us, &entry, known)
         });
         let deed = match self.take_entry(&robot, at_us, entry) {
@@ -347,8 +344,8 @@ impl LoggedRobots {
             self.start(robot, at_us, entry)?;
             let started = &self.robots[robot];
             return Ok(Some(ClockEntry::Boot {
-                robot: Box::new(started.robot().clone()),
-                effect_us: u64::from(started.config().settings().t_safety.0) * 1_000,
+                robot: Box::new(started.robot.clone()),
+                effect_us: u64::from(started.config.settings().t_safety.0) * 1_000,
             }));
         }
         let follow = self.robots.get_mut(robot).ok_or(Fault::NotStarted)?;
@@ -367,8 +364,7 @@ impl LoggedRobots {
                 state,
             } => {
                 self.validated.steps += 1;
-                self.crossings
-                    .told(follow.robot(), input, &mut self.monitor);
+                self.crossings.told(&follow.robot, input, &mut self.monitor);
                 let late_us = follow.step(input, &outputs, &state)?;
                 if let Some(late_us) = late_us {
                     self.validated.late.count(late_us);
@@ -376,7 +372,7 @@ impl LoggedRobots {
                 if let Input::Local(Event::IdentityChanged(station, _)) = input {
                     self.stations.insert(station, robot.to_owned());
                 }
-                let broken = self.monitor.step(follow.place(), input, &outputs, &state);
+                let broken = self.monitor.step(follow.place, input, &outputs, &state);
                 let broken =
                     broken.or_else(|| self.crossings.shown(&outputs, &state, &mut self.monitor));
                 let overdue_us = follow.overdue_us();
@@ -419,7 +415,7 @@ impl LoggedRobots {
             Entry::Stopped { counters } => {
                 self.validated.missing += follow.stopped(&counters)?;
                 self.running.remove(robot);
-                self.monitor.crash(follow.place());
+                self.monitor.crash(follow.place);
                 Ok(Some(ClockEntry::Stop))
             }
         }
@@ -442,11 +438,11 @@ impl LoggedRobots {
             return Err(Fault::BootReused(boot));
         }
         let place = match before {
-            Some(before) => before.place(),
+            Some(before) => before.place,
             None => self.monitor.add(station),
         };
         let follow = Follow::started(place, at_us, station, (boot, epoch), *settings, identifiers)?;
-        self.monitor.boot(place, follow.robot(), follow.config());
+        self.monitor.boot(place, &follow.robot, &follow.config);
         self.stations.insert(station, robot.to_owned());
         self.running.insert(robot.to_owned());
         self.robots.insert(robot.to_owned(), follow);

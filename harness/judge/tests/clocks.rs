@@ -31,10 +31,7 @@ fn validated(logs: &[&[Record]]) -> Result<Validated, String> {
         for record in *records {
             write(&mut text, record).unwrap();
         }
-        Log {
-            name: format!("log {i}"),
-            lines: Box::new(Cursor::new(text)),
-        }
+        Log::new(format!("log {i}"), Cursor::new(text))
     };
     all(logs.iter().enumerate().map(log).collect()).map_err(|invalid| invalid.to_string())
 }

@@ -79,7 +79,6 @@ impl Crossing {
         self.find(is_done).at_us
     }
 
-    /// The robot that does this.
     fn who(&self, task: TaskType) -> String {
         let starts = |_: &Input, outputs: &[Output]| {
             let is_it = |it: &Output| matches!(it, Output::StartManeuver(m) if m.task == task);
@@ -187,7 +186,6 @@ impl Crossing {
         self.drifts_in(robot, from_us..u64::MAX, north_m);
     }
 
-    /// The same for a while.
     fn drifts_in(&mut self, robot: &str, times_us: std::ops::Range<u64>, north_m: f64) {
         let identifiers = Identifiers::default();
         for place in 0..self.0.len() {

@@ -23,13 +23,12 @@ fn fuzz(
     let fuzz = Fuzz {
         first,
         seeds,
-        robots: 6,
         faults: faults.as_ref(),
-        plan: None,
         sensors,
         liars: 0.25,
         threads: 2,
         failures_max: failures,
+        ..Fuzz::default()
     };
     fuzz.run_with(rules, &|_| true)
 }

@@ -99,7 +99,6 @@ impl Gathering {
         self.0.drain(..due).filter(is_drawn).collect()
     }
 
-    /// All marks that wait.
     pub(crate) fn rest(&mut self) -> Vec<(u64, Mark)> {
         self.0.drain(..).filter(is_drawn).collect()
     }

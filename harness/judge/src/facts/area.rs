@@ -41,7 +41,6 @@ impl Areas {
         self.guarding.insert(leader, tasks);
     }
 
-    /// Somebody is somewhere.
     pub(super) fn place(&mut self, station: StationId, placed: &Placed) {
         self.places.insert(station, placed.degrees());
     }

@@ -19,7 +19,6 @@ const STRANGERS_MAX: usize = 8;
 /// What a robot's RAM says before it has a part in anything.
 const NOTHING: &str = "none";
 
-/// Messages and notes.
 #[derive(Default)]
 pub(super) struct Messages {
     rows: Vec<Row>,

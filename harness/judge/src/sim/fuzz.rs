@@ -36,6 +36,23 @@ pub struct Fuzz<'a> {
     pub failures_max: usize,
 }
 
+impl Default for Fuzz<'_> {
+    /// The first seed, with 6 robots at most and without sensors and liars, in one thread up to the first failure.
+    fn default() -> Self {
+        Self {
+            first: 1,
+            seeds: 1,
+            robots: 6,
+            faults: None,
+            plan: None,
+            sensors: 0.0,
+            liars: 0.0,
+            threads: 1,
+            failures_max: 1,
+        }
+    }
+}
+
 /// A plan from a file.
 #[derive(Clone, Debug)]
 pub struct Planned {

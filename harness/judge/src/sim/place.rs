@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use super::swarm::Swarm;
 use super::world::{Finding, run_flow};
+use crate::seconds;
 
 /// Where people cross, in metres to the east, and how far from there.
 pub(super) const CROSSING_EAST: f64 = 1.0;
@@ -91,11 +92,6 @@ pub(super) struct PlaceLog {
     pub(super) cams: u64,
     /// VAM that were sent, and that were not because a robot tells of people.
     pub(super) vams: [u64; 2],
-}
-
-#[expect(clippy::cast_precision_loss, reason = "runs take minutes")]
-fn seconds(us: u64) -> f64 {
-    us as f64 / 1e6
 }
 
 impl PlaceLog {

@@ -16,7 +16,6 @@ const TICKETS: usize = 2;
 /// After how long a robot changes its pseudonym, in milliseconds: within a run, and not in every session.
 const PSEUDONYM_PERIOD_MS: u64 = 20_000;
 
-/// Numbers that are keys.
 fn keys(first: usize) -> impl FnMut() -> PrivateKey {
     let mut numbers = first..;
     move || {

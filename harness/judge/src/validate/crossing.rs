@@ -28,9 +28,10 @@ use crossguard_robot::sight::Sight;
 use crossguard_robot::trace::Entry;
 
 use super::fault::Fault;
-use super::ground::{Ground, Metres, OnRoad, distance, seconds};
+use super::ground::{Ground, Metres, OnRoad, distance};
 use super::targets;
 use super::traffic::{AtKerb, Vehicle};
+use crate::seconds;
 
 /// How far a guard may be from its place, and an escort ahead of its person, besides the stated error of its
 /// position.

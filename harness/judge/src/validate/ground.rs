@@ -14,6 +14,8 @@ use std::collections::BTreeMap;
 use crossguard_endpoint::ras::clustering::VruClass;
 use crossguard_robot::sight::{Degrees, Outline, Sight};
 
+use crate::seconds;
+
 /// Metres to the east and to the north of the first place in the logs.
 pub(super) type Metres = [f64; 2];
 
@@ -70,7 +72,6 @@ pub(super) struct OnRoad<'a> {
 }
 
 impl Ground {
-    /// Degrees as metres.
     pub(super) fn metres(&mut self, place: Degrees) -> Metres {
         let (latitude, longitude) = *self.origin.get_or_insert(place);
         let east = (place.1 - longitude) * latitude.to_radians().cos();
@@ -314,7 +315,6 @@ impl Carriageway {
     }
 }
 
-/// Whether a polygon contains a place.
 pub(super) fn contains(corners: &[Metres], [x, y]: Metres) -> bool {
     let ends = corners.iter().cycle().skip(1);
     let crossed = corners.iter().zip(ends).filter(|([ax, ay], [bx, by])| {
@@ -325,12 +325,6 @@ pub(super) fn contains(corners: &[Metres], [x, y]: Metres) -> bool {
 
 pub(super) fn distance(a: Metres, b: Metres) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
-}
-
-/// Microseconds as seconds.
-#[expect(clippy::cast_precision_loss, reason = "a run takes minutes")]
-pub(super) fn seconds(us: u64) -> f64 {
-    us as f64 / 1e6
 }
 
 #[cfg(test)]

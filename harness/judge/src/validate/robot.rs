@@ -30,14 +30,14 @@ enum Owed {
 /// What is known of a robot up to a record.
 #[derive(Debug)]
 pub(super) struct Follow {
-    place: usize,
-    robot: Robot,
+    pub(super) place: usize,
+    pub(super) robot: Robot,
     /// The boot counter that it started with.
     boot: u16,
     /// Whether its numbers do not tell the boot counter.
     has_epoch: bool,
-    config: Config,
-    identifiers: Identifiers,
+    pub(super) config: Config,
+    pub(super) identifiers: Identifiers,
     time: ToldTime,
     owed: VecDeque<Owed>,
     heard: VecDeque<Input>,
@@ -73,27 +73,10 @@ impl Follow {
         })
     }
 
-    pub(super) const fn place(&self) -> usize {
-        self.place
-    }
-
-    pub(super) const fn robot(&self) -> &Robot {
-        &self.robot
-    }
-
-    pub(super) const fn config(&self) -> &Config {
-        &self.config
-    }
-
-    pub(super) const fn identifiers(&self) -> &Identifiers {
-        &self.identifiers
-    }
-
     pub(super) const fn may_reboot_with(&self, boot: u16) -> bool {
         boot > self.boot && (self.has_epoch || boot > self.robot.boot())
     }
 
-    /// The robot's clock goes on.
     pub(super) fn tick(&mut self, at_us: u64) -> Result<(), Fault> {
         self.time.tick(at_us)
     }

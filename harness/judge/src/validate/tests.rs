@@ -30,9 +30,8 @@ fn apart(records: &[Record]) -> Vec<Vec<u8>> {
 }
 
 fn together(logs: &[Vec<u8>]) -> Result<Validated, String> {
-    let log = |(i, lines): (usize, &'_ Vec<u8>)| Log {
-        name: format!("log {i}"),
-        lines: Box::new(std::io::Cursor::new(lines.clone())),
+    let log = |(i, lines): (usize, &'_ Vec<u8>)| {
+        Log::new(format!("log {i}"), std::io::Cursor::new(lines.clone()))
     };
     all(logs.iter().enumerate().map(log).collect()).map_err(|invalid| invalid.to_string())
 }

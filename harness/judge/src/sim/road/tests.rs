@@ -6,8 +6,7 @@ const MS: u64 = 1_000;
 
 fn session(leader: u32) -> SessionId {
     let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
-    let leader = StationId(leader);
-    SessionId { leader, number }
+    SessionId::of(StationId(leader), number)
 }
 
 /// Places 0 and 1 lead at one corner, each with one guard: 2 and 3. A message takes 100 ms at most.
