@@ -44,7 +44,6 @@ impl Default for Terms {
 }
 
 impl Terms {
-    /// A setting in ms.
     pub(crate) fn ms(&self, of: impl Fn(&Settings) -> crossguard_protocol::Millis) -> u64 {
         of(&self.settings).0.into()
     }
@@ -140,7 +139,6 @@ impl<'a, S: Subject> Bench<'a, S> {
         self.exchange.rams().next_back().map(|(_, ram)| ram)
     }
 
-    /// Notes that something happened now.
     pub(crate) fn note(&mut self, what: Happening) {
         let at_ms = self.subject.now_ms();
         self.exchange.seen.push(Seen {
@@ -150,7 +148,6 @@ impl<'a, S: Subject> Bench<'a, S> {
         });
     }
 
-    /// Plays on for so long.
     pub(crate) fn pass(&mut self, ms: u64) -> Result<(), Gone> {
         self.pass_until(ms, |_| false).map(drop)
     }

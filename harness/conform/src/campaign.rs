@@ -9,7 +9,7 @@ use crossguard_robot::trace::{Entry, Record};
 
 use crate::case::{Case, Played, Table, play};
 use crate::exchange::{Exchange, Happening, Message, Player};
-use crate::rules::{RULES, Rule};
+use crate::rules::Rule;
 use crate::statements::Statement;
 use crate::subject::{Gone, Subject};
 
@@ -129,11 +129,6 @@ impl Campaign {
             cases: 0,
             stopped: Vec::new(),
         }
-    }
-
-    /// All rules.
-    pub fn all_rules() -> impl Iterator<Item = &'static Rule> {
-        RULES.iter()
     }
 
     /// The cases that meet one of its statements.

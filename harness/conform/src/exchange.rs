@@ -66,8 +66,7 @@ impl RamSeen {
         match self.ram.coordination {
             Coordination::None => None,
             Coordination::NeedHelp { number, .. } | Coordination::Leader { number, .. } => {
-                let leader = self.ram.station;
-                Some(SessionId { leader, number })
+                Some(SessionId::of(self.ram.station, number))
             }
             Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. } => {
                 Some(session)
@@ -90,12 +89,10 @@ impl RamSeen {
         }
     }
 
-    /// Whether it asks for help.
     pub(crate) const fn asks(&self) -> bool {
         matches!(self.ram.coordination, Coordination::NeedHelp { .. })
     }
 
-    /// Whether it leads.
     pub(crate) const fn leads(&self) -> bool {
         matches!(self.ram.coordination, Coordination::Leader { .. })
     }
@@ -110,12 +107,10 @@ impl RamSeen {
         }
     }
 
-    /// Whether it lists this follower.
     pub(crate) fn lists(&self, station: StationId) -> bool {
         self.listed().iter().any(|(listed, _)| *listed == station)
     }
 
-    /// The offer that it makes.
     pub(crate) const fn offer(&self) -> Option<(SessionId, OfferNumber)> {
         match self.ram.coordination {
             Coordination::OfferHelp { session, offer, .. } => Some((session, offer)),
@@ -123,7 +118,6 @@ impl RamSeen {
         }
     }
 
-    /// Whether it offers to this session.
     pub(crate) fn offers_to(&self, session: SessionId) -> bool {
         self.offer().is_some_and(|(to, _)| to == session)
     }
@@ -136,7 +130,6 @@ impl RamSeen {
         }
     }
 
-    /// Whether it follows in this session.
     pub(crate) fn follows(&self, session: SessionId) -> bool {
         self.following().is_some_and(|(now, _)| now == session)
     }
@@ -156,7 +149,6 @@ impl RamSeen {
         }
     }
 
-    /// Whether its sender takes part.
     pub(crate) fn is_available(&self) -> bool {
         self.availability == Availability::Available
     }
@@ -166,22 +158,18 @@ impl RamSeen {
         self.ram.coordination == Coordination::None && !self.ram.on_duty && self.is_available()
     }
 
-    /// Whether it names a session of its sender as ended.
     pub(crate) fn names_as_ended(&self, number: SessionNumber) -> bool {
         matches!(self.ram.farewell, Some(Farewell::Ended(ended, _)) if ended == number)
     }
 
-    /// Whether it names a session as left.
     pub(crate) fn names_as_left(&self, session: SessionId) -> bool {
         matches!(self.ram.farewell, Some(Farewell::Left(left, _)) if left == session)
     }
 
-    /// Whether it shows go to pedestrians.
     pub(crate) fn shows_go(&self) -> bool {
         self.sign == Some(PublicSignal::Go)
     }
 
-    /// Whether its body is under way.
     pub(crate) fn moves(&self) -> bool {
         self.speed_mps.is_some_and(|speed| speed > MOVES_MPS)
     }
@@ -216,7 +204,6 @@ impl From<Rmcm> for Message {
 }
 
 impl Message {
-    /// The service that it belongs to.
     pub(crate) const fn service(&self) -> Service {
         match self {
             Self::Ram(_) => Service::Ram,
@@ -224,7 +211,6 @@ impl Message {
         }
     }
 
-    /// What it says as a RAM.
     pub(crate) const fn ram(&self) -> Option<&RamSeen> {
         match self {
             Self::Ram(ram) => Some(ram),
@@ -232,7 +218,6 @@ impl Message {
         }
     }
 
-    /// What it says as a command.
     pub(crate) const fn command(&self) -> Option<Command> {
         match self {
             Self::Rmcm(Rmcm::Command(command)) => Some(*command),
@@ -240,7 +225,6 @@ impl Message {
         }
     }
 
-    /// What it says as an answer.
     pub(crate) const fn answer(&self) -> Option<Answer> {
         match self {
             Self::Rmcm(Rmcm::Answer(answer)) => Some(*answer),
@@ -318,23 +302,19 @@ impl Exchange {
         self.played().filter_map(|(at, it)| Some((at, it.ram()?)))
     }
 
-    /// The commands of the robot under test.
     pub(crate) fn commands(&self) -> impl DoubleEndedIterator<Item = (u64, Command)> {
         self.said().filter_map(|(at, it)| Some((at, it.command()?)))
     }
 
-    /// The commands of the tester's stations.
     pub(crate) fn played_commands(&self) -> impl DoubleEndedIterator<Item = (u64, Command)> {
         self.played()
             .filter_map(|(at, it)| Some((at, it.command()?)))
     }
 
-    /// The answers of the robot under test.
     pub(crate) fn answers(&self) -> impl DoubleEndedIterator<Item = (u64, Answer)> {
         self.said().filter_map(|(at, it)| Some((at, it.answer()?)))
     }
 
-    /// The answers of the tester's stations.
     pub(crate) fn played_answers(&self) -> impl DoubleEndedIterator<Item = (u64, Answer)> {
         self.played()
             .filter_map(|(at, it)| Some((at, it.answer()?)))

@@ -67,7 +67,6 @@ impl Live {
         }
     }
 
-    /// Whether the process that was started here has ended.
     fn has_ended(&mut self) -> bool {
         let child = self.child.as_mut();
         child.is_some_and(|child| matches!(child.try_wait(), Ok(Some(_))))
@@ -103,7 +102,6 @@ fn run_hook(command: &str, line: &str) -> Result<(), String> {
     }
 }
 
-/// Asks the person at the robot.
 fn ask(line: &str) -> Result<(), String> {
     let mut answer = String::new();
     let _ = write!(

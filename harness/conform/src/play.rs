@@ -168,7 +168,6 @@ impl Play {
         known.map_or("", |(.., words)| words)
     }
 
-    /// Who does it.
     pub(crate) fn side(self) -> Side {
         let known = ALL.iter().find(|(play, ..)| *play == self);
         known.map_or(Side::Other, |(_, side, _)| *side)

@@ -137,7 +137,6 @@ fn met_when(at_ms: u64, situation: impl Into<String>, broken: Breach) -> Met {
 }
 
 impl Trace<'_> {
-    /// A setting of the robot in ms.
     fn ms(&self, of: impl Fn(&Settings) -> Millis) -> u64 {
         self.terms.ms(of)
     }
@@ -251,7 +250,6 @@ impl Trace<'_> {
         newest.is_some_and(|(at, _)| at + 1_000 >= at_ms)
     }
 
-    /// The heartbeats that were played of a session.
     fn heartbeats(&self, session: SessionId) -> impl Iterator<Item = (u64, Heartbeat)> {
         let played = self.played_rams();
         let of_it = played.filter(move |(_, it)| it.session() == Some(session));
@@ -270,7 +268,6 @@ impl Trace<'_> {
     }
 }
 
-/// The first of each kind.
 fn first_of_each<T, K: PartialEq>(
     all: impl Iterator<Item = T>,
     kind: impl Fn(&T) -> K,

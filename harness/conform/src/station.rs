@@ -73,12 +73,10 @@ impl PlayedStation {
         }
     }
 
-    /// The session that it has opened.
     pub(crate) fn own_session(&self) -> Option<SessionId> {
         match self.part? {
             Coordination::NeedHelp { number, .. } | Coordination::Leader { number, .. } => {
-                let leader = self.id;
-                Some(SessionId { leader, number })
+                Some(SessionId::of(self.id, number))
             }
             _ => None,
         }

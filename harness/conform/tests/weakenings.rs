@@ -17,7 +17,7 @@ use in_process::{InProcess, table};
 /// The rules that a robot under `rules` breaks, with all cases or those about one rule.
 fn broken(rules: &'static dyn Rules, about: &[&'static str]) -> Vec<&'static str> {
     let asked: Vec<&'static Rule> = if about.is_empty() {
-        Campaign::all_rules().collect()
+        RULES.iter().collect()
     } else {
         about.iter().filter_map(|id| Rule::of_id(id)).collect()
     };

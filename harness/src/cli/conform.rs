@@ -90,7 +90,7 @@ fn rule(text: &str) -> Result<&'static Rule, String> {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let rules: Vec<&'static Rule> = if arguments.rule.is_empty() {
-        Campaign::all_rules().collect()
+        RULES.iter().collect()
     } else {
         arguments.rule.clone()
     };

@@ -47,7 +47,6 @@ impl<S: Subject> Bench<'_, S> {
         });
     }
 
-    /// The tester asks for help.
     pub(super) fn begin_as_requester(&mut self, play: Play) -> bool {
         let player = match play {
             Play::Ask | Play::AskForUnsupported => Player::Ada,

@@ -26,13 +26,11 @@ impl<S: Subject> Bench<'_, S> {
         self.hurry(player);
     }
 
-    /// Leads another session than before.
     fn lead_elsewhere(&mut self, player: Player, list: Confirmation) {
         let number = SessionNumber(self.station(player).issue());
         self.lead(player, number, list);
     }
 
-    /// The tester leads the robot.
     pub(super) fn begin_as_leader(&mut self, play: Play) -> Result<bool, Gone> {
         let (station, bo) = (self.exchange.robot, self.terms.players[1]);
         let Some(session) = self.station(Player::Ada).own_session() else {

@@ -84,7 +84,6 @@ fn acknowledged_before_executed(trace: &Trace) -> Vec<Met> {
     first.map(judge).collect()
 }
 
-/// Whether an answer is to this command.
 fn is_to(answer: &Answer, command: &Command) -> bool {
     (answer.session, answer.request) == (command.session, command.request)
 }
@@ -122,7 +121,6 @@ fn rejected_where(
     new_commands(trace).into_iter().filter_map(judge).collect()
 }
 
-/// The tasks that the robot offered.
 fn offered(trace: &Trace) -> Option<TaskSet> {
     let mut rams = trace.rams();
     rams.find_map(|(_, state)| match state.ram.coordination {

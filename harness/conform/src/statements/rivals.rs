@@ -51,7 +51,7 @@ impl Claim {
     }
 
     /// A rival of the same kind goes before by its urgency, and then by the lower station id. A requester gives way
-    /// to everybody who leads already.
+    /// to everybody who leads already. `None` where neither gives way for that.
     fn goes_before(self, own: Self) -> Option<bool> {
         match (self.leads, own.leads) {
             (true, false) => Some(true),
@@ -102,11 +102,6 @@ impl Rivalry {
         format!("{}, a rival is {}", kind(self.own), kind(self.rival))
     }
 
-    /// Whether the rival goes before; `None` where neither gives way for that.
-    fn rival_goes_before(&self) -> Option<bool> {
-        self.rival.goes_before(self.own)
-    }
-
     /// Whether a RAM gives way: it yields, or names the own session as ended.
     fn gives_up(&self, state: &RamSeen) -> bool {
         let own = self.own.session;
@@ -130,7 +125,7 @@ fn gives_way(trace: &Trace) -> Vec<Met> {
             ..met
         })
     };
-    let lost = rivalries(trace).filter(|it| it.rival_goes_before() == Some(true));
+    let lost = rivalries(trace).filter(|it| it.rival.goes_before(it.own) == Some(true));
     lost.filter_map(judge).collect()
 }
 
@@ -146,7 +141,7 @@ fn insists(trace: &Trace, it: &Rivalry) -> Option<Met> {
 }
 
 fn insists_against_silence(trace: &Trace) -> Vec<Met> {
-    let before = rivalries(trace).filter(|it| it.rival_goes_before() == Some(true));
+    let before = rivalries(trace).filter(|it| it.rival.goes_before(it.own) == Some(true));
     // Two rivals are never both late.
     match &before.collect::<Vec<_>>()[..] {
         [it] if it.beats.len() == 1 => insists(trace, it).into_iter().collect(),
@@ -155,6 +150,6 @@ fn insists_against_silence(trace: &Trace) -> Vec<Met> {
 }
 
 fn insists_against_later(trace: &Trace) -> Vec<Met> {
-    let later = rivalries(trace).filter(|it| it.rival_goes_before() == Some(false));
+    let later = rivalries(trace).filter(|it| it.rival.goes_before(it.own) == Some(false));
     later.filter_map(|it| insists(trace, &it)).collect()
 }

@@ -20,7 +20,6 @@ use crossguard_protocol::{
 /// How long the simulated body takes to a place, in ms. An escort ends when somebody says so.
 const ON_THE_WAY_MS: u64 = 300;
 
-/// How fast it is on its way, in m/s.
 const PACE_MPS: f64 = 1.2;
 
 /// `TimestampIts` at the start.
@@ -106,10 +105,7 @@ impl<P: StateMachine, F: Fn(StationId, u16) -> P> InProcess<P, F> {
     }
 
     fn handle(&mut self, stimulus: Stimulus<'_>) {
-        let moment = Moment {
-            now_ms: self.now_ms,
-            timestamp_its: BEGAN_ITS + self.now_ms,
-        };
+        let moment = Moment::after(BEGAN_ITS, self.now_ms);
         let state = self.state();
         let effects = self.endpoint.handle(moment, &state, stimulus);
         for effect in effects {
@@ -149,7 +145,6 @@ impl<P: StateMachine, F: Fn(StationId, u16) -> P> InProcess<P, F> {
         self.handle(Stimulus::Event(event));
     }
 
-    /// The body arrives where it was sent.
     fn arrive(&mut self) {
         let is_there = self.body.arrives_ms.is_some_and(|at| at <= self.now_ms);
         let (true, Some(maneuver)) = (is_there, self.body.maneuver) else {
