@@ -204,7 +204,6 @@ fn print(line: impl std::fmt::Display) -> Result<(), Failure> {
     Ok(writeln!(std::io::stdout(), "{}", Printable(line))?)
 }
 
-/// Prints a value as JSON.
 fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
     match serde_json::to_string_pretty(value) {
         Ok(json) => Ok(writeln!(std::io::stdout(), "{}", printable_json(&json))?),
@@ -212,7 +211,6 @@ fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
     }
 }
 
-/// Opens logs.
 fn open_logs(paths: &[PathBuf]) -> Result<Vec<Log<'static>>, Failure> {
     let open = |path: &PathBuf| crossguard_robot::trace::open(path).map_err(Failure::at(path));
     paths.iter().map(open).collect()

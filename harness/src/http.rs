@@ -61,10 +61,8 @@ pub(crate) struct Answer {
 }
 
 /// Serves at `address` until the process ends. The address that is served, where the port that was given is 0.
-/// Up to `body_max` of the path octets are read of the body of a POST; where it is 0, POST is refused.
-///
-/// # Errors
-/// When nothing can be served there.
+/// Up to `body_max` of the path octets are read of the body of a POST; where it is 0, POST is refused. Fails where
+/// nothing can be served there.
 pub(crate) fn serve(
     address: SocketAddr,
     name: &'static str,

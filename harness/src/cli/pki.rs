@@ -298,10 +298,7 @@ fn tickets(folder: &Path, robot: &Named, wanted: &Pseudonyms) -> Result<Vec<File
     check_name(&robot.name)?;
     let authority = Holder::read(folder, "authority").map_err(Failure::input)?;
     let above = pki::read_certificate(&folder.join("root.cert")).map_err(Failure::input)?;
-    let term = Term {
-        from: Pseudonyms::from(wanted.start_in),
-        duration: Duration::hours(wanted.hours),
-    };
+    let term = Term::hours(Pseudonyms::from(wanted.start_in), wanted.hours);
     let robot_folder = pki::robot_folder(folder, &robot.name);
     let mut files = Vec::new();
     // All are made before any is written.

@@ -78,10 +78,7 @@ pub(super) fn study_octets(
     logs: &[(String, &[u8])],
     street: Option<SiteFile>,
 ) -> Result<Studied, Failure> {
-    let log = |(name, octets): &(String, _)| Log {
-        name: name.clone(),
-        lines: Box::new(*octets),
-    };
+    let log = |(name, octets): &(String, _)| Log::new(name, *octets);
     let names = logs.iter().map(|(name, _)| name.clone()).collect();
     study(|| Ok(logs.iter().map(log).collect()), names, street)
 }

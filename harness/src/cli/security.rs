@@ -44,7 +44,6 @@ impl SecurityArguments {
         }
     }
 
-    /// Whether packets are signed.
     pub(super) fn signs(&self) -> bool {
         self.security != Mode::Off
     }

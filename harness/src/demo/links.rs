@@ -2,7 +2,7 @@
 
 use std::net::{Ipv4Addr, SocketAddr};
 
-use crossguard_robot::transport::{Framing, Halves, Link, LinkError, Transport, WithFaults};
+use crossguard_robot::transport::{Halves, Link, LinkError, Transport, WithFaults};
 
 use super::Options;
 
@@ -46,15 +46,11 @@ fn from_a_free_port<T>(
 }
 
 fn open(options: &Options, first: u16, robots: usize) -> Result<Vec<Halves>, LinkError> {
-    let address = |port| SocketAddr::from((Ipv4Addr::LOCALHOST, port));
-    let addresses: Vec<_> = (first..).take(robots).map(address).collect();
-    let open = |(&address, seed): (&SocketAddr, u64)| -> Result<Halves, LinkError> {
-        let peers = addresses.iter().filter(|&&peer| peer != address);
-        let link = Link::Peers {
-            address,
-            peers: peers.copied().collect(),
-            framing: Framing::default(),
-        };
+    let ports = || (first..).take(robots);
+    let open = |(port, seed): (u16, u64)| -> Result<Halves, LinkError> {
+        let peers = ports().filter(|peer| *peer != port);
+        let peers = peers.map(|peer| SocketAddr::from((Ipv4Addr::LOCALHOST, peer)));
+        let link = Link::loopback(port, peers.collect());
         let seed = options.seed.wrapping_add(seed);
         let halves = WithFaults::new(link, options.faults.clone(), seed).open()?;
         #[cfg(feature = "full")]
@@ -64,7 +60,7 @@ fn open(options: &Options, first: u16, robots: usize) -> Result<Vec<Halves>, Lin
         };
         Ok(halves)
     };
-    addresses.iter().zip(100..).map(open).collect()
+    ports().zip(100..).map(open).collect()
 }
 
 #[cfg(test)]
@@ -74,11 +70,7 @@ mod tests {
     #[test]
     fn point_9_a_demonstration_takes_other_ports_than_those_that_are_taken() {
         let open = |first| {
-            let link = |port| Link::Peers {
-                address: SocketAddr::from((Ipv4Addr::LOCALHOST, port)),
-                peers: Vec::new(),
-                framing: Framing::default(),
-            };
+            let link = |port| Link::loopback(port, Vec::new());
             let both = [link(first).open()?, link(first + 1).open()?];
             Ok((first, both))
         };

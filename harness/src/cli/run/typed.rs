@@ -35,10 +35,8 @@ pub(super) fn is_by_person() -> bool {
 }
 
 /// What a line means to this robot, or why it means nothing to it, which a person is told and tries again. What a person
-/// types is held back by nothing: an emergency stop must not wait.
-///
-/// # Errors
-/// When a script has it wrong: it is wrong from there on.
+/// types is held back by nothing: an emergency stop must not wait. Fails where a script has it wrong: it is wrong from
+/// there on.
 pub(super) fn understood(
     text: &str,
     robot: &RobotFile,

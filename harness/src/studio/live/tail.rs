@@ -165,14 +165,12 @@ impl Tail {
 }
 
 fn records(path: &std::path::Path, lines: &Rc<RefCell<Vec<u8>>>) -> Records<'static> {
-    Records::new(Log {
-        name: path.display().to_string(),
-        lines: Box::new(WholeLines {
-            source: Rc::clone(lines),
-            buffer: Vec::new(),
-            at: 0,
-        }),
-    })
+    let lines = WholeLines {
+        source: Rc::clone(lines),
+        buffer: Vec::new(),
+        at: 0,
+    };
+    Records::new(Log::new(path.display().to_string(), lines))
 }
 
 #[cfg(unix)]
