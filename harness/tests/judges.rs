@@ -40,20 +40,9 @@ fn judge(script: &str, arguments: &[&Path], input: &str) {
 
 /// The log of a simulated street: robots that crash and boot again, radios that lose and repeat.
 fn log_of(seed: u64, path: &Path) {
-    let fuzz = Fuzz {
-        first: seed,
-        seeds: 1,
-        robots: 6,
-        faults: None,
-        plan: None,
-        sensors: 0.0,
-        liars: 0.0,
-        threads: 1,
-        failures_max: 1,
-    };
     let mut file = BufWriter::new(File::create(path).unwrap());
     let mut watch = |record: Record| trace::write(&mut file, &record).unwrap();
-    let outcome = run(&fuzz.swarm(seed), Some(&mut watch));
+    let outcome = run(&Fuzz::default().swarm(seed), Some(&mut watch));
     assert_eq!(outcome.finding, None);
     file.flush().unwrap();
 }

@@ -51,16 +51,6 @@ fn the_version_has_the_commit_where_there_is_one() {
 /// Hazard: a guard of a site without kerbs steps on the road in front of vehicles, and nobody was told that it knows no road.
 #[test]
 fn a_robot_that_knows_no_carriageway_says_so() {
-    let file = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/tests/cmd/refused.in/kerbless.toml"
-    );
-    let checked = crossguard(&["run", "--config", file, "--check"])
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&checked.stderr);
-    assert!(
-        checked.status.success() && said.contains("no kerbs_m"),
-        "{said}"
-    );
+    let checked = run_well("run --config tests/cmd/refused.in/kerbless.toml --check");
+    stderr(&checked).must_have(&["no kerbs_m"]);
 }

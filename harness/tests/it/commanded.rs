@@ -10,7 +10,7 @@ use crossguard_testkit::command::*;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use crate::studio::{Studio, parts};
+use crate::studio::{Studio, is_refused, parts};
 
 /// The start of a request that is of the studio's own page.
 const TYPED: &str = "Content-Type: application/json\r\n";
@@ -75,14 +75,6 @@ impl Street {
 }
 
 #[track_caller]
-fn is_refused(answer: &(String, String), code: &str, cause: &str) {
-    assert!(
-        answer.0 == code && answer.1.contains(cause),
-        "{answer:?}, and not {cause}"
-    );
-}
-
-#[track_caller]
 fn answered((code, answer): (String, String)) -> Value {
     assert_eq!(code, "200", "{answer}");
     serde_json::from_str(&answer).unwrap()
@@ -100,19 +92,10 @@ fn a_robot_is_told_what_was_confirmed_for_it_and_its_own_answer_is_passed_on() {
         (&json!("ARI"), &json!("Idle"), &json!([]))
     );
     let boot = there["boot"].as_u64().unwrap();
+    let another = "ARI, boot 1, is there now, and not the robot";
     for (boot, robot, line, cause) in [
-        (
-            boot,
-            "Go2",
-            "clear",
-            "ARI, boot 1, is there now, and not the robot",
-        ),
-        (
-            boot + 1,
-            "ARI",
-            "clear",
-            "ARI, boot 1, is there now, and not the robot",
-        ),
+        (boot, "Go2", "clear", another),
+        (boot + 1, "ARI", "clear", another),
         (boot, "ARI", &*"x".repeat(513), "512 octets"),
     ] {
         is_refused(&street.order(boot, robot, line), "400", cause);
@@ -135,17 +118,13 @@ fn a_robot_is_told_what_was_confirmed_for_it_and_its_own_answer_is_passed_on() {
         let said = answer["said"].as_array().unwrap();
         said.iter().any(|it| it[key] == value)
     };
-    let answer = obeys("dance");
-    assert!(
-        said(&answer, "why", "no command 'dance'; type 'help'"),
-        "{answer}"
-    );
+    let (answer, why) = (obeys("dance"), "no command 'dance'; type 'help'");
+    assert!(said(&answer, "why", why), "{answer}");
     let answer = obeys("clear");
     assert!(said(&answer, "reason", "nothingNew"), "{answer}");
     // The port takes each order that has a key.
-    let offered = street
-        .studio
-        .ask("GET /live/api/operators", &street.studio.address, "");
+    let own = &street.studio.address;
+    let offered = street.studio.ask("GET /live/api/operators", own, "");
     let offered = answered(parts(&offered));
     assert_eq!(offered["ports"], json!(street.ports));
     for order in offered["keys"].as_array().unwrap() {
@@ -162,11 +141,8 @@ fn a_robot_is_told_what_was_confirmed_for_it_and_its_own_answer_is_passed_on() {
     let told: Vec<_> = told.map(ToString::to_string).collect();
     let stop = r#"{"availabilityChanged":{"unavailable":"emergencyStop"}}"#;
     assert_eq!(told, [r#""roadClear""#, stop, r#""roadClear""#]);
-    is_refused(
-        &street.order(boot, "ARI", "clear"),
-        "400",
-        "no robot is reached",
-    );
+    let answer = street.order(boot, "ARI", "clear");
+    is_refused(&answer, "400", "no robot is reached");
 }
 
 /// Hazard: a page of a stranger, or another account of the machine, opens the corridor or sends guards away.
@@ -175,24 +151,18 @@ fn a_stranger_commands_no_robot_through_the_studio() {
     let street = Street::new();
     let _robot = street.start();
     let evil = format!("Origin: http://evil.example\r\n{TYPED}");
+    let (plain, absent) = (
+        "Content-Type: text/plain\r\n",
+        "absent.sock: no robot is reached",
+    );
     for (question, head, code, cause) in [
         (LOOK, TYPED, "200", "ARI"),
         (LOOK, &*evil, "403", "another origin"),
         (LOOK, "", "403", "application/json"),
-        (
-            LOOK,
-            "Content-Type: text/plain\r\n",
-            "403",
-            "application/json",
-        ),
+        (LOOK, plain, "403", "application/json"),
         ("{}", TYPED, "400", "missing field `port`"),
         (r#"{"port": 2}"#, TYPED, "400", "no such port"),
-        (
-            r#"{"port": 1}"#,
-            TYPED,
-            "400",
-            "absent.sock: no robot is reached",
-        ),
+        (r#"{"port": 1}"#, TYPED, "400", absent),
     ] {
         is_refused(&street.ask(question, head), code, cause);
     }

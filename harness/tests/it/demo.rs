@@ -134,17 +134,13 @@ fn nulls(name: &str, value: &Value, found: &mut BTreeSet<String>) {
 fn sent(log: &str, kind: &str) -> Vec<(String, Value)> {
     let mut sent = records(log);
     sent.retain(|it| it["entry"] == "sent" && it["message"] == kind);
-    let lines: Vec<_> = sent
-        .iter()
-        .map(|it| it["octets"].as_str().unwrap())
-        .collect();
+    let lines = sent.iter().map(|it| it["octets"].as_str().unwrap());
+    let lines: Vec<_> = lines.collect();
     let decoded = run_with(&["codec", "decode", "--batch"], lines.join("\n").as_bytes());
     assert_code(&decoded, 0);
     let decoded = stdout(&decoded);
     let decoded = decoded.lines().map(|it| serde_json::from_str(it).unwrap());
-    let robots = sent
-        .iter()
-        .map(|it| it["robot"].as_str().unwrap().to_owned());
+    let robots = sent.iter().map(|it| it["robot"].as_str().unwrap().into());
     robots.zip(decoded).collect()
 }
 
@@ -158,11 +154,8 @@ fn robots_say_show_and_do_what_the_papers_proof_of_concept_has() {
         assert_code(&output, 0);
         let chart = stdout(&output);
         for stage in 1..=5 {
-            assert_eq!(
-                chart.matches(&format!("── Stage {stage}: ")).count(),
-                1,
-                "{chart}"
-            );
+            let begun = chart.matches(&format!("── Stage {stage}: ")).count();
+            assert_eq!(begun, 1, "{chart}");
         }
         let both_sides = chart.contains("people on both sides see go and step on the road");
         assert_eq!(both_sides, scenario == "bilateral", "{chart}");
@@ -227,15 +220,10 @@ fn robots_say_show_and_do_what_the_papers_proof_of_concept_has() {
         ];
         let mut rest = signs.iter();
         for state in expected {
-            assert!(
-                rest.any(|it| *it == state),
-                "{scenario}: {state:?}: {signs:?}"
-            );
+            let is_shown = rest.any(|it| *it == state);
+            assert!(is_shown, "{scenario}: {state:?}: {signs:?}");
         }
-        assert_eq!(
-            facing, 2700,
-            "{scenario}: ARI faces the traffic of its lane"
-        );
+        assert_eq!(facing, 2700, "{scenario}: ARI faces its lane's traffic");
     }
 }
 
@@ -273,11 +261,8 @@ fn a_person_sees_the_chart_the_table_and_the_verdict_on_the_log() {
     let port = free_ports(3).to_string();
     let trio = ["demo", "--speed", "50", "--scenario", "trio", "--port"];
     let mut command = crossguard(&[&trio[..], &[&port]].concat());
-    let output = command
-        .env("COLUMNS", "100")
-        .stdin(Stdio::null())
-        .output()
-        .unwrap();
+    let command = command.env("COLUMNS", "100").stdin(Stdio::null());
+    let output = command.output().unwrap();
     assert_code(&output, 0);
     let text = stdout(&output);
     text.must_have(&[

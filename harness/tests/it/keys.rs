@@ -2,7 +2,6 @@
 //! robot's memory.
 
 use std::fs::{self, File};
-use std::io::Read;
 use std::os::unix::fs::{FileExt, MetadataExt as _, PermissionsExt as _};
 use std::os::unix::process::CommandExt as _;
 use std::path::Path;
@@ -19,27 +18,19 @@ fn each_file_is_on_the_disk_before_it_has_its_name() {
     let (pki, notes) = (folder.path().join("pki"), folder.path().join("notes"));
     let pki_name = pki.to_str().unwrap();
     assert!(run(&["pki", "init", pki_name]).status.success());
-    let made = crossguard(&[
-        "pki", "tickets", pki_name, "--robot", "guest", "--count", "1",
-    ])
-    .env("LD_PRELOAD", &library)
-    .env("SYNCS_FILE", &notes)
-    .output()
-    .unwrap();
+    let mut tickets = crossguard(&["pki", "tickets", pki_name, "--robot", "guest"]);
+    tickets.args(["--count", "1"]).env("LD_PRELOAD", &library);
+    let made = tickets.env("SYNCS_FILE", &notes).output().unwrap();
     assert_code(&made, 0);
     let notes = fs::read_to_string(&notes).unwrap();
-    let notes: Vec<(&str, i64)> = notes
-        .lines()
-        .map(|line| line.rsplit_once(' ').unwrap())
-        .map(|(name, length)| (name, length.parse().unwrap()))
-        .collect();
+    let notes = notes.lines().map(|line| line.rsplit_once(' ').unwrap());
+    let notes = notes.map(|(name, length)| (name, length.parse().unwrap()));
+    let notes: Vec<(&str, i64)> = notes.collect();
     let tickets = pki.join("robots/guest/tickets");
     let shown = tickets.canonicalize().unwrap();
     let is_folder = |(name, length): &(&str, i64)| Path::new(name) == shown && *length == -1;
-    let files: Vec<_> = fs::read_dir(&tickets)
-        .unwrap()
-        .map(|it| it.unwrap().path())
-        .collect();
+    let files = fs::read_dir(&tickets).unwrap();
+    let files: Vec<_> = files.map(|it| it.unwrap().path()).collect();
     assert_eq!(files.len(), 2, "nothing else is left behind");
     for path in files {
         let length = i64::try_from(fs::metadata(&path).unwrap().len()).unwrap();
@@ -49,10 +40,8 @@ fn each_file_is_on_the_disk_before_it_has_its_name() {
             synced.parent() == Some(&shown) && synced != path && *synced_length == length
         });
         let at = at.unwrap_or_else(|| panic!("{path:?} was not put on the disk: {notes:?}"));
-        assert!(
-            notes[at..].iter().any(is_folder),
-            "the name of {path:?}: {notes:?}"
-        );
+        let is_named = notes[at..].iter().any(is_folder);
+        assert!(is_named, "the name of {path:?}: {notes:?}");
     }
 }
 
@@ -64,23 +53,15 @@ fn point_6_another_user_reads_no_key_of_a_pki() {
         return skipped("it takes root to be another user");
     }
     let pki = folder.path().join("pki");
-    assert!(
-        run(&["pki", "init", pki.to_str().unwrap()])
-            .status
-            .success()
-    );
+    assert_code(&run(&["pki", "init", pki.to_str().unwrap()]), 0);
     fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).unwrap();
     let find = "find . -type f -readable; echo all; find . -type f";
     let mut stranger = std::process::Command::new("sh");
     stranger.args(["-c", find]).current_dir(&pki).uid(12_345);
     let said = stdout(&stranger.output().unwrap());
     let (read, all) = said.split_once("all\n").unwrap();
-    let keys = |files: &str| {
-        files
-            .lines()
-            .filter(|it| Path::new(it).extension() == Some("key".as_ref()))
-            .count()
-    };
+    let is_key = |it: &&str| Path::new(it).extension() == Some("key".as_ref());
+    let keys = |files: &str| files.lines().filter(is_key).count();
     assert_eq!((keys(read), keys(all)), (0, 19), "{said}");
     assert!(read.contains("./root.cert"), "{said}");
     let write = "for it in $(find .); do test -w $it && echo $it; done";
@@ -105,11 +86,7 @@ fn hidden(path: &Path, from: u64, length: u64) -> Vec<u8> {
 
 /// How often the needle is in the memory of this process that can be written to; `None` where it may not be looked at.
 fn count_in_memory(needle: &[u8]) -> Option<usize> {
-    let mut maps = String::new();
-    File::open("/proc/self/maps")
-        .ok()?
-        .read_to_string(&mut maps)
-        .ok()?;
+    let maps = fs::read_to_string("/proc/self/maps").ok()?;
     let memory = File::open("/proc/self/mem").ok()?;
     let mut count = 0;
     for line in maps.lines() {
@@ -154,12 +131,8 @@ fn the_text_of_a_key_is_gone_from_memory_once_it_was_read() {
     let Some(found) = count_in_memory(&needle) else {
         return skipped("there is no /proc/self/mem");
     };
-    assert_eq!(
-        found,
-        0,
-        "{} keys were read, and one left its text",
-        credentials.tickets.len()
-    );
+    let count = credentials.tickets.len();
+    assert_eq!(found, 0, "{count} keys were read, and one left its text");
     // The test of the test: read in any other way, it is there.
     let text = fs::read_to_string(&key).unwrap();
     assert_ne!(count_in_memory(&needle), Some(0));

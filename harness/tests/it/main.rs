@@ -11,7 +11,6 @@ mod full_disk;
 mod keys;
 mod odds_frequencies;
 mod pages;
-mod people;
 mod readers;
 mod report;
 mod safety;

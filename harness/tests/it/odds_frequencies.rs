@@ -47,10 +47,7 @@ impl Street {
     }
 
     fn handle(&mut self, me: usize, stimulus: Stimulus<'_>) {
-        let moment = Moment {
-            now_ms: self.now_ms,
-            timestamp_its: 694_694_400_000 + self.now_ms,
-        };
+        let moment = Moment::after(694_694_400_000, self.now_ms);
         for effect in self.robots[me].handle(moment, &RobotState::default(), stimulus) {
             match effect {
                 Effect::Transmit { packet, .. } => {

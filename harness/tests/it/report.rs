@@ -42,10 +42,8 @@ fn the_page_has_every_robot_and_message_and_the_road_of_the_site() {
     let names: Vec<_> = names.map(|it| &it["name"]).collect();
     let robots = Swarm::draw(3, 5, None).robots.into_iter();
     let robots: Vec<_> = robots.map(|it| Value::from(it.name)).collect();
-    assert!(
-        robots.len() > 1 && robots.iter().all(|it| names.contains(&it)),
-        "{names:?}"
-    );
+    let are_there = robots.len() > 1 && robots.iter().all(|it| names.contains(&it));
+    assert!(are_there, "{names:?}");
     assert_eq!(overview["street"]["kerbs"].as_array().unwrap().len(), 2);
     let rows = run["run"]["rows"].as_array().unwrap();
     let heard_by_several = |row: &&Value| row["heard"].as_array().unwrap().len() > 1;

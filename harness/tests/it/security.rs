@@ -46,10 +46,7 @@ fn station(pki: &Pki, id: StationId, mode: Mode, ticket: Holder, now: Time64) ->
 }
 
 fn ticket(pki: &Pki, permissions: Vec<Permission>) -> Holder {
-    let term = Term {
-        from: pki::now(),
-        duration: Duration::hours(1),
-    };
+    let term = Term::hours(pki::now(), 1);
     pki::new_ticket(&pki.authority, term, None, permissions).unwrap()
 }
 

@@ -25,7 +25,6 @@ fn process(scenario: &str, hosts: &str, number: usize) -> Child {
     begin(scenario, &hosts)
 }
 
-/// Begins a check.
 fn begin(scenario: &str, arguments: &[&str]) -> Child {
     let mut command = crossguard(&["check", scenario, "--json"]);
     command.args(arguments);

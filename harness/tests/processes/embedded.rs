@@ -2,6 +2,7 @@
 //! other through a crossing.
 
 use std::fs::File;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command};
 use std::time::Duration;
@@ -28,12 +29,8 @@ impl Embedded {
         peer: u16,
     ) -> Self {
         let child = Command::new(program)
-            .args([
-                role,
-                &format!("{station}"),
-                &format!("{port}"),
-                &format!("{peer}"),
-            ])
+            .args([role, &station.to_string()])
+            .args([port, peer].map(|it| it.to_string()))
             .arg(folder.join("embedded.boot"))
             .arg(folder.join("embedded.log"))
             .stdout(File::create(folder.join("embedded.out")).unwrap())
@@ -61,10 +58,7 @@ impl Embedded {
 }
 
 fn validated(logs: &[(&str, &str)]) -> Validated {
-    let log = |(name, lines): &(&str, &'_ str)| Log {
-        name: (*name).to_owned(),
-        lines: Box::new(std::io::Cursor::new(lines.to_string())),
-    };
+    let log = |&(name, lines): &(&str, &str)| Log::new(name, Cursor::new(lines.to_owned()));
     let outcome = validate::all(logs.iter().map(log).collect());
     outcome.unwrap_or_else(|invalid| panic!("{invalid}"))
 }

@@ -42,7 +42,6 @@ impl WallClock {
         file.write_all_at(&ahead_s.to_ne_bytes(), 0).unwrap();
     }
 
-    /// The command, with this clock.
     fn rules(&self, mut command: Command) -> Command {
         command.env("LD_PRELOAD", &self.library);
         command.env("CLOCK_STEP_FILE", &self.file);

@@ -2,7 +2,7 @@
 
 use crossguard_testkit::command::*;
 
-use crate::street::{ARI, CROSS, GO2, Street};
+use crate::street::{ARI, CROSS, GO2, Street, hears_itself};
 
 #[test]
 fn two_robots_cross_by_multicast_behind_an_ethernet_header_and_signed() {
@@ -22,11 +22,7 @@ fn two_robots_cross_by_multicast_behind_an_ethernet_header_and_signed() {
     street.until(GO2, "\"taskCompleted\"");
     for log in street.end() {
         // It hears itself, which it knows although it is signed.
-        let counters = &log.last().unwrap()["counters"];
-        assert!(
-            counters["packet"]["own packet"].as_u64() > Some(0),
-            "{counters}"
-        );
+        hears_itself(&log);
     }
 }
 
@@ -43,10 +39,8 @@ fn a_robot_that_others_can_reach_says_so_unless_it_verifies() {
     };
     assert_eq!(warned(&[]), "");
     let port = free_ports(1);
-    street.link(
-        ARI,
-        &format!("address = \"0.0.0.0:{port}\"\npeers = [\"192.0.2.1:47411\"]\n"),
-    );
+    let link = format!("address = \"0.0.0.0:{port}\"\npeers = [\"192.0.2.1:47411\"]\n");
+    street.link(ARI, &link);
     let expected = format!("warning: packets on 0.0.0.0:{port} are neither signed nor verified");
     assert!(warned(&[]).contains(&expected));
     let own = format!("{pki}/robots/ARI");

@@ -130,11 +130,8 @@ fn lose(row: &Row) {
     assert!(next.is_none_or(is_closing), "{what}");
     // The sign ends first, but where the guard itself is told to leave.
     let ended_ms = sign_ended_ms(&of_leader) - CLOCKS_MS;
-    let is_first = fell_back_ms.is_none_or(|ms| ended_ms <= ms);
-    assert!(
-        is_first || row.guard_leaves,
-        "{what}: {ended_ms}, {fell_back_ms:?}"
-    );
+    let is_first = row.guard_leaves || fell_back_ms.is_none_or(|ms| ended_ms <= ms);
+    assert!(is_first, "{what}: {ended_ms}, {fell_back_ms:?}");
 }
 
 #[test]

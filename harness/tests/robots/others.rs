@@ -14,7 +14,6 @@ use serde_json::Value;
 
 use crate::street::{ARI, PATIENCE, Street, assert_valid};
 
-/// The robot.
 const ROBOT: u32 = 4_711;
 
 /// Where the messages of [`golden::ITS`] and [`golden::VAM`] are from, and the robot. It drops none for a busy machine.

@@ -37,7 +37,6 @@ impl Person {
         std::thread::sleep(Duration::from_millis(100));
     }
 
-    /// Walks from one place to another.
     fn walk(&mut self, from: [f64; 2], to: [f64; 2]) {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
         let seconds = dx.hypot(dy) / 1.5;
@@ -118,12 +117,13 @@ fn a_person_at_the_kerb_is_helped_across_and_nobody_types() {
     let of = |entry: &'static str| log.iter().filter(move |it| it["entry"] == entry);
     assert_eq!(of("zone").count(), 1);
     let people: String = of("people").map(Value::to_string).collect();
-    for conduct in ["elsewhere", "passing", "waiting", "onRoad", "across"] {
-        assert!(
-            people.contains(&format!("\"{conduct}\"")),
-            "nobody is {conduct}"
-        );
-    }
+    people.must_have(&[
+        "\"elsewhere\"",
+        "\"passing\"",
+        "\"waiting\"",
+        "\"onRoad\"",
+        "\"across\"",
+    ]);
     // What tracks a person stays in the robot.
     assert!(!people.contains("\"id\""));
 }

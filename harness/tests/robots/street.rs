@@ -41,12 +41,11 @@ impl Street {
             edit(&config, changes);
             config
         });
-        let (robots, before) = (Vec::new(), Vec::new());
         Self {
             folder,
             configs,
-            robots,
-            before,
+            robots: Vec::new(),
+            before: Vec::new(),
         }
     }
 
@@ -83,7 +82,6 @@ impl Street {
         signal(&self.robots[robot].0, name);
     }
 
-    /// The log of a robot as it is now.
     pub(crate) fn log(&self, robot: usize) -> String {
         log_of(&self.configs[robot])
     }
@@ -129,10 +127,7 @@ impl Street {
         for robot in &mut self.robots {
             assert_eq!(wait_for(&mut robot.0, PATIENCE).code(), Some(0));
         }
-        let logs = self
-            .configs
-            .iter()
-            .map(|it| Path::new(it).with_extension("log"));
+        let logs = (self.configs.iter()).map(|it| Path::new(it).with_extension("log"));
         assert_valid(logs.chain(self.before.iter().map(|(_, log)| log.clone())));
         [ARI, GO2].map(|robot| records(&self.log(robot)))
     }
@@ -149,6 +144,13 @@ pub(crate) fn sign_ended_ms(leader: &[(f64, Value)]) -> f64 {
         }
     }
     ends_ms
+}
+
+/// Asserts that a robot counted packets of its own, by its last record.
+pub(crate) fn hears_itself(log: &[Value]) {
+    let counters = &log.last().unwrap()["counters"];
+    let own = counters["packet"]["own packet"].as_u64();
+    assert!(own > Some(0), "{counters}");
 }
 
 /// Asserts that logs are of something that could have happened.

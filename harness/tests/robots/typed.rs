@@ -12,9 +12,10 @@ fn a_person_types_every_step_and_reads_what_happens() {
     // Nobody leads by itself here.
     edit(&street.configs[ARI], &[("autopilot = true", "")]);
     let mut go2 = Killed(start(&street.configs[GO2]));
-    let script = "wait 0.5\ndetect 1 high block # a child\nuntil role-established\nwait 0.4\n\
+    let script = "{\"id\": 1, \"position_m\": [3, 1]}\n{\"id\": 2, \"position_m\": [300, 1]}\n\
+                  wait 0.5\ndetect 1 high block # a child\nuntil role-established\nwait 0.4\n\
                   order 2 block\nuntil maneuver-executing\nopen\nwait 0.2\nstatus\nclose\n\
-                  task-completed\nuntil idle\nquit\n";
+                  task-completed\nuntil idle\nwait 3\nquit\n";
     let run = ["run", "--config", &street.configs[ARI]];
     let output = run_with(&run, script.as_bytes());
     let text = stdout(&output);
@@ -22,6 +23,9 @@ fn a_person_types_every_step_and_reads_what_happens() {
     text.must_have(&[
         "ARI is station 1, boot 1, on 127.0.0.1:",
         "a leader that does stops its followers within ",
+        // The other one is too far away.
+        "announces 1 person, cluster ",
+        "announces nobody any more",
         "now RoleEstablished (leader)",
         "station 2 joined",
         "station 2 acknowledged command 0 of ARI's crossing 1",
