@@ -361,12 +361,9 @@ mod tests {
         assert_eq!(take(&path).unwrap().counter, 2);
         fs::write(beside(&path), "crossguard boot coun").unwrap();
         fs::remove_file(&path).unwrap();
-        let error = take(&path).unwrap_err();
-        assert!(matches!(error, BootError::Lost { .. }), "{error}");
-        assert!(
-            error.to_string().contains("N larger than at any boot"),
-            "{error}"
-        );
+        let error = take(&path).unwrap_err().to_string();
+        let is_lost = error.contains("does not tell how far");
+        assert!(is_lost && error.contains("N larger than"), "{error}");
         fs::write(&path, format!("{MAGIC} 8\n")).unwrap();
         assert_eq!(take(&path).unwrap().counter, 9);
     }
@@ -406,14 +403,5 @@ mod tests {
         assert!(matches!(take(&path), Err(BootError::InUse { .. })));
         drop(first);
         assert_eq!(take(&path).unwrap().counter, 2);
-    }
-
-    #[test]
-    fn a_folder_that_does_not_exist_is_named() {
-        let error = take(Path::new("/no/such/folder/robot.boot")).unwrap_err();
-        assert!(
-            error.to_string().contains("/no/such/folder/robot.boot"),
-            "{error}"
-        );
     }
 }

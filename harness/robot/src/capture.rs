@@ -226,22 +226,9 @@ mod tests {
             .open(&path)
             .unwrap();
         let capture = Capture::create(&path).unwrap();
-        capture.record(&[0x11; 60]);
-        capture.finish().unwrap();
-    }
-
-    #[test]
-    fn what_is_recorded_can_be_read_again() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("some.pcap");
-        let capture = Capture::create(&path).unwrap();
-        let packets = [vec![0x11; 60], vec![1, 2, 3]];
-        for packet in &packets {
+        for packet in [&[0x11; 60][..], &[1, 2, 3]] {
             capture.record(packet);
         }
         capture.finish().unwrap();
-        let again: Result<Vec<_>, _> = read(&path).unwrap().collect();
-        let again: Vec<_> = again.unwrap().into_iter().map(|one| one.packet).collect();
-        assert_eq!(again, packets);
     }
 }

@@ -261,40 +261,16 @@ pub fn credentials_but(
 
 #[cfg(all(test, feature = "full"))]
 mod tests {
-    use crossguard_codec::{Identifiers, Part};
-    use crossguard_endpoint::station::{Mode, Security};
+    use crossguard_codec::Identifiers;
 
     use super::*;
 
-    fn written() -> (tempfile::TempDir, PathBuf) {
-        let folder = tempfile::tempdir().unwrap();
-        let identifiers = Identifiers::default();
-        let pki = Pki::for_a_day(&identifiers, now()).unwrap();
-        pki.root.write(folder.path(), "root").unwrap();
-        let robot = robot_folder(folder.path(), "Go2");
-        let term = Term::hours(now(), 1);
-        let permissions = robot_permissions(&identifiers, &[Part::Help], None);
-        let ticket = new_ticket(&pki.authority, term, None, permissions).unwrap();
-        write_ticket(&ticket, &robot).unwrap();
-        write_certificate(&pki.root.certificate, &robot, "root").unwrap();
-        write_certificate(&pki.authority.certificate, &robot, "authority").unwrap();
-        (folder, robot)
-    }
-
-    #[test]
-    fn a_robots_folder_is_all_it_needs() {
-        let (_folder, robot) = written();
-        let credentials = read_credentials(&robot).unwrap();
-        assert_eq!(credentials.tickets.len(), 1);
-        assert_eq!(credentials.trust.authorities().count(), 1);
-        assert!(Security::new(Mode::Enforce, credentials, None, now()).is_ok());
-    }
-
     #[test]
     fn nothing_is_overwritten() {
-        let (folder, _robot) = written();
-        let other = Pki::for_a_day(&Identifiers::default(), now()).unwrap();
-        let error = other.root.write(folder.path(), "root").unwrap_err();
+        let folder = tempfile::tempdir().unwrap();
+        let root = || Pki::for_a_day(&Identifiers::default(), now()).unwrap().root;
+        root().write(folder.path(), "root").unwrap();
+        let error = root().write(folder.path(), "root").unwrap_err();
         assert!(matches!(error, PkiError::Exists(_)), "{error}");
     }
 }

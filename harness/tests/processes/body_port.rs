@@ -155,11 +155,10 @@ fn lose(victim: usize, how: &str) {
 
 #[test]
 fn the_corridor_closes_when_the_body_of_the_leader_or_escort_is_killed_or_stops() {
-    std::thread::scope(|scope| {
-        for (victim, how) in [(1, "-KILL"), (1, "-STOP"), (0, "-KILL"), (0, "-STOP")] {
-            scope.spawn(move || lose(victim, how));
-        }
-    });
+    // One after the other: eight more processes at once are late where there are few processors.
+    for (victim, how) in [(1, "-KILL"), (1, "-STOP"), (0, "-KILL"), (0, "-STOP")] {
+        lose(victim, how);
+    }
 }
 
 /// What the kit says next, beats left out.

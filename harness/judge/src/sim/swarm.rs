@@ -264,13 +264,6 @@ impl Swarm {
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_seed_draws_the_same_run_every_time_and_another_one_another() {
-        let draw = |seed| format!("{:?}", Swarm::draw(seed, 6, None));
-        assert_eq!(draw(7), draw(7));
-        assert_ne!(draw(7), draw(8));
-    }
-
     /// The line that runs a failed seed again has shares of 0 and 1.
     #[test]
     fn sensors_and_liars_of_a_seed_are_the_same_for_every_share() {

@@ -59,11 +59,8 @@ fn one_robots_log_is_valid_by_itself_and_says_how_much_came_from_strangers() {
 
 #[test]
 fn what_is_not_a_log_is_told_apart() {
-    assert!(
-        validated(&records(1)[1..])
-            .unwrap_err()
-            .contains("was never started")
-    );
+    let unstarted = validated(&records(1)[1..]).unwrap_err();
+    assert!(unstarted.contains("was never started"), "{unstarted}");
     let error = |text: &[u8]| one(text).unwrap_err().to_string();
     assert!(error(b"{}\n").starts_with("line 1: is not a record"));
     assert!(error(b"").contains("there is nothing in this log"));

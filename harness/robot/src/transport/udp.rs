@@ -121,30 +121,9 @@ mod tests {
     use super::super::{Link, Transport};
     use super::*;
 
-    fn any_port() -> SocketAddr {
-        SocketAddr::from((Ipv4Addr::LOCALHOST, 0))
-    }
-
-    #[test]
-    fn a_datagram_reaches_every_peer() {
-        let (a, b) = (
-            UdpSocket::bind(any_port()).unwrap(),
-            UdpSocket::bind(any_port()).unwrap(),
-        );
-        let peers = vec![a.local_addr().unwrap(), b.local_addr().unwrap()];
-        let link = Link::loopback(0, peers);
-        let mut sender = link.open().unwrap().sender;
-        sender.send(b"hello").unwrap();
-        for peer in [a, b] {
-            let mut buffer = [0; 16];
-            assert_eq!(peer.recv(&mut buffer).unwrap(), 5);
-        }
-    }
-
     #[test]
     fn an_address_in_use_is_said_to_be() {
-        let taken = UdpSocket::bind(any_port()).unwrap().local_addr();
-        let holder = UdpSocket::bind(taken.unwrap()).unwrap();
+        let holder = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
         let link = Link::loopback(holder.local_addr().unwrap().port(), Vec::new());
         assert!(matches!(link.open(), Err(LinkError::InUse { .. })));
     }
