@@ -4,6 +4,7 @@
 mod occupancy;
 mod position;
 mod scene;
+mod standing;
 mod team;
 mod tracks;
 mod traffic;

@@ -139,6 +139,7 @@ fn stale_observations_are_nobody_who_waits() {
     assert!(scene.crossing.tracks().urgency().is_some());
     scene.pass(1_001);
     assert_eq!(scene.crossing.tracks().urgency(), None, "silence");
+    assert!(!scene.crossing.tracks().is_waiting(), "without go");
 }
 
 #[test]

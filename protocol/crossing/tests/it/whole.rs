@@ -52,14 +52,14 @@ fn team(plan: Plan, follower_sees: bool) -> Team {
     Team::new(vec![leader, follower])
 }
 
-fn blocking() -> Team {
+pub(crate) fn blocking() -> Team {
     let mut team = team(plan(&[leg(TaskType::BLOCK, POST)]), true);
     team.people = vec![person(1, 100, -100)];
     team
 }
 
 /// The person walks across.
-fn walk_across(team: &mut Team) {
+pub(crate) fn walk_across(team: &mut Team) {
     team.people[0] = walking(team.people[0], 0, 140);
     team.pass(6_500);
     assert!(team.people[0].at.north_cm() > 720);
@@ -259,7 +259,7 @@ fn pass_beside(team: &mut Team, robot: usize, vehicle: Vehicle, ms: u32) {
     }
 }
 
-fn is_on_road(body: &Body) -> bool {
+pub(crate) fn is_on_road(body: &Body) -> bool {
     (0..700).contains(&body.at.north_cm())
 }
 
@@ -600,13 +600,13 @@ fn a_follower_says_once_that_it_has_completed() {
 }
 
 /// A leader that waits for a person, and no helper, or one.
-fn alone(helpers: usize) -> Team {
+pub(crate) fn alone(helpers: usize) -> Team {
     let mut it = team(plan(&[leg(TaskType::BLOCK, POST)]), true);
     it.robots.truncate(1 + helpers);
     it
 }
 
-fn calls(team: &Team) -> usize {
+pub(crate) fn calls(team: &Team) -> usize {
     team.told(0, |it| matches!(it, Event::PedestrianDetected(_)))
 }
 
@@ -617,6 +617,8 @@ fn a_call_ends_when_the_person_leaves() {
         team.people = vec![person(1, 460, -100)];
         team.pass(1_300);
         assert_eq!(calls(&team), 1);
+        // Somebody else called a second time.
+        team.hear(0, Input::CallIgnored);
         team.people[0] = walking(team.people[0], 140, 0);
         team.pass_until("idle", Team::is_idle);
         assert!(!team.shows_go());
@@ -659,7 +661,7 @@ fn nobody_is_called_for_people_who_pass_vehicles_and_stale_sensors() {
 }
 
 /// A follower whose leader fell silent while it did this: its session is over.
-fn left_alone(task: TaskType, sees: bool) -> Team {
+pub(crate) fn left_alone(task: TaskType, sees: bool) -> Team {
     let mut team = team(plan(&[leg(task, Point::new(100, 800))]), sees);
     team.people = vec![person(1, 100, -100)];
     team.pass_until("a maneuver", |it| it.robots[1].body.to.is_some());
