@@ -1,6 +1,7 @@
 //! The crossing machine in virtual time: who waits, what is clear, who is where, and whole crossings with real robots.
 #![allow(clippy::wildcard_imports, reason = "scripts use the whole vocabulary")]
 
+mod ground;
 mod occupancy;
 mod position;
 mod scene;

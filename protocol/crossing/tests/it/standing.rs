@@ -1,7 +1,9 @@
 //! What a robot does about people by the part that it has in a session: calls, goes home, tells what it sees.
 
+use std::iter::once;
+
 use crossguard_crossing::*;
-use crossguard_protocol::{Availability, Event, TaskType, Unavailability};
+use crossguard_protocol::{Availability, Event, List, Millis, TaskType, Unavailability};
 
 use crate::scene::*;
 use crate::team::*;
@@ -63,5 +65,56 @@ fn a_follower_says_once_that_it_sees_somebody_on_the_road_and_that_it_does_not_a
     team.pass_until("idle", Team::is_idle);
     for event in [Event::PersonOnRoad, Event::RoadClear] {
         assert_eq!(team.told(1, |it| *it == event), 1, "{event:?}");
+    }
+}
+
+/// Go ends before a car when the first of two people is across.
+#[test]
+fn guards_stay_for_somebody_who_waits_yet_when_go_has_ended_early() {
+    let mut team = blocking();
+    team.people.push(person(2, 200, -100));
+    team.pass_until("go", Team::shows_go);
+    walk_across(&mut team);
+    team.hear(0, Input::Vehicle(car(-1_900), Millis(0)));
+    assert!(!team.shows_go());
+    team.pass_until("go again", Team::shows_go);
+    assert_eq!(calls(&team), 1, "it is one session");
+}
+
+#[test]
+fn an_escort_begins_at_the_kerb_where_people_wait() {
+    let [near, far] = [Point::new(100, -50), Point::new(100, 750)];
+    let parts = [
+        (Who::Everybody, List::EMPTY),
+        (Who::Role(0), once(None).collect()),
+    ];
+    let cases = [(-100, [near, far]), (800, [far, near])];
+    for ((who, roles), (north, expected)) in parts
+        .into_iter()
+        .flat_map(|it| cases.map(|case| (it, case)))
+    {
+        let stage = |leg| Stage {
+            parts: once((who, leg)).collect(),
+        };
+        let legs = [leg(TaskType::INITIAL_POS, near), leg(TaskType::MOVE, far)];
+        let plan = Plan {
+            kerbs: Some([near, far]),
+            stages: legs.map(stage).into_iter().collect(),
+            roles,
+            ..plan(&[])
+        };
+        let mut team = team(plan, true);
+        team.people = vec![person(1, 100, north)];
+        let orders = |team: &Team| -> Vec<Point> {
+            let of = |it: &Output| match it {
+                Output::Order(_, leg) => Some(leg.to),
+                _ => None,
+            };
+            let mut places: Vec<_> = team.robots[0].log.iter().filter_map(of).collect();
+            places.dedup();
+            places
+        };
+        team.pass_until("two orders", |it| orders(it).len() == 2);
+        assert_eq!(orders(&team), expected, "{who:?}, people at {north}");
     }
 }

@@ -2,7 +2,7 @@
 
 use crossguard_crossing::tracks::*;
 use crossguard_crossing::*;
-use crossguard_protocol::{Millis, Urgency};
+use crossguard_protocol::{Event, HelpRequest, Millis, Urgency};
 
 use crate::scene::*;
 
@@ -35,6 +35,16 @@ fn a_person_who_sways_waits_as_well() {
         urgency = scene.sees(&mut who, 100);
     }
     assert_eq!(urgency, Some(Urgency::Medium));
+    // By places alone, 20 cm of error and what somebody who stands goes in the dwell.
+    for (sway, waits) in [(70, true), (71, false)] {
+        let mut scene = watch();
+        for step in 0..20 {
+            let who = person(1, 100 + step % 2 * sway, -100);
+            let velocity = None;
+            scene.look(100, &[Sighting { velocity, ..who }]);
+        }
+        assert_eq!(scene.crossing.tracks().is_waiting(), waits, "{sway} cm");
+    }
 }
 
 #[test]
@@ -117,13 +127,23 @@ fn vehicles_animals_and_riders_do_not_wait_and_a_cyclist_who_stands_does() {
 
 #[test]
 fn a_wheelchair_user_is_more_urgent_and_a_person_who_stands_on_the_road_most() {
-    let mut user = Sighting {
+    let user = Sighting {
         what: RoadUser::WheelchairUser,
         ..person(1, 100, -100)
     };
-    assert_eq!(watch().sees(&mut user, 1_500), Some(Urgency::High));
-    let mut stuck = person(1, 100, 300);
-    assert_eq!(watch().sees(&mut stuck, 1_500), Some(Urgency::Emergency));
+    let stuck = person(1, 100, 300);
+    for (mut who, urgency) in [(user, Urgency::High), (stuck, Urgency::Emergency)] {
+        let mut scene = watch();
+        assert_eq!(scene.sees(&mut who, 1_500), Some(urgency));
+        let is_call = |it: &Event| {
+            let request = HelpRequest {
+                urgency,
+                ..scene.setup.request
+            };
+            *it == Event::PedestrianDetected(request)
+        };
+        assert_eq!(scene.told(is_call), 1, "{urgency:?}");
+    }
 }
 
 #[test]
@@ -236,6 +256,22 @@ fn who_comes_where_somebody_left_for_the_road_is_somebody_else() {
     let mut comer = person(2, 100, -10);
     assert_eq!(scene.sees(&mut comer, 1_500), Some(Urgency::Medium));
     assert_eq!(scene.conducts(), [Conduct::OnRoad, Conduct::Waiting]);
+}
+
+#[test]
+fn another_id_is_the_same_person_there_and_somebody_else_elsewhere() {
+    for (id, east, people) in [
+        (Some(2), 160, 1),
+        (Some(2), 280, 2),
+        (Some(1), 280, 1),
+        (None, 280, 1),
+    ] {
+        let mut scene = watch();
+        scene.look(100, &[person(1, 100, -100)]);
+        let who = person(1, east, -100);
+        scene.look(500, &[Sighting { id, ..who }]);
+        assert_eq!(scene.conducts().len(), people, "{id:?} at {east}");
+    }
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::team::*;
 /// Where the blocker stands.
 const POST: Point = Point::new(-200, 200);
 
-fn leg(task: TaskType, to: Point) -> Leg {
+pub(crate) fn leg(task: TaskType, to: Point) -> Leg {
     Leg {
         task,
         to,
@@ -18,7 +18,7 @@ fn leg(task: TaskType, to: Point) -> Leg {
     }
 }
 
-fn plan(stages: &[Leg]) -> Plan {
+pub(crate) fn plan(stages: &[Leg]) -> Plan {
     Plan {
         followers: 1,
         stages: stages.iter().copied().map(Stage::everybody).collect(),
@@ -30,7 +30,7 @@ fn plan(stages: &[Leg]) -> Plan {
 }
 
 /// A leader with this plan, and a follower with sensors or without.
-fn team(plan: Plan, follower_sees: bool) -> Team {
+pub(crate) fn team(plan: Plan, follower_sees: bool) -> Team {
     let setup = street();
     let request = HelpRequest {
         tasks: TaskSet::of(&[TaskType::INITIAL_POS, TaskType::MOVE, TaskType::BLOCK]),
@@ -234,7 +234,7 @@ fn go_ends_when_a_guard_is_not_at_its_place_any_more() {
 }
 
 /// A car at 50 km/h.
-fn car(east: i32) -> Vehicle {
+pub(crate) fn car(east: i32) -> Vehicle {
     Vehicle {
         key: 7,
         station: Some(StationId(7)),
