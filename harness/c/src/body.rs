@@ -10,7 +10,6 @@ use crate::abi::{CrossguardBody, CrossguardHeard, CrossguardMessage};
 use crate::place::PlainPlace;
 use crate::view::unavailability;
 
-/// A quantity, if it is known.
 pub(crate) fn known(quantity: f64) -> Option<f64> {
     (!quantity.is_nan()).then_some(quantity)
 }
@@ -25,7 +24,6 @@ pub(crate) fn or_nan(quantity: Option<f64>) -> f64 {
     quantity.unwrap_or(f64::NAN)
 }
 
-/// Nobody was heard.
 pub(crate) const NOBODY: CrossguardHeard = CrossguardHeard {
     latitude_deg: f64::NAN,
     longitude_deg: f64::NAN,
@@ -46,7 +44,6 @@ pub(crate) const NOBODY: CrossguardHeard = CrossguardHeard {
 };
 
 impl CrossguardHeard {
-    /// Who was heard in a message.
     pub(crate) fn of(heard: &Heard) -> Self {
         let Some(sender) = &heard.state else {
             return Self {

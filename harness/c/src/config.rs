@@ -16,14 +16,10 @@ use crate::abi::{
 
 const _: () = assert!(CROSSGUARD_TASKS == TaskType::COUNT);
 
-/// Why a configuration is refused.
 #[derive(Debug)]
 pub(crate) enum Refused {
-    /// A fallback policy is none.
     Fallback,
-    /// An inequality does not hold.
     Broken(BrokenInequality),
-    /// Identifiers cannot be told apart.
     Identifiers(crossguard_codec::IdentifierClash),
     /// The name is not UTF-8 that ends with NUL.
     Name,
@@ -125,7 +121,6 @@ impl From<CrossguardMessageIdentifiers> for MessageIdentifiers {
     }
 }
 
-/// A robot's name.
 #[derive(Clone, Copy)]
 pub(crate) struct Name {
     octets: [u8; CROSSGUARD_NAME_LEN],
@@ -150,7 +145,6 @@ impl Name {
     }
 }
 
-/// A configuration that was checked.
 pub(crate) struct Checked {
     pub(crate) config: Config,
     pub(crate) identifiers: Identifiers,

@@ -43,7 +43,6 @@ pub(crate) struct Text<const N: usize> {
 }
 
 impl<const N: usize> Text<N> {
-    /// What `value` displays as.
     pub(crate) fn of(value: &impl Display) -> Self {
         let mut text = Self {
             octets: [0; N],

@@ -35,7 +35,6 @@ const _: () = assert!(
         >= 2 * (HEADERS_LEN + RAM_LEN_MAX) + MAX_FOLLOWERS * (HEADERS_LEN + RMCM_LEN_MAX)
 );
 
-/// What a call works with.
 pub(crate) struct Turn<'a> {
     pub(crate) plain: &'a mut CrossguardTurn,
     pub(crate) packets: &'a mut [u8],
@@ -44,7 +43,6 @@ pub(crate) struct Turn<'a> {
     pub(crate) state: RobotState,
 }
 
-/// One robot.
 pub(crate) struct Live {
     exchange: Exchange,
     name: Name,
@@ -93,7 +91,6 @@ impl Live {
         (&mut self.exchange, call)
     }
 
-    /// Lets time pass.
     pub(crate) fn elapse(&mut self, elapsed_ms: u32, turn: &mut Turn<'_>) {
         let (exchange, mut call) = self.parts(turn, elapsed_ms);
         exchange.elapse(&mut call);
@@ -132,7 +129,6 @@ impl Live {
         exchange.announce(&mut call);
     }
 
-    /// Begins the log of the robot.
     pub(crate) fn start_log(&mut self, unix_ms: u64, turn: &mut Turn<'_>) {
         let (exchange, mut call) = self.parts(turn, 0);
         call.write(&Entry::Started {
@@ -144,7 +140,6 @@ impl Live {
         });
     }
 
-    /// Ends the log of the robot.
     pub(crate) fn stop_log(&mut self, turn: &mut Turn<'_>) {
         let counters = ByName(&self.counters);
         let (at_us, name) = (turn.plain.log_at_us, self.name.as_str());

@@ -39,7 +39,6 @@ impl Default for CrossguardTaskParameters {
 }
 
 impl CrossguardOutput {
-    /// An output of this kind.
     pub(crate) fn of(kind: Kind) -> Self {
         Self {
             kind: kind as u8,

@@ -4,9 +4,7 @@ use crossguard_codec::MapPlace;
 
 /// `map_kind` of no place of the map.
 const NONE: u8 = 0;
-/// `map_kind` of a road segment.
 const SEGMENT: u8 = 1;
-/// `map_kind` of an intersection.
 const INTERSECTION: u8 = 2;
 
 /// The fields of a struct that name a place of a map.
@@ -19,7 +17,6 @@ pub(crate) struct PlainPlace {
 }
 
 impl PlainPlace {
-    /// No place of a map.
     pub(crate) const NOWHERE: Self = Self {
         map_kind: NONE,
         has_map_region: 0,

@@ -14,7 +14,6 @@ use serde::{Serialize, Serializer};
 use crate::abi::CROSSGUARD_CAUSE_LEN;
 use crate::counters::{Counters, Text};
 
-/// What a robot did.
 #[derive(Serialize)]
 #[serde(
     tag = "entry",
@@ -82,7 +81,6 @@ impl Serialize for Hex<'_> {
     }
 }
 
-/// A value as the text that it displays as.
 fn displayed<S: Serializer>(value: &impl Display, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_str(value)
 }

@@ -9,7 +9,6 @@ use crate::abi::{
 };
 
 impl CrossguardView {
-    /// What `robot` is doing.
     pub(crate) fn of(robot: &Robot) -> Self {
         let mut view = Self {
             station: robot.station().0,

@@ -129,9 +129,7 @@ pub struct Endpoint<P = Robot> {
 #[derive(Clone, Debug)]
 struct Around {
     neighbours: Neighbours,
-    /// The people around.
     surroundings: Surroundings,
-    /// Who has answered a request.
     answers: Answers,
     counters: Counters,
 }

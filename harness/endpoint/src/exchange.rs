@@ -49,7 +49,6 @@ pub struct Exchange<P = Robot> {
     pins: Pins,
     /// The newest command that the robot took on, and its parameters.
     accepted: Option<(Command, Option<TaskParameters>)>,
-    /// What a vehicle was asked last.
     asked: Option<Command>,
 }
 
@@ -419,7 +418,6 @@ impl<P: StateMachine> Exchange<P> {
         self.send::<_, _, RMCM_LEN_MAX>(host, RMCM, message);
     }
 
-    /// Encodes a message in `LEN` octets and sends it.
     fn send<H: Host, M: Pdu, const LEN: usize>(
         &mut self,
         host: &mut H,

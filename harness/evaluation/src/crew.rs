@@ -34,7 +34,6 @@ impl Default for Sessions {
 /// How long a body takes to where it guards, and to be off the road, in ms.
 const MOTION_MS: u64 = 2_000;
 
-/// What a robot says to other robots.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[expect(clippy::large_enum_variant, reason = "a few at a time")]
 pub(super) enum Said {
@@ -42,7 +41,6 @@ pub(super) enum Said {
     Rmcm(Rmcm),
 }
 
-/// The coordination of one robot.
 pub(super) struct Crew {
     robot: Robot,
     config: Config,

@@ -20,7 +20,6 @@ use super::coverage::most_seen;
 use super::schedule::Schedule;
 use super::trace::Run;
 
-/// What robots are dispatched by.
 pub(super) struct Dispatch<'a> {
     pub(super) run: &'a Run,
     pub(super) sample_ms: u64,

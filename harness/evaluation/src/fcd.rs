@@ -46,7 +46,6 @@ impl std::fmt::Display for Recording {
     }
 }
 
-/// Somebody who is there.
 struct Present {
     begin: usize,
     places: Vec<Point>,

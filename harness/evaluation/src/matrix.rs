@@ -129,7 +129,6 @@ fn seeds(traces: &Traces, axes: &Axes) -> Vec<u64> {
     runs.map(|run| run.seed).collect()
 }
 
-/// One run of the matrix.
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Job {
     traces: usize,
@@ -138,7 +137,6 @@ struct Job {
     radius_m: f64,
 }
 
-/// What came of a [`Job`].
 #[derive(Clone, Debug)]
 struct Done {
     measured: Measured,

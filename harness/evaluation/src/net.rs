@@ -64,7 +64,6 @@ impl Streets {
 pub struct Net {
     /// Least and most metres to the east and to the north: west, south, east, north.
     boundary_m: [f64; 4],
-    /// How many intersections there are.
     intersections: usize,
     #[serde(skip)]
     nodes: Vec<Point>,

@@ -106,11 +106,9 @@ pub struct Channel {
     window_end_us: u64,
     access: Vec<Option<Access>>,
     active: Vec<Transmission>,
-    /// Stations that wait for the channel.
     contending: Vec<usize>,
 }
 
-/// A station that wants to send.
 #[derive(Clone, Copy, Debug)]
 struct Access {
     /// Slots that it still has to wait; `None` while it only waits for the channel to be idle.

@@ -30,7 +30,6 @@ const FIRST_STATION: u32 = 1_000_000;
 /// The robot's sensors lose people this far outside of the perception radius, in metres.
 const SENSED_BEYOND_M: f64 = 5.0;
 
-/// A message of a robot.
 #[derive(Clone, Debug)]
 pub(super) struct Message {
     pub(super) octets: usize,
@@ -38,7 +37,6 @@ pub(super) struct Message {
     pub(super) announced: Option<Announcement>,
     /// What it says to robots that coordinate.
     said: Option<Said>,
-    /// Where it was sent from.
     from: Point,
 }
 
@@ -62,7 +60,6 @@ pub enum RobotError {
     Unplaced(#[from] Unplaced),
 }
 
-/// A robot.
 pub(super) struct Robot<'a> {
     station: u32,
     track: &'a Track,
@@ -175,12 +172,10 @@ impl<'a> Robot<'a> {
             .perceive(now_us / 1_000, &position, &self.perceived)
     }
 
-    /// Whether it perceives this person now.
     pub(super) fn perceives(&self, person: u32) -> bool {
         self.surroundings.clustering().is_member(person)
     }
 
-    /// Another robot's message.
     pub(super) fn hear(&mut self, now_us: u64, message: &Message) {
         let now_ms = now_us / 1_000;
         if let (Some(crew), Some(said)) = (&mut self.crew, &message.said) {
@@ -297,7 +292,6 @@ impl<'a> Robot<'a> {
         })
     }
 
-    /// A command or an answer.
     fn rmcm(&self, now_ms: u64, rmcm: &Rmcm) -> Result<Message, RobotError> {
         let (ids, position) = (Identifiers::default(), &self.state.position);
         let time = crossguard_codec::si::generation_delta_time(now_ms);
@@ -366,12 +360,10 @@ impl<'a> Robot<'a> {
     }
 }
 
-/// The plane of the grid.
 fn grid() -> Plane {
     Plane::at(ORIGIN[0], ORIGIN[1])
 }
 
-/// A robot that guards a crossing.
 fn state_of_a_robot() -> RobotState {
     RobotState {
         category: RobotCategory::Humanoid,

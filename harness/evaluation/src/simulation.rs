@@ -71,7 +71,6 @@ pub struct Measured {
     pub seconds: f64,
 }
 
-/// What a frame is.
 #[derive(Clone, Debug)]
 pub(super) enum Payload {
     Cam,
@@ -80,7 +79,6 @@ pub(super) enum Payload {
     Robot(Box<Message>),
 }
 
-/// A frame that waits to be sent.
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
     pub(super) octets: usize,
@@ -157,7 +155,6 @@ struct Station<'a> {
     congestion: Reactive,
 }
 
-/// The simulation of one run.
 pub(super) struct Simulation<'a> {
     behaviour: &'a Behaviour,
     sizes: &'a Sizes,
@@ -410,7 +407,6 @@ impl<'a> Simulation<'a> {
         Ok(())
     }
 
-    /// Whether any robot perceives this person now.
     fn is_perceived(&self, person: u32) -> bool {
         self.stations.iter().any(|station| match &station.role {
             Role::Robot(robot) => robot.perceives(person),

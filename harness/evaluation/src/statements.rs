@@ -124,7 +124,6 @@ impl Outcome {
             })
     }
 
-    /// Whether a mean is above this.
     fn above(it: &Estimate, bound: f64) -> Self {
         match it.ci95 {
             [least, _] if least > bound => Self::Met,
@@ -133,7 +132,6 @@ impl Outcome {
         }
     }
 
-    /// Whether a mean is below this.
     fn below(it: &Estimate, bound: f64) -> Self {
         match it.ci95 {
             [_, most] if most < bound => Self::Met,
@@ -142,7 +140,6 @@ impl Outcome {
         }
     }
 
-    /// Whether a mean is in a range.
     fn within(it: &Estimate, range: StatedRange) -> Self {
         let (least, most) = (range.least - range.rounding, range.most + range.rounding);
         match it.ci95 {
@@ -199,7 +196,6 @@ pub struct Setting<'a> {
 }
 
 impl Statement {
-    /// A comparison with this outcome.
     fn with(self, paper: &dyn Display, measured: &dyn Display, outcome: Outcome) -> Comparison {
         Comparison {
             statement: self,
@@ -211,7 +207,6 @@ impl Statement {
         }
     }
 
-    /// A comparison that is met or not.
     fn compare(self, paper: &dyn Display, measured: &dyn Display, is_met: bool) -> Comparison {
         self.with(paper, measured, Outcome::of(is_met))
     }

@@ -236,7 +236,6 @@ fn neighbours(grid: &Grid, (column, row): Node) -> Vec<Node> {
     nodes
 }
 
-/// Streets by their direction.
 fn streets(grid: &Grid) -> Vec<(Node, Node)> {
     let side = 0..grid.nodes_per_side;
     let nodes = side

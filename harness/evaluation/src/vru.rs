@@ -193,20 +193,17 @@ enum State {
     Standalone,
     /// It sends VAM that announce that it joins.
     Joining(Membership),
-    /// It sends nothing (`VRU-PASSIVE`).
     Passive(Membership),
     /// It sends VAM that say that it left.
     Leaving {
         /// The id of the cluster that it left, if it had one.
         id: Option<u8>,
-        /// Why.
         reason: LeaveReason,
         /// Since when, in ms.
         since_ms: u64,
     },
 }
 
-/// The cluster that a device is in or joins.
 #[derive(Clone, PartialEq, Debug)]
 struct Membership {
     /// Station id of its head.
@@ -235,7 +232,6 @@ pub struct VruStation {
     /// The last VAM: when, and what it said of the motion.
     said: Option<(u64, Motion)>,
     last_low_frequency_ms: Option<u64>,
-    /// A VAM that is due at once.
     pending: Option<VamTrigger>,
 }
 
@@ -469,9 +465,7 @@ impl VruStation {
 /// By what a device takes itself for a member.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Fit {
-    /// By its place and its motion.
     Strict,
-    /// By its place.
     Loose,
     /// By the rules of ETSI for a cluster VAM.
     Etsi,

@@ -42,7 +42,6 @@ pub enum SumoFileError {
     Misfit(String),
 }
 
-/// An element with its attributes.
 pub(super) struct Element<'a> {
     start: &'a BytesStart<'a>,
     at: u64,

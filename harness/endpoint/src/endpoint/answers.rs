@@ -29,7 +29,6 @@ pub(super) struct Answers {
 #[derive(Clone, Copy, Debug)]
 struct Answer {
     heard_ms: u64,
-    /// The session that it has a part in.
     session: Option<SessionId>,
     on_duty: bool,
     /// Where it leads, and has not yielded.
@@ -39,7 +38,6 @@ struct Answer {
 }
 
 impl Answers {
-    /// A RAM was heard at `now_ms`.
     pub(super) fn hear(&mut self, now_ms: u64, ram: &Ram) {
         self.robots
             .retain(|_, answer| now_ms.saturating_sub(answer.heard_ms) <= NEARBY_MS);

@@ -8,7 +8,6 @@ use crate::cause::Cause;
 use crate::exchange::{Arrived, Exchange, Host as _};
 use crate::ras::surroundings::Awareness;
 
-/// Nothing is said to other stations.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Others {}
 

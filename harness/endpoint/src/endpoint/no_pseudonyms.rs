@@ -5,7 +5,6 @@ use crossguard_protocol::{Event, StateMachine};
 use super::turn::Turn;
 use crate::exchange::Exchange;
 
-/// None.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Pseudonyms {}
 

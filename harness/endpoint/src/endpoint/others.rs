@@ -12,10 +12,8 @@ use crate::ras::generation::Trigger;
 use crate::ras::surroundings::Awareness;
 use crate::ras::vam::vam_of;
 
-/// What a robot says to other stations.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Others {
-    /// When CAM are sent, if they are.
     cam: Option<CamGeneration>,
 }
 
@@ -26,12 +24,10 @@ impl Others {
         }
     }
 
-    /// Whether they are told where the robot is.
     pub(super) const fn are_told(&self) -> bool {
         self.cam.is_some()
     }
 
-    /// Sends the cluster VAM that are due.
     #[expect(clippy::unused_self, reason = "its counterpart tells nobody")]
     pub(super) fn tell_of_people<P: StateMachine>(
         &self,
@@ -56,7 +52,6 @@ impl Others {
         }
     }
 
-    /// Sends a CAM if one is due.
     pub(super) fn tell_of_robot<P: StateMachine>(
         &mut self,
         exchange: &mut Exchange<P>,

@@ -20,7 +20,6 @@ pub(super) struct Turn<'a> {
     pub(super) around: &'a mut Around,
     state: &'a RobotState,
     moment: Moment,
-    /// The packet that is being made.
     packet: Vec<u8>,
     effects: Vec<Effect>,
 }
@@ -40,14 +39,12 @@ impl<'a> Turn<'a> {
         self.effects
     }
 
-    /// Forgets stations and people that were not heard or perceived for too long.
     pub(super) fn elapse(&mut self) {
         let now_ms = self.moment.now_ms;
         self.around.neighbours.elapse(now_ms);
         self.around.surroundings.elapse(now_ms);
     }
 
-    /// Says that an event was ignored, if it was.
     pub(super) fn answer(&mut self, event: Event, outputs: &Outputs) {
         if let Some(reason) = outputs.ignored() {
             self.effects.push(Effect::Act(Act::Ignored(event, reason)));
@@ -74,7 +71,6 @@ impl<'a> Turn<'a> {
         surroundings.renew_ids(self.moment.now_ms, seed);
     }
 
-    /// The longest interval between two RAM, in ms.
     pub(super) fn ram_interval_max_ms(&self) -> u64 {
         self.around.surroundings.ram_interval_max_ms()
     }
@@ -91,7 +87,6 @@ impl<'a> Turn<'a> {
         });
     }
 
-    /// A message could not be made.
     #[cfg(feature = "foreign")]
     pub(super) fn not_sent(&mut self, error: &dyn Display) {
         self.dropped(Cause::NotSent, error, &[]);

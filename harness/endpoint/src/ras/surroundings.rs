@@ -268,29 +268,32 @@ mod tests {
         Surroundings::new(Awareness::default(), 1)
     }
 
+    /// The robot, so far to the east, perceives people, each with its id and so far to the east of the robot.
+    fn see(around: &mut Surroundings, now_ms: u64, east_m: f64, people: &[(u32, f64)]) {
+        let people = people.iter();
+        let people = people.map(|&(id, ahead_m)| PerceivedVru::pedestrian(id, [ahead_m, 0.0]));
+        let perceived = around.perceive(now_ms, &at(east_m), &people.collect::<Vec<_>>());
+        perceived.unwrap();
+    }
+
     #[test]
     fn people_stay_where_they_are_while_the_robot_moves() {
         let mut around = surroundings();
-        around
-            .perceive(0, &at(0.0), &[PerceivedVru::pedestrian(1, [5.0, 0.0])])
-            .unwrap();
+        see(&mut around, 0, 0.0, &[(1, 5.0)]);
         let there = around.next_cluster().unwrap().center;
-        around.perceive(500, &at(3.0), &[]).unwrap();
+        see(&mut around, 500, 3.0, &[]);
         assert!(distance_m(around.next_cluster().unwrap().center, there) < 1e-9);
-        around
-            .perceive(600, &at(3.0), &[PerceivedVru::pedestrian(1, [2.0, 0.0])])
-            .unwrap();
+        see(&mut around, 600, 3.0, &[(1, 2.0)]);
         assert!(distance_m(around.next_cluster().unwrap().center, there) < 0.01);
     }
 
     #[test]
     fn a_robot_that_went_far_starts_a_new_plane() {
         let mut around = surroundings();
-        let near = [PerceivedVru::pedestrian(1, [5.0, 0.0])];
-        around.perceive(0, &at(0.0), &near).unwrap();
-        around.perceive(100, &at(1_500.0), &[]).unwrap();
+        see(&mut around, 0, 0.0, &[(1, 5.0)]);
+        see(&mut around, 100, 1_500.0, &[]);
         assert_eq!(around.next_cluster(), None);
-        around.perceive(200, &at(1_500.0), &near).unwrap();
+        see(&mut around, 200, 1_500.0, &[(1, 5.0)]);
         assert!(distance_m(around.next_cluster().unwrap().center, [5.0, 0.0]) < 0.01);
     }
 
@@ -310,14 +313,11 @@ mod tests {
         let mut around = Surroundings::new(awareness, 1);
         let mut sent = Vec::new();
         for now_ms in (0..3_000).step_by(100) {
-            let near = [PerceivedVru::pedestrian(1, [5.0, 0.0])];
-            let people: &[PerceivedVru] = if now_ms < 1_000 { &near } else { &[] };
-            around.perceive(now_ms, &at(0.0), people).unwrap();
+            let people: &[_] = if now_ms < 1_000 { &[(1, 5.0)] } else { &[] };
+            see(&mut around, now_ms, 0.0, people);
             let due = around.due_cluster_vams(now_ms);
-            sent.extend(
-                due.iter()
-                    .map(|told| (now_ms, matches!(told, Told::Cluster(_)))),
-            );
+            let is_there = due.iter().map(|told| matches!(told, Told::Cluster(_)));
+            sent.extend(is_there.map(|is_there| (now_ms, is_there)));
         }
         // Who is no longer perceived is forgotten a second after the last time, at 900 ms.
         let (is_there, is_over) = (true, false);
@@ -336,19 +336,11 @@ mod tests {
     #[test]
     fn the_cluster_that_waited_the_longest_is_next_and_each_comes_in_time() {
         let mut around = surroundings();
-        let row = |count: u8| {
-            (1..=count)
-                .map(|id| PerceivedVru::pedestrian(id.into(), [5.0 * f64::from(id) - 15.0, 0.0]))
-        };
-        let mut id_of_next = |now_ms, count| {
-            around
-                .perceive(now_ms, &at(0.0), &row(count).collect::<Vec<_>>())
-                .unwrap();
-            let round_ms = around.ram_interval_max_ms() * u64::from(count);
-            assert!(
-                count == 1 || (1_000..=1_500).contains(&round_ms),
-                "{round_ms}"
-            );
+        let row = [(1, -10.0), (2, -5.0), (3, 0.0)];
+        let mut id_of_next = |now_ms, count: usize| {
+            see(&mut around, now_ms, 0.0, &row[..count]);
+            let round_ms = around.ram_interval_max_ms() * u64::try_from(count).unwrap();
+            assert!((1_000..=1_500).contains(&round_ms), "{round_ms}");
             match around.next_told() {
                 Some(Told::Cluster(cluster)) => cluster.id,
                 told => panic!("{told:?}"),
@@ -359,27 +351,19 @@ mod tests {
         // A third one comes before the ones whose turn it would be.
         let third = id_of_next(200, 3);
         assert!(![first, second].contains(&third));
-        assert_eq!(
-            [300, 400, 500].map(|now_ms| id_of_next(now_ms, 3)),
-            [first, second, third]
-        );
+        let ids = [300, 400, 500].map(|now_ms| id_of_next(now_ms, 3));
+        assert_eq!(ids, [first, second, third]);
     }
 
     #[test]
     fn a_ram_says_at_once_that_a_cluster_is_over_and_only_of_one_that_was_announced() {
         let mut around = surroundings();
-        around
-            .perceive(0, &at(0.0), &[PerceivedVru::pedestrian(1, [5.0, 0.0])])
-            .unwrap();
+        see(&mut around, 0, 0.0, &[(1, 5.0)]);
         let Some(Told::Cluster(cluster)) = around.next_told() else {
             panic!("nobody is announced")
         };
-        around
-            .perceive(100, &at(0.0), &[PerceivedVru::pedestrian(2, [-5.0, 0.0])])
-            .unwrap();
-        around
-            .perceive(200, &at(0.0), &[PerceivedVru::pedestrian(1, [30.0, 0.0])])
-            .unwrap();
+        see(&mut around, 100, 0.0, &[(2, -5.0)]);
+        see(&mut around, 200, 0.0, &[(1, 30.0)]);
         assert_eq!(around.ram_interval_max_ms(), INTERVAL_MIN_MS);
         let over = Ended {
             id: cluster.id,
@@ -388,9 +372,7 @@ mod tests {
         assert_eq!(around.next_told(), Some(Told::Ended(over)));
         assert_eq!(around.ram_interval_max_ms(), INTERVAL_MAX_MS);
         // The other person was never announced.
-        around
-            .perceive(300, &at(0.0), &[PerceivedVru::pedestrian(2, [30.0, 0.0])])
-            .unwrap();
+        see(&mut around, 300, 0.0, &[(2, 30.0)]);
         assert_eq!(around.next_told(), None);
     }
 }

@@ -71,7 +71,6 @@ pub fn vam_of(
     }
 }
 
-/// The VAM that announces a cluster. Its motion is that of the cluster.
 fn cluster_vam(
     ids: &Identifiers,
     station: u32,
@@ -260,6 +259,7 @@ mod tests {
     use super::super::area::Area;
     use super::super::clustering::VruClass;
     use super::super::etsi::golden_position;
+    use super::super::motion::Point;
     use super::*;
 
     /// What the golden vectors of VAM have in common (`codec/tests/golden/vam.txt`).
@@ -286,19 +286,32 @@ mod tests {
         hex::encode(encode(&Identifiers::default(), &vam.unwrap()).unwrap())
     }
 
-    #[test]
-    fn clusters_have_the_octets_of_the_golden_vectors() {
-        let mut cluster = Cluster {
+    fn cluster(center: Point, velocity_mps: [f64; 2]) -> Cluster {
+        let radius_m = 4.94;
+        Cluster {
             id: 7,
-            area: Area::Circle {
-                center: [0.0, 0.0],
-                radius_m: 4.94,
-            },
+            area: Area::Circle { center, radius_m },
             cardinality: 5,
             profiles: VruClass::Pedestrian.bit(),
-            center: [0.0, 0.0],
-            velocity_mps: [0.0, 0.0],
-        };
+            center,
+            velocity_mps,
+        }
+    }
+
+    /// What `make` makes, heard on the newer and on the older dictionary.
+    fn heard(make: impl Fn(&Identifiers) -> Vec<u8>) -> [ItsMessage; 2] {
+        [Dictionary::V2_4_1, Dictionary::V2_1_1].map(|dictionary| {
+            let ids = Identifiers {
+                dictionary,
+                ..Identifiers::default()
+            };
+            ItsMessage::decode(&ids, &make(&ids)).unwrap().message
+        })
+    }
+
+    #[test]
+    fn clusters_have_the_octets_of_the_golden_vectors() {
+        let mut cluster = cluster([0.0, 0.0], [0.0, 0.0]);
         assert_eq!(golden(&cluster), golden::vector(golden::VAM, "V3"));
         cluster.profiles = 0;
         cluster.area = Area::Rectangle {
@@ -312,40 +325,19 @@ mod tests {
     #[test]
     fn a_cluster_is_told_on_the_dictionary_that_is_configured() {
         let plane = Plane::at(48.765_432_1, 9.123_456_7);
-        let cluster = Cluster {
-            id: 7,
-            area: Area::Circle {
-                center: [3.0, 1.0],
-                radius_m: 4.94,
-            },
-            cardinality: 5,
-            profiles: VruClass::Pedestrian.bit(),
-            center: [3.0, 1.0],
-            velocity_mps: [0.0, 1.5],
-        };
+        let cluster = cluster([3.0, 1.0], [0.0, 1.5]);
         let now_its = 694_694_400_000;
-        let heard = |dictionary| {
-            let ids = Identifiers {
-                dictionary,
-                ..Identifiers::default()
-            };
-            let position = plane.position([0.0, 0.0]);
-            let vam = cluster_vam(&ids, 9, &position, now_its, &cluster, &plane).unwrap();
-            ItsMessage::decode(&ids, &vam).unwrap().message
-        };
-        let (new, old) = (heard(Dictionary::V2_4_1), heard(Dictionary::V2_1_1));
+        let position = plane.position([0.0, 0.0]);
+        let [new, old] =
+            heard(|ids| cluster_vam(ids, 9, &position, now_its, &cluster, &plane).unwrap());
         let ItsMessage::Vam211(vam) = &old else {
             panic!("{old:?}");
         };
         assert_eq!(old.road_users(now_its), new.road_users(now_its));
         let prediction = &vam.vam.vam_parameters.vru_motion_prediction_container;
         let path = prediction.as_ref().unwrap().path_prediction.as_ref();
-        let times: Vec<_> = path
-            .unwrap()
-            .0
-            .iter()
-            .map(|it| it.path_delta_time.0)
-            .collect();
+        let path = path.unwrap().0.iter();
+        let times: Vec<_> = path.map(|it| it.path_delta_time.0).collect();
         assert_eq!(times, [10, 20, 30]);
     }
 
@@ -356,15 +348,8 @@ mod tests {
             id: 7,
             reason: BreakupReason::ClusteringPurposeCompleted,
         };
-        let heard = |dictionary| {
-            let ids = Identifiers {
-                dictionary,
-                ..Identifiers::default()
-            };
-            let vam = breakup_vam(&ids, 9, &plane.position([0.0, 0.0]), 12 * 256, ended).unwrap();
-            ItsMessage::decode(&ids, &vam).unwrap().message
-        };
-        let (new, old) = (heard(Dictionary::V2_4_1), heard(Dictionary::V2_1_1));
+        let position = plane.position([0.0, 0.0]);
+        let [new, old] = heard(|ids| breakup_vam(ids, 9, &position, 12 * 256, ended).unwrap());
         // On a map there is nobody by it.
         assert!(new.road_users(0).is_empty() && old.road_users(0).is_empty());
         let ItsMessage::Vam(vam) = new else {

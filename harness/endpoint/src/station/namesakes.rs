@@ -63,7 +63,6 @@ impl Owner {
     }
 }
 
-/// The tickets by station id.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Namesakes {
     /// Robots, whose ids follow from their tickets. They have places of their own, which others cannot fill.

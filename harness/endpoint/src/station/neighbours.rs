@@ -8,7 +8,6 @@ use crossguard_protocol::StationId;
 use super::map::LocalDynamicMap;
 use super::namesakes::Namesakes;
 
-/// The stations around one robot.
 #[derive(Clone, Debug)]
 pub(crate) struct Neighbours {
     pub(super) identifiers: Identifiers,
@@ -17,7 +16,6 @@ pub(crate) struct Neighbours {
 }
 
 impl Neighbours {
-    /// Nobody is known yet.
     pub(crate) fn new(identifiers: Identifiers) -> Self {
         Self {
             identifiers,
@@ -31,12 +29,10 @@ impl Neighbours {
         self.namesakes.bind(from, signer, address, now_ms);
     }
 
-    /// Who is around.
     pub(crate) const fn map(&self) -> &LocalDynamicMap {
         &self.map
     }
 
-    /// Forgets who was not heard of for too long.
     pub(crate) fn elapse(&mut self, now_ms: u64) {
         self.map.forget(now_ms);
     }

@@ -88,7 +88,6 @@ impl Secret {
     }
 }
 
-/// A pseudonym that a robot takes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Taken {
     /// Its station id.
@@ -99,7 +98,6 @@ pub(crate) struct Taken {
     pub(crate) clusters: u64,
 }
 
-/// When one robot changes its pseudonym.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pseudonyms {
     secret: Secret,
@@ -170,7 +168,6 @@ impl Pseudonyms {
             .unwrap_or(first)
     }
 
-    /// Whether a moment of change has just come.
     fn is_due(&mut self, timestamp_its: u64) -> bool {
         let Some(period_ms) = self.period_ms else {
             return false;
@@ -191,7 +188,6 @@ impl Pseudonyms {
         self.silent_until_ms = now_ms + drawn.checked_rem(most_ms).unwrap_or(0);
     }
 
-    /// Speaks again: somebody needs it.
     pub(crate) const fn break_silence(&mut self) {
         self.silent_until_ms = 0;
     }

@@ -18,6 +18,10 @@ fn standing() -> Motion {
     Motion::default()
 }
 
+fn device(rule: VamRule) -> VruStation {
+    VruStation::new(rule, Understands::Ram)
+}
+
 fn loose(rule: VamRule) -> VruStation {
     VruStation::with(rule, Understands::Ram, Suppression::Loose)
 }
@@ -43,110 +47,98 @@ fn announcement(by: Understands, area: &Area) -> Announcement {
     }
 }
 
+/// A robot's RAM with a cluster of this radius that stands around the origin.
+fn ram(radius_m: f64) -> Announcement {
+    announcement(Understands::Ram, &circle(radius_m))
+}
+
+fn over(announcement: &Announcement) -> Announcement {
+    Announcement {
+        cluster: None,
+        ..announcement.clone()
+    }
+}
+
+const fn leaves(reason: LeaveReason) -> Operation {
+    Operation::Leave { id: 7, reason }
+}
+
 /// When a device that hears nothing sends, in ms, over ten seconds in this motion.
-fn sent(rule: VamRule, motion: impl Fn(u64) -> Motion) -> Vec<u64> {
-    let mut station = VruStation::new(rule, Understands::Ram);
-    let times = (0..10_000).step_by(100);
-    times
-        .filter(|&now_ms| station.poll(now_ms, &motion(now_ms), 0).is_some())
-        .collect()
+fn sent(rule: VamRule, motion: impl Fn(u64) -> Motion, interval_min_ms: u64) -> Vec<u64> {
+    let mut station = device(rule);
+    let mut is_sent = |&now_ms: &u64| {
+        station
+            .poll(now_ms, &motion(now_ms), interval_min_ms)
+            .is_some()
+    };
+    (0..10_000).step_by(100).filter(&mut is_sent).collect()
 }
 
 #[test]
-fn who_stands_sends_every_five_seconds() {
-    assert_eq!(sent(VamRule::Etsi, |_| standing()), [0, 5_000]);
-}
-
-#[test]
-#[expect(clippy::cast_precision_loss, reason = "a few seconds")]
-fn who_walks_sends_every_four_metres() {
+fn a_device_sends_every_five_seconds_or_four_metres_or_at_its_rate() {
+    assert_eq!(sent(VamRule::Etsi, |_| standing(), 0), [0, 5_000]);
     // 4 m at 1.4 m/s are 2857 ms.
-    let times = sent(VamRule::Etsi, |now_ms| walking(now_ms as f64 * 1.4e-3));
-    assert_eq!(times, [0, 2_900, 5_800, 8_700]);
-}
-
-#[test]
-fn a_periodic_device_sends_at_its_rate_and_congestion_control_slows_it_down() {
-    assert_eq!(sent(VamRule::Periodic(200), |_| standing()).len(), 50);
-    let mut station = VruStation::new(VamRule::Periodic(100), Understands::Ram);
-    let times = (0..10_000).step_by(100);
-    let sent = times.filter(|&now_ms| station.poll(now_ms, &standing(), 400).is_some());
-    assert_eq!(sent.count(), 25);
+    assert_eq!(sent(VamRule::Etsi, after, 0), [0, 2_900, 5_800, 8_700]);
+    assert_eq!(sent(VamRule::Periodic(200), |_| standing(), 0).len(), 50);
+    // Congestion control slows it down.
+    assert_eq!(sent(VamRule::Periodic(100), |_| standing(), 400).len(), 25);
 }
 
 #[test]
 fn the_low_frequency_container_goes_along_every_two_seconds() {
-    let mut station = VruStation::new(VamRule::Periodic(500), Understands::Ram);
+    let mut station = device(VamRule::Periodic(500));
+    let mut vam = |now_ms| station.poll(now_ms, &standing(), 0);
     let times = (0..4_001).step_by(500);
-    let with: Vec<u64> = times
-        .filter(|&now_ms| {
-            station
-                .poll(now_ms, &standing(), 0)
-                .is_some_and(|vam| vam.low_frequency)
-        })
-        .collect();
-    assert_eq!(with, [0, 2_000, 4_000]);
+    let with = times.filter(|&now_ms| vam(now_ms).is_some_and(|vam| vam.low_frequency));
+    assert_eq!(with.collect::<Vec<_>>(), [0, 2_000, 4_000]);
 }
 
 #[test]
 fn a_covered_device_is_silent_until_its_robot_is_lost() {
-    let mut station = VruStation::new(VamRule::Periodic(100), Understands::Ram);
-    let area = circle(5.0);
+    let mut station = device(VamRule::Periodic(100));
     assert!(station.poll(0, &standing(), 0).is_some());
-    let heard = station.hear(50, &standing(), &announcement(Understands::Ram, &area));
+    let heard = station.hear(50, &standing(), &ram(5.0));
     assert_eq!(heard, Reaction::Suspends);
     for now_ms in (100..2_050).step_by(50) {
         assert_eq!(station.poll(now_ms, &standing(), 0), None);
     }
     let vam = station.poll(2_050, &standing(), 0).unwrap();
     assert_eq!(vam.trigger, VamTrigger::Leave);
-    let reason = LeaveReason::ClusterLeaderLost;
-    assert_eq!(vam.operation, Some(Operation::Leave { id: 7, reason }));
+    assert_eq!(vam.operation, Some(leaves(LeaveReason::ClusterLeaderLost)));
     assert!(vam.low_frequency);
-    assert!(
-        station
-            .poll(3_000, &standing(), 0)
-            .unwrap()
-            .operation
-            .is_some()
-    );
-    assert_eq!(station.poll(3_100, &standing(), 0).unwrap().operation, None);
+    let mut operation = |now_ms| station.poll(now_ms, &standing(), 0).unwrap().operation;
+    assert!(operation(3_000).is_some());
+    assert_eq!(operation(3_100), None);
 }
 
 #[test]
 fn by_the_loose_rule_a_device_that_walks_out_resumes_three_metres_outside() {
     let mut station = loose(VamRule::Etsi);
-    let area = circle(5.0);
-    station.hear(0, &walking(4.0), &announcement(Understands::Ram, &area));
+    station.hear(0, &walking(4.0), &ram(5.0));
     assert_eq!(station.poll(100, &walking(7.9), 0), None);
-    let outside = station.hear(150, &walking(7.9), &announcement(Understands::Ram, &area));
+    let outside = station.hear(150, &walking(7.9), &ram(5.0));
     assert_eq!(outside, Reaction::Outside);
     let vam = station.poll(200, &walking(8.1), 0).unwrap();
-    let reason = LeaveReason::OutOfClusterBoundingBox;
-    assert_eq!(vam.operation, Some(Operation::Leave { id: 7, reason }));
+    assert_eq!(
+        vam.operation,
+        Some(leaves(LeaveReason::OutOfClusterBoundingBox))
+    );
 }
 
 #[test]
 fn a_robot_without_a_cluster_releases_its_devices_and_nobody_elses() {
-    let mut station = VruStation::new(VamRule::Etsi, Understands::Ram);
-    let area = circle(5.0);
-    station.hear(0, &standing(), &announcement(Understands::Ram, &area));
+    let mut station = device(VamRule::Etsi);
+    station.hear(0, &standing(), &ram(5.0));
     let none = |head| Announcement {
         head,
-        by: Understands::Ram,
-        cluster: None,
         velocity_mps: None,
-        ended: None,
+        ..over(&ram(5.0))
     };
-    assert_eq!(
-        station.hear(100, &standing(), &none(HEAD + 1)),
-        Reaction::InAnother
-    );
+    let of_another = station.hear(100, &standing(), &none(HEAD + 1));
+    assert_eq!(of_another, Reaction::InAnother);
     assert!(station.is_passive());
-    assert_eq!(
-        station.hear(200, &standing(), &none(HEAD)),
-        Reaction::Resumes
-    );
+    let own = station.hear(200, &standing(), &none(HEAD));
+    assert_eq!(own, Reaction::Resumes);
     assert!(station.poll(200, &standing(), 0).is_some());
 }
 
@@ -168,14 +160,8 @@ fn a_device_goes_over_to_the_next_robot_without_a_vam() {
         assert_eq!(station.poll(now_ms, &walking(6.0), 0), None);
     }
     // The first one does not concern it any more.
-    let gone = Announcement {
-        cluster: None,
-        ..announcement(Understands::Ram, &first)
-    };
-    assert_eq!(
-        station.hear(3_400, &walking(6.0), &gone),
-        Reaction::InAnother
-    );
+    let gone = station.hear(3_400, &walking(6.0), &over(&ram(5.0)));
+    assert_eq!(gone, Reaction::InAnother);
     assert!(station.is_passive());
 }
 
@@ -183,47 +169,39 @@ fn a_device_goes_over_to_the_next_robot_without_a_vam() {
 fn who_leaves_says_whether_its_head_was_silent_or_did_not_count_it() {
     let left = |heard_again: bool| {
         let mut station = loose(VamRule::Periodic(100));
-        let (area, elsewhere) = (circle(5.0), Area::around(&[[30.0, 0.0]], 2.0).unwrap());
-        station.hear(0, &standing(), &announcement(Understands::Ram, &area));
+        let elsewhere = Area::around(&[[30.0, 0.0]], 2.0).unwrap();
+        station.hear(0, &standing(), &ram(5.0));
         if heard_again {
-            let outside = station.hear(
-                1_000,
-                &standing(),
-                &announcement(Understands::Ram, &elsewhere),
-            );
+            let elsewhere = announcement(Understands::Ram, &elsewhere);
+            let outside = station.hear(1_000, &standing(), &elsewhere);
             assert_eq!(outside, Reaction::Outside);
         }
         assert_eq!(station.poll(1_900, &standing(), 0), None);
         station.poll(2_000, &standing(), 0).unwrap().operation
     };
-    let id = 7;
-    let reason = LeaveReason::ClusterLeaderLost;
-    assert_eq!(left(false), Some(Operation::Leave { id, reason }));
-    let reason = LeaveReason::OutOfClusterBoundingBox;
-    assert_eq!(left(true), Some(Operation::Leave { id, reason }));
+    assert_eq!(left(false), Some(leaves(LeaveReason::ClusterLeaderLost)));
+    assert_eq!(
+        left(true),
+        Some(leaves(LeaveReason::OutOfClusterBoundingBox))
+    );
 }
 
 #[test]
 fn an_unmodified_device_is_not_in_another_cluster_of_its_head() {
     let mut station = VruStation::new(VamRule::Etsi, Understands::ClusterVam);
-    let area = circle(5.0);
-    let vam = announcement(Understands::ClusterVam, &area);
+    let mut vam = announcement(Understands::ClusterVam, &circle(5.0));
     assert_eq!(station.hear(0, &standing(), &vam), Reaction::Joins);
-    let mut split_off = vam.clone();
-    split_off.cluster.as_mut().unwrap().id = Some(8);
-    assert_eq!(
-        station.hear(100, &standing(), &split_off),
-        Reaction::InAnother
-    );
+    vam.cluster.as_mut().unwrap().id = Some(8);
+    let split_off = station.hear(100, &standing(), &vam);
+    assert_eq!(split_off, Reaction::InAnother);
 }
 
 #[test]
 fn an_unmodified_device_joins_by_the_rules_of_etsi() {
     let mut station = VruStation::new(VamRule::Periodic(500), Understands::ClusterVam);
-    let area = circle(5.0);
-    let ram = station.hear(0, &standing(), &announcement(Understands::Ram, &area));
-    assert_eq!(ram, Reaction::NotUnderstood);
-    let vam = announcement(Understands::ClusterVam, &area);
+    let not_understood = station.hear(0, &standing(), &ram(5.0));
+    assert_eq!(not_understood, Reaction::NotUnderstood);
+    let vam = announcement(Understands::ClusterVam, &circle(5.0));
     let walks = station.hear(0, &walking(0.0), &vam);
     assert_eq!(walks, Reaction::VelocityDiffers);
     assert_eq!(station.hear(0, &standing(), &vam), Reaction::Joins);
@@ -233,13 +211,8 @@ fn an_unmodified_device_joins_by_the_rules_of_etsi() {
             assert_eq!(station.hear(now_ms, &standing(), &vam), Reaction::GoesOn);
         }
         if let Some(due) = station.poll(now_ms, &standing(), 0) {
-            assert_eq!(
-                due.operation,
-                Some(Operation::Join {
-                    id: 7,
-                    at_ms: 3_000
-                })
-            );
+            let (id, at_ms) = (7, 3_000);
+            assert_eq!(due.operation, Some(Operation::Join { id, at_ms }));
             joins += 1;
         }
     }
@@ -252,15 +225,13 @@ fn an_unmodified_device_joins_by_the_rules_of_etsi() {
 #[test]
 fn an_unmodified_device_that_is_not_confirmed_gives_up() {
     let mut station = VruStation::new(VamRule::Etsi, Understands::ClusterVam);
-    let area = circle(5.0);
-    let vam = announcement(Understands::ClusterVam, &area);
+    let vam = announcement(Understands::ClusterVam, &circle(5.0));
     station.hear(0, &standing(), &vam);
     station.hear(1_900, &standing(), &vam);
     station.poll(3_000, &standing(), 0);
     assert!(station.is_passive());
     let due = station.poll(3_500, &standing(), 0).unwrap();
-    let reason = LeaveReason::FailedJoin;
-    assert_eq!(due.operation, Some(Operation::Leave { id: 7, reason }));
+    assert_eq!(due.operation, Some(leaves(LeaveReason::FailedJoin)));
 }
 
 /// A cluster that walks to the east at 1.4 m/s, around where somebody was at `now_ms` who began at the origin.
@@ -277,9 +248,8 @@ fn after(now_ms: u64) -> Motion {
 
 #[test]
 fn by_the_strict_rule_a_device_walks_on_silently_with_its_cluster() {
-    let mut station = VruStation::new(VamRule::Periodic(100), Understands::Ram);
-    let area = circle(1.0);
-    let heard = station.hear(0, &after(0), &walking_cluster(&area));
+    let mut station = device(VamRule::Periodic(100));
+    let heard = station.hear(0, &after(0), &walking_cluster(&circle(1.0)));
     assert_eq!(heard, Reaction::Suspends);
     // It is 2.7 m from where it was announced; the shape went along.
     for now_ms in (100..2_000).step_by(100) {
@@ -290,9 +260,9 @@ fn by_the_strict_rule_a_device_walks_on_silently_with_its_cluster() {
 
 #[test]
 fn who_moves_otherwise_than_a_cluster_that_covers_it_was_not_perceived() {
-    let area = circle(5.0);
+    let cluster = walking_cluster(&circle(5.0));
     let heard = |motion: &Motion, announced: &Announcement| {
-        VruStation::new(VamRule::Etsi, Understands::Ram).hear(0, motion, announced)
+        device(VamRule::Etsi).hear(0, motion, announced)
     };
     let north = Motion {
         heading_deg: 0.0,
@@ -303,49 +273,48 @@ fn who_moves_otherwise_than_a_cluster_that_covers_it_was_not_perceived() {
         ..walking(0.0)
     };
     for motion in [standing(), north, cycling] {
-        let reaction = heard(&motion, &walking_cluster(&area));
+        let reaction = heard(&motion, &cluster);
         assert_eq!(reaction, Reaction::VelocityDiffers, "{motion:?}");
     }
+    assert_eq!(heard(&walking(0.0), &cluster), Reaction::Suspends);
     // Nor does it know that when the cluster does not say how it moves.
-    let mut unknown = walking_cluster(&area);
+    let mut unknown = cluster;
     unknown.velocity_mps = None;
     assert_eq!(heard(&walking(0.0), &unknown), Reaction::VelocityDiffers);
-    assert_eq!(
-        heard(&walking(0.0), &walking_cluster(&area)),
-        Reaction::Suspends
-    );
 }
 
 #[test]
 fn who_leaves_a_cluster_resumes_at_once_and_says_why() {
     let left = |motion: Motion| {
-        let mut station = VruStation::new(VamRule::Etsi, Understands::Ram);
-        let area = circle(1.0);
-        station.hear(0, &after(0), &walking_cluster(&area));
+        let mut station = device(VamRule::Etsi);
+        station.hear(0, &after(0), &walking_cluster(&circle(1.0)));
         station.poll(100, &motion, 0).unwrap().operation
     };
-    let id = 7;
-    let reason = LeaveReason::OutOfClusterBoundingBox;
-    assert_eq!(left(walking(1.3)), Some(Operation::Leave { id, reason }));
-    let reason = LeaveReason::OutOfClusterSpeedRange;
+    let walks_out = left(walking(1.3));
+    assert_eq!(
+        walks_out,
+        Some(leaves(LeaveReason::OutOfClusterBoundingBox))
+    );
     let turned = Motion {
         heading_deg: 45.0,
         ..after(100)
     };
-    assert_eq!(left(turned), Some(Operation::Leave { id, reason }));
+    assert_eq!(
+        left(turned),
+        Some(leaves(LeaveReason::OutOfClusterSpeedRange))
+    );
 }
 
 #[test]
 fn who_is_no_longer_in_its_own_cluster_resumes_when_it_hears_that() {
-    let mut station = VruStation::new(VamRule::Etsi, Understands::Ram);
-    let (area, elsewhere) = (circle(1.0), Area::around(&[[9.0, 0.0]], 1.0).unwrap());
-    station.hear(0, &standing(), &announcement(Understands::Ram, &area));
-    let mut other = announcement(Understands::Ram, &elsewhere);
+    let mut station = device(VamRule::Etsi);
+    station.hear(0, &standing(), &ram(1.0));
+    let own = announcement(Understands::Ram, &Area::around(&[[9.0, 0.0]], 1.0).unwrap());
+    let mut other = own.clone();
     other.cluster.as_mut().unwrap().id = Some(8);
     // Another cluster of the same robot says nothing of this one.
     assert_eq!(station.hear(500, &standing(), &other), Reaction::Outside);
     assert_eq!(station.poll(600, &standing(), 0), None);
-    let own = announcement(Understands::Ram, &elsewhere);
     assert_eq!(station.hear(700, &standing(), &own), Reaction::Resumes);
     assert!(station.poll(700, &standing(), 0).is_some());
 }
@@ -354,12 +323,10 @@ fn who_is_no_longer_in_its_own_cluster_resumes_when_it_hears_that() {
 fn a_cluster_that_is_over_releases_its_own_devices_at_once() {
     for by in [Understands::Ram, Understands::ClusterVam] {
         let mut station = VruStation::new(VamRule::Periodic(500), by);
-        let area = circle(5.0);
-        let there = announcement(by, &area);
+        let there = announcement(by, &circle(5.0));
         let over = |id| Announcement {
-            cluster: None,
             ended: Some(id),
-            ..there.clone()
+            ..over(&there)
         };
         for now_ms in (0..=3_400).step_by(100) {
             station.hear(now_ms, &standing(), &there);
@@ -370,9 +337,11 @@ fn a_cluster_that_is_over_releases_its_own_devices_at_once() {
         assert_eq!((other, station.is_passive()), (Reaction::GoesOn, true));
         let own = station.hear(3_600, &standing(), &over(7));
         assert_eq!(own, Reaction::Resumes);
-        let reason = LeaveReason::ClusterDisbandedByLeader;
         let vam = station.poll(3_600, &standing(), 0).unwrap();
-        assert_eq!(vam.operation, Some(Operation::Leave { id: 7, reason }));
+        assert_eq!(
+            vam.operation,
+            Some(leaves(LeaveReason::ClusterDisbandedByLeader))
+        );
     }
 }
 
@@ -389,10 +358,9 @@ proptest! {
         for (what, to_m, radius_m) in steps {
             now_ms += 100;
             east_m += (to_m - east_m) * 0.1;
-            let area = circle(radius_m);
             if what == 0 {
-                let reaction = station.hear(now_ms, &walking(east_m), &announcement(Understands::Ram, &area));
-                if area.contains([east_m, 0.0]) {
+                let reaction = station.hear(now_ms, &walking(east_m), &ram(radius_m));
+                if circle(radius_m).contains([east_m, 0.0]) {
                     covered_ms = Some(now_ms);
                     prop_assert!(matches!(reaction, Reaction::Suspends | Reaction::GoesOn));
                 }
@@ -414,7 +382,7 @@ proptest! {
     fn strict_silence_is_a_match_of_place_and_motion(
         steps in proptest::collection::vec((0_u8..4, -3.0..3.0_f64, 0.5..3.0_f64, 0.0..360.0_f64), 1..200)
     ) {
-        let mut station = VruStation::new(VamRule::Etsi, Understands::Ram);
+        let mut station = device(VamRule::Etsi);
         let mut matched: Option<(u64, f64)> = None;
         let mut now_ms = 0_u64;
         for (what, offset_m, radius_m, heading_deg) in steps {

@@ -18,7 +18,6 @@ struct Togetherness {
 }
 
 impl Togetherness {
-    /// To come together.
     fn to_join(settings: &Settings) -> Self {
         Self {
             spread_m: settings.spread_m,
@@ -29,7 +28,6 @@ impl Togetherness {
         }
     }
 
-    /// To stay together.
     fn to_stay(settings: &Settings) -> Self {
         Self {
             spread_m: settings.spread_m + settings.hysteresis_m,

@@ -14,8 +14,13 @@ fn pedestrian(id: u32, east_m: f64, north_m: f64) -> PerceivedVru {
 
 fn perceiving(perceived: &[PerceivedVru]) -> Clustering {
     let mut clustering = Clustering::new(Settings::default(), 1);
-    clustering.perceive(0, [0.0, 0.0], perceived);
+    see(&mut clustering, 0, perceived);
     clustering
+}
+
+/// The robot, which stands at the origin, perceives these.
+fn see(clustering: &mut Clustering, now_ms: u64, perceived: &[PerceivedVru]) {
+    clustering.perceive(now_ms, [0.0, 0.0], perceived);
 }
 
 #[test]
@@ -24,11 +29,8 @@ fn a_vehicle_is_in_no_cluster_and_a_wheelchair_user_has_the_profile_that_etsi_gi
         class,
         ..pedestrian(7, east_m, 4.0)
     };
-    assert!(
-        perceiving(&[of(VruClass::Vehicle, 3.0)])
-            .clusters()
-            .is_empty()
-    );
+    let vehicle = perceiving(&[of(VruClass::Vehicle, 3.0)]);
+    assert!(vehicle.clusters().is_empty());
     let clusters = perceiving(&[of(VruClass::WheelchairUser, 3.0)]).clusters();
     assert_eq!(clusters[0].profiles, VruClass::Bicyclist.bit());
 }
@@ -36,33 +38,33 @@ fn a_vehicle_is_in_no_cluster_and_a_wheelchair_user_has_the_profile_that_etsi_gi
 #[test]
 fn one_person_is_a_cluster() {
     let clusters = perceiving(&[pedestrian(7, 3.0, 4.0)]).clusters();
-    assert_eq!(clusters.len(), 1);
-    assert_eq!(
-        (clusters[0].cardinality, clusters[0].profiles),
-        (1, VruClass::Pedestrian.bit())
-    );
-    assert!(distance_m(clusters[0].velocity_mps, [1.0, 0.0]) < 1e-9);
+    let [cluster] = &clusters[..] else {
+        panic!("{clusters:?}")
+    };
+    let bit = VruClass::Pedestrian.bit();
+    assert_eq!((cluster.cardinality, cluster.profiles), (1, bit));
+    assert!(distance_m(cluster.velocity_mps, [1.0, 0.0]) < 1e-9);
 }
 
 #[test]
 fn the_edge_has_hysteresis_in_distance_and_confidence() {
     let mut clustering = perceiving(&[pedestrian(1, 15.5, 0.0)]);
     assert_eq!(clustering.members(), 0);
-    for (now_ms, east_m, members) in [
+    let by_distance = [
         (100, 14.9, 1),
         (200, 15.9, 1),
         (300, 16.1, 0),
         (400, 15.9, 0),
-    ] {
-        clustering.perceive(now_ms, [0.0, 0.0], &[pedestrian(1, east_m, 0.0)]);
+    ];
+    for (now_ms, east_m, members) in by_distance {
+        see(&mut clustering, now_ms, &[pedestrian(1, east_m, 0.0)]);
         assert_eq!(clustering.members(), members, "{east_m} m");
     }
     let mut unsure = pedestrian(2, 5.0, 0.0);
-    for (now_ms, confidence, members) in
-        [(500, 0.4, 0), (600, 0.6, 1), (700, 0.3, 1), (800, 0.2, 0)]
-    {
+    let by_confidence = [(500, 0.4, 0), (600, 0.6, 1), (700, 0.3, 1), (800, 0.2, 0)];
+    for (now_ms, confidence, members) in by_confidence {
         unsure.confidence = confidence;
-        clustering.perceive(now_ms, [0.0, 0.0], &[unsure]);
+        see(&mut clustering, now_ms, &[unsure]);
         assert_eq!(clustering.members(), members, "{confidence}");
     }
 }
@@ -70,9 +72,9 @@ fn the_edge_has_hysteresis_in_distance_and_confidence() {
 #[test]
 fn who_is_hidden_for_a_moment_is_remembered() {
     let mut clustering = perceiving(&[pedestrian(1, 5.0, 0.0)]);
-    clustering.perceive(999, [0.0, 0.0], &[]);
+    see(&mut clustering, 999, &[]);
     assert_eq!(clustering.members(), 1);
-    clustering.perceive(1_000, [0.0, 0.0], &[]);
+    see(&mut clustering, 1_000, &[]);
     assert!(clustering.clusters().is_empty());
 }
 
@@ -80,22 +82,16 @@ fn who_is_hidden_for_a_moment_is_remembered() {
 fn an_id_stays_while_its_cluster_does_and_is_not_used_again_soon() {
     let mut clustering = perceiving(&[pedestrian(1, 5.0, 0.0)]);
     let id = clustering.clusters()[0].id;
-    clustering.perceive(
-        100,
-        [0.0, 0.0],
-        &[pedestrian(1, 6.0, 0.0), pedestrian(2, 2.0, 0.0)],
-    );
+    let both = [pedestrian(1, 6.0, 0.0), pedestrian(2, 2.0, 0.0)];
+    see(&mut clustering, 100, &both);
     assert_eq!(clustering.clusters()[0].id, id);
+    let far = [1, 2].map(|id| pedestrian(id, 20.0, 0.0));
     for round in 0..100 {
         let now_ms = 2_000 + round * 100;
-        clustering.perceive(
-            now_ms,
-            [0.0, 0.0],
-            &[pedestrian(1, 20.0, 0.0), pedestrian(2, 20.0, 0.0)],
-        );
-        clustering.perceive(now_ms + 50, [0.0, 0.0], &[pedestrian(3, 1.0, 0.0)]);
+        see(&mut clustering, now_ms, &far);
+        see(&mut clustering, now_ms + 50, &[pedestrian(3, 1.0, 0.0)]);
         assert_ne!(clustering.clusters()[0].id, id);
-        clustering.perceive(now_ms + 60, [0.0, 0.0], &[pedestrian(3, 20.0, 0.0)]);
+        see(&mut clustering, now_ms + 60, &[pedestrian(3, 20.0, 0.0)]);
     }
 }
 
@@ -121,7 +117,7 @@ fn people_are_taken_back_from_a_silent_robot_and_forgotten_without_a_sensor() {
     let mut clustering = perceiving(&[]);
     let area = Area::around(&[[3.0, 0.0]], 1.0).unwrap();
     clustering.leave_to(0, (4, None), area);
-    clustering.perceive(1_500, [0.0, 0.0], &[pedestrian(1, 3.0, 0.0)]);
+    see(&mut clustering, 1_500, &[pedestrian(1, 3.0, 0.0)]);
     assert_eq!(clustering.count(), 0);
     clustering.elapse(1_999);
     assert_eq!(clustering.count(), 0);
@@ -140,11 +136,8 @@ fn moving(id: u32, position_m: Point, velocity_mps: [f64; 2]) -> PerceivedVru {
 
 /// The members of each cluster by number, the largest cluster first.
 fn cardinalities(clustering: &Clustering) -> Vec<u8> {
-    let mut counts: Vec<u8> = clustering
-        .clusters()
-        .iter()
-        .map(|it| it.cardinality)
-        .collect();
+    let clusters = clustering.clusters();
+    let mut counts: Vec<u8> = clusters.iter().map(|it| it.cardinality).collect();
     counts.sort_unstable_by(|a, b| b.cmp(a));
     counts
 }
@@ -175,11 +168,7 @@ fn people_who_walk_north_are_not_merged_with_a_cyclist_who_goes_east() {
 
 #[test]
 fn three_people_in_a_row_are_not_a_rectangle_of_14_by_2_metres() {
-    let row = [0.0, 6.0, 12.0].map(|at: f64| [at - 6.0, 0.0]);
-    let people: Vec<_> = (1..)
-        .zip(row)
-        .map(|(id, at)| moving(id, at, [0.0, 0.0]))
-        .collect();
+    let people = [(1, -6.0), (2, 0.0), (3, 6.0)].map(|(id, at)| moving(id, [at, 0.0], [0.0, 0.0]));
     let clusters = perceiving(&people).clusters();
     assert_eq!(clusters.len(), 3);
     // Between them there is room for somebody who nobody has perceived.
@@ -200,11 +189,12 @@ fn who_turns_off_leaves_the_cluster_and_the_others_stay() {
     let east = [1.4, 0.0];
     let mut clustering = perceiving(&[moving(1, [0.0, 0.0], east), moving(2, [1.0, 0.0], east)]);
     let id = clustering.clusters()[0].id;
-    let people = [
-        moving(1, [0.1, 0.0], east),
-        moving(2, [1.1, 0.0], [0.0, 1.4]),
-    ];
-    clustering.perceive(100, [0.0, 0.0], &people);
+    let turned_off = moving(2, [1.1, 0.0], [0.0, 1.4]);
+    see(
+        &mut clustering,
+        100,
+        &[moving(1, [0.1, 0.0], east), turned_off],
+    );
     assert_eq!(cardinalities(&clustering), [1, 1]);
     assert!(clustering.clusters().iter().any(|it| it.id == id));
     assert_eq!(clustering.take_ended(), []);
@@ -223,7 +213,7 @@ fn who_does_not_move_as_the_mean_leaves_the_cluster() {
     assert_eq!(cardinalities(&clustering), [2]);
     let [a, b] = of(140.0, 87.0);
     assert!(MATCH.holds(a.velocity_mps, b.velocity_mps));
-    clustering.perceive(100, [0.0, 0.0], &[a, b]);
+    see(&mut clustering, 100, &[a, b]);
     assert_eq!(cardinalities(&clustering), [1, 1]);
 }
 
@@ -231,11 +221,9 @@ fn who_does_not_move_as_the_mean_leaves_the_cluster() {
 fn two_who_meet_and_two_who_part_do_not_change_back_and_forth() {
     let mut clustering = perceiving(&[]);
     let mut apart = |now_ms, distance_m: f64| {
-        let people = [
-            moving(1, [0.0, 0.0], [0.0, 0.0]),
-            moving(2, [distance_m, 0.0], [0.0, 0.0]),
-        ];
-        clustering.perceive(now_ms, [0.0, 0.0], &people);
+        let people = [(1, 0.0), (2, distance_m)];
+        let people = people.map(|(id, east_m)| moving(id, [east_m, 0.0], [0.0, 0.0]));
+        see(&mut clustering, now_ms, &people);
         clustering.count()
     };
     let counts = [4.0, 3.1, 3.0, 3.9, 3.1, 4.1, 3.1].map(|it| apart(0, it));
@@ -247,26 +235,19 @@ fn a_cluster_that_is_over_is_told_with_its_reason() {
     let at = |id, east_m: f64| moving(id, [east_m, 0.0], [0.0, 0.0]);
     let mut clustering = perceiving(&[at(1, 0.0), at(2, 9.0)]);
     let id_at = |clustering: &Clustering, place| {
-        let clusters = clustering.clusters();
-        clusters
-            .iter()
-            .find(|it| it.area.contains(place))
-            .unwrap()
-            .id
+        let mut clusters = clustering.clusters().into_iter();
+        clusters.find(|it| it.area.contains(place)).unwrap().id
     };
-    let (first, second) = (
-        id_at(&clustering, [0.0, 0.0]),
-        id_at(&clustering, [9.0, 0.0]),
-    );
+    let [first, second] = [0.0, 9.0].map(|east_m| id_at(&clustering, [east_m, 0.0]));
     // They come together: one of the two ids is over, though its member is there.
-    clustering.perceive(100, [0.0, 0.0], &[at(1, 0.0), at(2, 2.0)]);
+    see(&mut clustering, 100, &[at(1, 0.0), at(2, 2.0)]);
     let ended = clustering.take_ended();
     let [Ended { id, reason }] = ended[..] else {
         panic!("{ended:?}")
     };
     assert!([first, second].contains(&id));
     assert_eq!(reason, BreakupReason::NotProvided);
-    clustering.perceive(200, [0.0, 0.0], &[at(1, 30.0), at(2, 30.0)]);
+    see(&mut clustering, 200, &[at(1, 30.0), at(2, 30.0)]);
     let reason = BreakupReason::ClusteringPurposeCompleted;
     let id = if id == first { second } else { first };
     assert_eq!(clustering.take_ended(), [Ended { id, reason }]);
@@ -311,7 +292,7 @@ proptest! {
                 let id = u32::try_from(id).unwrap();
                 *vru = person(id, (place.0 + by.0, place.1 - by.0), (way.0, way.1 + by.1));
             }
-            clustering.perceive(now_ms + 100, [0.0, 0.0], &people);
+            see(&mut clustering, now_ms + 100, &people);
         }
     }
 
