@@ -14,9 +14,7 @@ use smallvec::SmallVec;
 
 use crate::memo::Memo;
 
-/// Something that holds names.
 pub(crate) trait Renamable {
-    /// The same under other names.
     #[must_use]
     fn renamed(&self, to: &mut impl Renaming) -> Self;
 }
@@ -115,7 +113,6 @@ pub(crate) struct Renamings {
     ranks: boxcar::Vec<Ranks>,
 }
 
-/// The numbers of the sets of names in a state.
 #[derive(PartialEq, Eq, Hash, Default)]
 pub(crate) struct NameSets(SmallVec<[u32; 8]>);
 
@@ -128,10 +125,8 @@ impl NameSets {
 }
 
 impl Renamings {
-    /// The number of the set without names.
     pub(crate) const EMPTY: u32 = 0;
 
-    /// Renamings that `rank` makes up.
     pub(crate) fn new(rank: fn(&mut Ranks) -> bool) -> Self {
         let renamings = Self {
             rank,
@@ -144,7 +139,6 @@ impl Renamings {
         renamings
     }
 
-    /// The number of a set of names.
     pub(crate) fn set(&self, names: Names) -> u32 {
         let known = self.sets.find(&names);
         known.unwrap_or_else(|| self.sets.add(names, ()))
@@ -203,7 +197,6 @@ impl Renamings {
         given_out
     }
 
-    /// The renaming with this number.
     pub(crate) fn ranks(&self, renaming: u32) -> &Ranks {
         &self.ranks[renaming as usize]
     }
@@ -212,9 +205,7 @@ impl Renamings {
 /// The renaming to ranks, of everything that occurs in one state.
 #[derive(Default)]
 pub(crate) struct Ranks {
-    /// In their order.
     names: SmallVec<[Name; 16]>,
-    /// What each of them becomes.
     ranks: SmallVec<[u16; 16]>,
 }
 

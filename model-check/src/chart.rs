@@ -46,7 +46,6 @@ fn worded(names: &Names, output: &Output) -> String {
     }
 }
 
-/// A message in words, for where its sender is seen.
 pub(crate) fn said(names: &Names, message: &Input) -> String {
     match message {
         Input::Ram { ram, .. } => names.tell(ram),
@@ -57,7 +56,6 @@ pub(crate) fn said(names: &Names, message: &Input) -> String {
 /// What a person does who has crossed.
 pub(crate) const ACROSS: &str = "who stepped on the road there is across";
 
-/// An action in words, with its place in a chart.
 pub(crate) fn placed(model: &Model, action: Action) -> (ChartPlace, String) {
     let between = |Transmission { from, to, message }, fate| {
         let place = ChartPlace::Between {

@@ -276,7 +276,6 @@ fn compared(options: &Options, states: usize) -> String {
     }
 }
 
-/// What the verdicts of a check assume.
 fn assumed(scenario: &Scenario, options: &Options, states: usize) -> Vec<String> {
     let mut assumed = assumptions(scenario, compared(options, states));
     if options.safety_only && keep(scenario, &Options::default()) != Keep::States {

@@ -38,7 +38,6 @@ impl Stop {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// As if nobody had asked.
     pub(crate) fn withdraw(&self) {
         self.0.store(false, Ordering::Relaxed);
     }

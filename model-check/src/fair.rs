@@ -17,17 +17,21 @@
 //! that enable it; any other is a fair cycle.
 
 use std::collections::{HashMap, VecDeque};
-use std::ops::{BitAnd, BitOr, BitOrAssign, Not};
 
+use bitflags::bitflags;
 use rustc_hash::FxBuildHasher;
 
-/// A set of classes of transitions, which have the numbers 0 to 127.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
-pub struct Classes(pub u128);
+bitflags! {
+    /// A set of classes of transitions, which have the numbers 0 to 127.
+    #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+    pub struct Classes: u128 {
+        const _ = !0;
+    }
+}
 
 impl Classes {
     /// No class.
-    pub const NONE: Self = Self(0);
+    pub const NONE: Self = Self::empty();
 
     /// The one class with this number.
     ///
@@ -36,50 +40,12 @@ impl Classes {
     #[must_use]
     pub const fn one(number: u32) -> Self {
         assert!(number < u128::BITS, "more classes than a set can hold");
-        Self(1 << number)
+        Self::from_bits_retain(1 << number)
     }
 
-    /// Whether the set is empty.
-    #[must_use]
-    pub const fn is_empty(self) -> bool {
-        self.0 == 0
-    }
-
-    /// The classes of the set, one by one.
     fn each(self) -> impl Iterator<Item = Self> {
-        (0..u128::BITS)
-            .map(move |number| Self(self.0 & (1 << number)))
-            .filter(|class| !class.is_empty())
-    }
-}
-
-impl BitAnd for Classes {
-    type Output = Self;
-
-    fn bitand(self, other: Self) -> Self {
-        Self(self.0 & other.0)
-    }
-}
-
-impl BitOr for Classes {
-    type Output = Self;
-
-    fn bitor(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-}
-
-impl BitOrAssign for Classes {
-    fn bitor_assign(&mut self, other: Self) {
-        *self = *self | other;
-    }
-}
-
-impl Not for Classes {
-    type Output = Self;
-
-    fn not(self) -> Self {
-        Self(!self.0)
+        let all = (0..u128::BITS).map(Self::one);
+        all.filter(move |class| self.contains(*class))
     }
 }
 
@@ -172,7 +138,6 @@ struct Region<'a, S> {
 const NOWHERE: u32 = 0;
 /// In the region, and in no candidate yet.
 const REGION: u32 = 1;
-/// Meets the goal.
 const GOAL: u32 = u32::MAX;
 
 impl<'a, S: System> Region<'a, S> {
@@ -319,7 +284,6 @@ impl<'a, S: System> Region<'a, S> {
     }
 }
 
-/// What happens within a component.
 struct Inside {
     taken: Classes,
     /// Somewhere.
@@ -338,7 +302,7 @@ impl Inside {
         for &state in component {
             let enabled = region.system.enabled(state);
             inside.enabled |= enabled;
-            inside.always_enabled = inside.always_enabled & enabled;
+            inside.always_enabled &= enabled;
             for edge in region.system.edges(state) {
                 if region.belongs[edge.to as usize] == mark {
                     inside.taken |= edge.taken;
@@ -407,11 +371,9 @@ impl<S: System> Cycle<'_, S> {
     }
 }
 
-/// Components, one after the other.
 #[derive(Default)]
 struct Components {
     states: Vec<u32>,
-    /// Where each ends.
     ends: Vec<usize>,
 }
 
@@ -424,7 +386,6 @@ impl Components {
     }
 }
 
-/// When a state was visited, and the oldest open state that it reaches.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Visit {
     at: u32,

@@ -69,10 +69,6 @@ impl Numbers<'_> {
         Classes::one(robot * self.timers_per_robot() + number)
     }
 
-    fn all_timers(self) -> Classes {
-        all(0..self.on_air())
-    }
-
     fn on_air(self) -> u32 {
         self.robots() * self.timers_per_robot()
     }
@@ -81,10 +77,7 @@ impl Numbers<'_> {
         Classes::one(self.on_air() + 1 + robot)
     }
 
-    fn all_resumes(self) -> Classes {
-        all(self.on_air() + 1..self.first_event())
-    }
-
+    /// Before it are the classes that hold of every robot: its timers, messages on air, and to go on.
     fn first_event(self) -> u32 {
         self.on_air() + 1 + self.robots()
     }
@@ -111,10 +104,6 @@ impl Numbers<'_> {
         Classes::one(self.first_event() + robot * EVENTS + number)
     }
 
-    fn all_events(self) -> Classes {
-        all(self.first_event()..self.first_delivery())
-    }
-
     fn delivery(self, transmission: Transmission, message: &Message) -> Option<Classes> {
         let Message::Ram(ram) = message else {
             return None;
@@ -131,19 +120,12 @@ impl Numbers<'_> {
         let way = u32::from(transmission.from) * (self.robots() - 1) + to;
         Some(Classes::one(self.first_delivery() + way * RAM_KINDS + kind))
     }
-
-    fn all_deliveries(self) -> Classes {
-        let (first, ways) = (self.first_delivery(), self.robots() * (self.robots() - 1));
-        all(first..first + ways * RAM_KINDS)
-    }
 }
 
-/// The classes of these numbers.
 fn all(numbers: Range<u32>) -> Classes {
     numbers.fold(Classes::NONE, |all, number| all | Classes::one(number))
 }
 
-/// Which transitions of a model belong to which class.
 #[derive(Clone, Copy)]
 pub(crate) struct Classifier<'a>(pub(crate) &'a Model);
 
@@ -154,20 +136,22 @@ impl Classifier<'_> {
         }
     }
 
-    /// What the scenario assumes.
     pub(crate) fn fairness(self) -> Fairness {
         let numbers = self.numbers();
-        let own = numbers.all_timers() | Classes::one(numbers.on_air()) | numbers.all_resumes();
-        if self.0.scenario().cooperative {
-            Fairness {
-                weak: own | numbers.all_events(),
-                strong: numbers.all_deliveries(),
-            }
-        } else {
-            Fairness {
-                weak: own,
-                strong: Classes::NONE,
-            }
+        if !self.0.scenario().cooperative {
+            let weak = all(0..numbers.first_event());
+            return Fairness {
+                weak,
+                ..Fairness::default()
+            };
+        }
+        let (first, ways) = (
+            numbers.first_delivery(),
+            numbers.robots() * (numbers.robots() - 1),
+        );
+        Fairness {
+            weak: all(0..first),
+            strong: all(first..first + ways * RAM_KINDS),
         }
     }
 

@@ -6,26 +6,31 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-use crate::transitions::{Mode, Transitions, mode_name, mode_parts};
+use crossguard_protocol::Role;
+
+use crate::transitions::{Mode, Transitions, mode_name};
 
 /// A `stateDiagram-v2` of what robots have been seen to do.
 #[must_use]
 pub fn diagram(transitions: &Transitions) -> String {
-    let modes: BTreeSet<Mode> = transitions
-        .0
-        .keys()
-        .flat_map(|&(from, to)| [from, to])
-        .collect();
-    let edges: BTreeMap<(Mode, Mode), Vec<String>> = transitions
-        .0
-        .iter()
-        .map(|(way, labels)| (*way, condense(labels)))
-        .collect();
-    mermaid(&modes, &edges)
+    let ways = transitions.0.keys();
+    let modes: BTreeSet<Mode> = ways.flat_map(|&(from, to)| [from, to]).collect();
+    let mut text = String::from("stateDiagram-v2\n    direction LR\n    [*] --> Idle\n");
+    for mode @ (role, state) in modes {
+        if role != Role::None {
+            let (state, side, name) = (state.name(), role.name(), mode_name(mode));
+            let _ = writeln!(text, "    state \"{state} ({side})\" as {name}");
+        }
+    }
+    for (&(from, to), labels) in &transitions.0 {
+        let (from, to, labels) = (mode_name(from), mode_name(to), condense(labels));
+        let _ = writeln!(text, "    {from} --> {to}: {labels}");
+    }
+    text
 }
 
 /// Labels of one kind in one line: `timer Help, Lock` rather than `timer Help`, `timer Lock`.
-fn condense(labels: &BTreeSet<String>) -> Vec<String> {
+fn condense(labels: &BTreeSet<String>) -> String {
     let mut kinds: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for label in labels {
         match label.split_once(' ') {
@@ -33,32 +38,8 @@ fn condense(labels: &BTreeSet<String>) -> Vec<String> {
             _ => kinds.entry("").or_default().push(label),
         }
     }
-    kinds
+    let lines = kinds
         .iter()
-        .map(|(kind, rest)| format!("{kind} {}", rest.join(", ")).trim().to_owned())
-        .collect()
-}
-
-fn mermaid(modes: &BTreeSet<Mode>, edges: &BTreeMap<(Mode, Mode), Vec<String>>) -> String {
-    let mut text = String::from("stateDiagram-v2\n    direction LR\n    [*] --> Idle\n");
-    for &mode in modes {
-        let (state, side) = mode_parts(mode);
-        if !side.is_empty() {
-            let _ = writeln!(
-                text,
-                "    state \"{state} ({side})\" as {}",
-                mode_name(mode)
-            );
-        }
-    }
-    for ((from, to), labels) in edges {
-        let _ = writeln!(
-            text,
-            "    {} --> {}: {}",
-            mode_name(*from),
-            mode_name(*to),
-            labels.join("<br>")
-        );
-    }
-    text
+        .map(|(kind, rest)| format!("{kind} {}", rest.join(", ")).trim().to_owned());
+    lines.collect::<Vec<_>>().join("<br>")
 }

@@ -110,7 +110,6 @@ impl History {
         self.commands.iter().any(|command| command.fell_back)
     }
 
-    /// Records what one step of a robot did.
     pub(crate) fn record_step(
         &mut self,
         before: &Robot,
@@ -187,7 +186,6 @@ impl History {
         }
     }
 
-    /// Records that a robot crashes.
     pub(crate) fn record_crash(&mut self, robot: &Robot) {
         if let (Some(session), Phase::Leading(_) | Phase::Following(_)) =
             (robot.session(), robot.phase())

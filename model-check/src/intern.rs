@@ -20,10 +20,7 @@ pub(crate) struct Interner<T> {
 }
 
 impl<T: Renamable + Clone + Eq + Hash> Interner<T> {
-    /// The number of `value`, a new one if it was not seen before.
-    ///
-    /// # Panics
-    /// When 2^32 values are exceeded, far beyond what fits in memory.
+    /// The number of `value`, a new one if it was not seen before. Panics beyond 2^32 values, which fit in no memory.
     pub(crate) fn number(&self, value: T) -> u32 {
         self.number_with(value, |value| self.renamings.set(Names::of(value)))
     }
@@ -68,7 +65,6 @@ impl<T: Clone + Eq + Hash> Interner<T> {
         *renamed
     }
 
-    /// The set of names that occur in a value.
     pub(crate) fn names(&self, number: u32) -> u32 {
         self.values.at(number).1
     }
@@ -82,7 +78,6 @@ impl<T: Clone + Eq + Hash> Interner<T> {
         self.values.add(value, names)
     }
 
-    /// The value of a number that [`Interner::number`] gave out.
     pub(crate) fn value(&self, number: u32) -> &T {
         &self.values.at(number).0
     }

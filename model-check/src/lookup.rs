@@ -69,10 +69,7 @@ impl Locked<'_> {
         self.shard.find(self.tag, is_it)
     }
 
-    /// Adds the number that the value has got.
-    ///
-    /// # Panics
-    /// When it is 2^32 - 1 or more, far beyond what fits in memory.
+    /// Adds the number that the value has got. Panics from 2^32 - 1 on, which fit in no memory.
     pub(crate) fn add(mut self, number: usize) -> u32 {
         let number = u32::try_from(number).ok().filter(|it| *it < u32::MAX);
         let number = number.expect("fewer than 2^32 distinct values");

@@ -30,9 +30,7 @@ impl<K: Eq + Hash, V> Memo<K, V> {
     }
 
     /// Keeps a result, and returns the number of the one that is kept: another thread may have come first.
-    ///
-    /// # Panics
-    /// When 2^32 results are exceeded, far beyond what fits in memory.
+    /// Panics beyond 2^32 results, which fit in no memory.
     pub(crate) fn add(&self, of: K, result: V) -> u32 {
         let locked = self.lookup.lock(FxBuildHasher.hash_one(&of));
         let known = locked.find(|number| self.at(number).0 == of);
@@ -44,7 +42,6 @@ impl<K: Eq + Hash, V> Memo<K, V> {
         &self.results[number as usize]
     }
 
-    /// The result, where it is known.
     pub(crate) fn get(&self, of: &K) -> Option<&V> {
         Some(&self.at(self.find(of)?).1)
     }

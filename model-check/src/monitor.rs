@@ -55,7 +55,6 @@ impl Unrecorded {
 struct Seat {
     node: Node,
     config: Config,
-    /// Whether its process hangs.
     is_hung: bool,
 }
 

@@ -46,7 +46,6 @@ pub(crate) struct Sets {
 }
 
 impl Sets {
-    /// The number of the empty set.
     pub(crate) const EMPTY: u32 = 0;
 
     pub(crate) fn new(renamings: &Arc<Renamings>) -> Self {
@@ -59,25 +58,21 @@ impl Sets {
         }
     }
 
-    /// The messages of a set, in order.
     pub(crate) fn transmissions(&self, set: u32) -> impl Iterator<Item = Transmission> {
         let slots = self.known.value(set).iter();
         slots.filter_map(|slot| slot.transmission())
     }
 
-    /// The number of the set of these messages.
     pub(crate) fn of(&self, sent: &[Transmission], robots: &Robots) -> u32 {
         let mut slots: Vec<_> = sent.iter().copied().map(PackedTransmission::of).collect();
         slots.sort_unstable();
         self.number(slots.into(), robots)
     }
 
-    /// The names that occur in a set.
     pub(crate) fn names(&self, set: u32) -> u32 {
         self.known.names(set)
     }
 
-    /// A set and one more message.
     pub(crate) fn with(&self, set: u32, message: Transmission, robots: &Robots) -> u32 {
         let message = PackedTransmission::of(message);
         let slots = self.known.value(set);
@@ -92,7 +87,6 @@ impl Sets {
         *with
     }
 
-    /// A set without the messages to one receiver.
     pub(crate) fn without(&self, set: u32, receiver: usize, robots: &Robots) -> u32 {
         let stays = |sent: &Transmission| usize::from(sent.to) != receiver;
         let left = self.transmissions(set).filter(stays);
@@ -115,7 +109,6 @@ impl Sets {
         })
     }
 
-    /// A set with every message replaced.
     pub(crate) fn map(
         &self,
         set: u32,

@@ -34,7 +34,6 @@ pub use crate::transmission::Transmission;
 /// How many messages may be delayed at a time.
 pub const MAX_DELAYED: usize = 4;
 
-/// How many messages may be on air at a time.
 const MAX_ON_AIR: usize = 30;
 
 /// A message.
@@ -82,7 +81,6 @@ impl Renamable for Message {
     }
 }
 
-/// All messages on their way.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) struct Network {
     /// Just sent, in the order of sending, then empty.
@@ -98,7 +96,6 @@ pub(crate) struct Network {
 pub(crate) struct PackedNetwork {
     /// On air, then delayed.
     messages: SmallVec<[PackedTransmission; 4]>,
-    /// How many are on air.
     on_air: u8,
     sent: u32,
 }
@@ -133,10 +130,7 @@ impl Network {
         sent: Sets::EMPTY,
     };
 
-    /// Puts a message on air.
-    ///
-    /// # Panics
-    /// When more messages are on air than one step and what it sets off can send.
+    /// Puts a message on air. Panics when there are more than one step and what it sets off can send.
     pub(crate) fn send(&mut self, transmission: Transmission) {
         let free = self.on_air.iter_mut().find(|slot| slot.is_empty());
         *free.expect("room for what one step sends") = PackedTransmission::of(transmission);
@@ -168,7 +162,6 @@ impl Network {
         }
     }
 
-    /// Takes a message off air.
     pub(crate) fn take_off_air(&mut self, transmission: Transmission) {
         let sent = PackedTransmission::of(transmission);
         if let Some(at) = self.on_air.iter().position(|slot| *slot == sent) {
@@ -206,19 +199,16 @@ impl Network {
         self.on_air.iter().map_while(|slot| slot.transmission())
     }
 
-    /// The delayed messages.
     pub(crate) fn delayed(&self) -> impl Iterator<Item = Transmission> {
         self.delayed.iter().filter_map(|slot| slot.transmission())
     }
 
-    /// All messages on air or delayed.
     pub(crate) fn messages(&self) -> impl Iterator<Item = u16> {
         let all = self.on_air.iter().chain(&self.delayed);
         all.filter_map(|slot| slot.transmission())
             .map(|transmission| transmission.message)
     }
 
-    /// The network with every message on air or delayed replaced.
     pub(crate) fn map(&self, mut replace: impl FnMut(Transmission) -> Transmission) -> Self {
         let mut network = *self;
         for slot in network.on_air.iter_mut().chain(&mut network.delayed) {

@@ -26,12 +26,10 @@ impl<T> Numbered<T> {
         self.values.len()
     }
 
-    /// All of them, in order.
     pub(crate) fn values(&self) -> &[T] {
         &self.values
     }
 
-    /// The value of a number that was given out.
     pub(crate) fn get(&self, number: u32) -> &T {
         &self.values[number as usize]
     }
@@ -54,10 +52,7 @@ impl<T: Eq + Hash> Numbered<T> {
         self.numbers.find(hashed, is_it).copied()
     }
 
-    /// The number of a value, a new one where it was not there.
-    ///
-    /// # Panics
-    /// Where 2^32 values are there.
+    /// The number of a value, a new one where it was not there. Panics where 2^32 values are there.
     pub(crate) fn add(&mut self, value: T) -> u32 {
         let hashed = hash(&value);
         if let Some(known) = self.find_hashed(hashed, &value) {

@@ -245,7 +245,6 @@ impl Heard {
     }
 }
 
-/// What a leader's RAM claims.
 struct LeaderClaim {
     session: SessionId,
     beat: Heartbeat,

@@ -15,9 +15,7 @@ use crate::node::{Node, Rules};
 pub(crate) enum TimedCause {
     /// The time that its clock has shown since it last took in the time.
     Elapsed(Millis),
-    /// A message, by its number.
     Message(u16),
-    /// What its application does.
     Event(Event),
 }
 
@@ -56,20 +54,15 @@ impl Robots {
         self.messages.value(number.into())
     }
 
-    /// The set of names that occur in a message.
     pub(crate) fn message_names(&self, message: u16) -> u32 {
         self.messages.names(message.into())
     }
 
-    /// The number of a message.
-    ///
-    /// # Panics
-    /// When there are more than 65,536 distinct messages.
+    /// The number of a message. Panics beyond 65,536 distinct messages.
     pub(crate) fn message_number(&self, message: Message) -> u16 {
         short(self.messages.number(message))
     }
 
-    /// The number of a message after a renaming.
     pub(crate) fn message_renamed(&self, message: u16, renaming: u32) -> u16 {
         short(self.messages.renamed(message.into(), renaming))
     }
@@ -86,7 +79,6 @@ impl Robots {
             .collect()
     }
 
-    /// The names that occur in these robots and messages.
     pub(crate) fn name_sets(&self, nodes: &[u32], messages: impl Iterator<Item = u16>) -> NameSets {
         let mut sets = NameSets::default();
         for &node in nodes {

@@ -7,10 +7,7 @@ use crate::model::{Action, Model};
 use crate::node::Node;
 
 impl Graph<'_, Model> {
-    /// Every action that is possible in a state, with the transition that it makes.
-    ///
-    /// # Panics
-    /// Where transitions are not kept.
+    /// Every action that is possible in a state, with the transition that it makes. Panics where transitions are not kept.
     fn actions_of(&self, state: u32) -> impl Iterator<Item = (Action, Edge)> {
         let from = self.state(state);
         let mut actions = Vec::new();

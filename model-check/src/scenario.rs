@@ -100,7 +100,6 @@ pub enum ScenarioError {
     },
 }
 
-/// A scenario that comes with the kit.
 struct Shipped {
     name: &'static str,
     text: &'static str,

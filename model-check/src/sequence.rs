@@ -59,7 +59,6 @@ impl Fate {
         }
     }
 
-    /// Its arrow in Mermaid.
     const fn mermaid(self) -> &'static str {
         match self {
             Self::Lost => "-x",

@@ -26,13 +26,11 @@ pub(crate) enum Cause {
 
 /// The effect of a robot's step, whatever has happened elsewhere.
 pub(crate) struct ComputedStep {
-    /// What it took in.
     pub(crate) input: Input,
     /// What it put out. Many steps put out the same.
     pub(crate) outputs: Arc<Outputs>,
     /// The node after the step, without durations.
     pub(crate) after: u32,
-    /// The messages that it sends.
     pub(crate) sends: SmallVec<[u16; 2]>,
     /// The timers that it armed, whether or not they had been armed before.
     pub(crate) restarted: SmallVec<[Timer; 4]>,

@@ -27,13 +27,9 @@ pub(crate) trait Store<T>: Default + Send + Sync {
     /// The number of a state, if it was added, before [`Store::freeze`].
     fn find(&self, state: &T) -> Option<u32>;
 
-    /// The number of a state, a new one where it was not added before.
-    ///
-    /// # Panics
-    /// Where 2^32 states are there.
+    /// The number of a state, a new one where it was not added before. Panics where 2^32 states are there.
     fn add(&mut self, state: T) -> u32;
 
-    /// The state of a number.
     fn get(&self, number: u32) -> T;
 
     /// Gives memory back: nothing is added or looked for any more.

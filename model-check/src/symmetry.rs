@@ -51,7 +51,6 @@ pub(crate) struct Exchange {
 }
 
 impl Exchange {
-    /// Where the robot at this place goes.
     pub(crate) fn place(&self, place: usize) -> usize {
         self.places[place].into()
     }

@@ -14,7 +14,6 @@ pub type Mode = (Role, State);
 pub struct Transitions(pub BTreeMap<(Mode, Mode), BTreeSet<String>>);
 
 impl Transitions {
-    /// Notes a step, if it leads to another mode.
     pub(crate) fn note(&mut self, before: &Node, input: Input, after: &Node) {
         let (from, to) = (mode(before), mode(after));
         if from != to
@@ -25,32 +24,12 @@ impl Transitions {
     }
 }
 
-/// The parts of a mode's name: the paper's state, and the role that tells its two sides apart.
-pub(crate) fn mode_parts((role, state): Mode) -> (&'static str, &'static str) {
-    let side = match role {
-        Role::None => "",
-        Role::Requester => "requester",
-        Role::Helper => "helper",
-        Role::Leader => "leader",
-        Role::Follower => "follower",
-    };
-    let state = match state {
-        State::Idle => "Idle",
-        State::HelpRequested => "HelpRequested",
-        State::RoleEstablished => "RoleEstablished",
-        State::ManeuverExecuting => "ManeuverExecuting",
-    };
-    (state, side)
-}
-
-/// The mode's name, one word.
+/// The mode's name, one word: the paper's state, and the role that tells its two sides apart.
 #[must_use]
-pub fn mode_name(mode: Mode) -> String {
-    let (state, side) = mode_parts(mode);
-    if side.is_empty() {
-        state.to_owned()
-    } else {
-        format!("{state}_{side}")
+pub fn mode_name((role, state): Mode) -> String {
+    match role {
+        Role::None => state.name().to_owned(),
+        side => format!("{}_{}", state.name(), side.name()),
     }
 }
 

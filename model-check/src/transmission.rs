@@ -37,7 +37,6 @@ impl PackedTransmission {
         self.0.to_be_bytes()[0]
     }
 
-    /// Sender and message.
     pub(crate) const fn broadcast(self) -> u32 {
         self.0 & !(0xf << 16)
     }

@@ -127,7 +127,6 @@ pub(crate) fn follower_lists(hearer: &Robot, old: Option<OfferNumber>) -> Vec<Fo
     listed.chain([Followers::EMPTY]).collect()
 }
 
-/// To ask for help in sessions of one's own.
 pub(crate) fn asking(
     sessions: &[(SessionNumber, Heartbeat)],
     urgencies: &[Urgency],
@@ -171,7 +170,6 @@ pub(crate) fn leading(
     all
 }
 
-/// To offer help in the sessions of others.
 pub(crate) fn offering(
     sessions: &[SessionId],
     offers: &[OfferNumber],
@@ -229,14 +227,12 @@ pub(crate) fn following(
     all
 }
 
-/// To end sessions of one's own.
 pub(crate) fn ended(numbers: &[SessionNumber]) -> impl Iterator<Item = Farewell> {
     let ends = [Ending::Completed, Ending::Aborted];
     let numbers = numbers.iter();
     numbers.flat_map(move |&number| ends.map(|ending| Farewell::Ended(number, ending)))
 }
 
-/// To leave the sessions of others.
 pub(crate) fn left(
     sessions: &[SessionId],
     offers: &[OfferNumber],
@@ -249,7 +245,6 @@ pub(crate) fn left(
     sessions.iter().flat_map(left)
 }
 
-/// To command in these sessions.
 pub(crate) fn commands(
     sessions: &[SessionId],
     followers: &[StationId],
@@ -272,7 +267,6 @@ pub(crate) fn commands(
     all
 }
 
-/// To answer commands of these sessions.
 pub(crate) fn answers(
     followers: &[StationId],
     sessions: &[SessionId],

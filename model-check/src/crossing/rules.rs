@@ -9,7 +9,6 @@ use crossguard_protocol::{Config, HelpRequest, List, Millis, Settings, TaskSet, 
 use super::street::{Guard, LATE_TIME, TICK};
 use super::{MISS_MAX, Street, Watch};
 
-/// Where the guard stands.
 pub(super) const POST: Point = Point::new(-200, 200);
 
 /// Where the guard waits without a session, at the kerb.
@@ -30,7 +29,6 @@ pub(super) fn pose(guard: Guard, at: Point) -> Option<Pose> {
     (!guard.is_lost).then_some(Pose { at, error_cm: 10 })
 }
 
-/// What both robots are set up with.
 #[derive(Clone, Debug)]
 pub(super) struct Rules {
     pub(super) watch: Watch,
@@ -73,7 +71,6 @@ fn rectangle(west: i32, south: i32, east: i32, north: i32) -> Option<Shape> {
     Shape::new(&corners.map(|(east, north)| Point::new(east, north)))
 }
 
-/// The settings of the leader's machine and of the follower's.
 fn setups(street: Street, config: &Config) -> [Setup; 2] {
     let ground = Ground {
         road: rectangle(-3_000, 0, 3_000, 700),

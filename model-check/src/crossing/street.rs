@@ -15,7 +15,6 @@ use super::team::{FOLLOWING, Team};
 use super::truth::{ADRIFT_MAX, DETECT_MAX, END_MAX, Rule, STOP_M};
 use super::{Street, Watch};
 
-/// A tick.
 pub(super) const TICK: Millis = Millis(500);
 
 /// For how many ticks after go has ended people who are late step on the road, and that time.
@@ -30,20 +29,16 @@ const fn comes_m(street: &Street) -> u8 {
     if street.asks { 126 } else { 84 }
 }
 
-/// Its station.
 const VEHICLE: StationId = StationId(7);
 
-/// How many people there are at most.
 pub(super) const PEOPLE_MAX: usize = 2;
 
-/// Where somebody is.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Cell {
     /// On the pavement, at the crossing.
     Near,
     /// On the pavement, where people do not wait and see the sign.
     Aside,
-    /// On the crossing.
     Lane,
     /// On the carriageway, beside the crossing.
     Beside,
@@ -90,7 +85,6 @@ impl Cell {
     }
 }
 
-/// Somebody.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Person {
     pub(super) at: Cell,
@@ -98,7 +92,6 @@ pub(super) struct Person {
     pub(super) missed: u8,
     /// What the sensor calls them.
     id: u8,
-    /// Whether they have been on the road.
     has_walked: bool,
     /// Whether a frame that was taken in at once, by a guard that is on its own while it guarded, had them there.
     pub(super) was_seen_there: bool,
@@ -106,7 +99,6 @@ pub(super) struct Person {
     on_road: u8,
 }
 
-/// The guard's body.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(super) struct Guard {
@@ -124,14 +116,12 @@ pub(super) struct Guard {
     pub(super) stepped_out: bool,
 }
 
-/// The leader's sign.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub(super) struct Sign {
     /// For how many milliseconds yet it shows go.
     pub(super) left: u32,
     /// For how many ticks yet somebody who saw it may step on the road.
     late: u8,
-    /// Whether go began in this tick.
     pub(super) has_begun: bool,
     /// Whether a vehicle was asked in this tick to stop.
     pub(super) asks: bool,
@@ -142,7 +132,6 @@ impl Sign {
         self.left > 0
     }
 
-    /// Whether people step on the road.
     const fn lets_go(self) -> bool {
         self.shows_go() || self.late > 0
     }
@@ -158,7 +147,6 @@ pub(super) struct Sensed<'a> {
     /// Frames with their ages in ticks.
     frames: &'a [(u8, Seen)],
     vehicle: Option<Vehicle>,
-    /// What the vehicle answers to the leader.
     answer: Option<bool>,
     /// The frame of this tick, for a follower that sees.
     now: Option<Seen>,
@@ -205,7 +193,6 @@ fn tell_frame(age: u8, seen: Seen, tell: &mut impl FnMut(Input<'_>)) {
     }));
 }
 
-/// One state.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(super) struct State {
@@ -223,11 +210,8 @@ pub(super) struct State {
     piled: Vec<(u8, Seen)>,
     /// For how many ticks the leader hangs already.
     hangs: u8,
-    /// What may still happen.
     pub(super) left: Street,
-    /// Whether the guard guards.
     pub(super) guards: bool,
-    /// Whether the team is free.
     pub(super) is_free: bool,
     /// For how many ticks somebody has waited in front of an idle team.
     pub(super) undetected: u8,
@@ -235,11 +219,9 @@ pub(super) struct State {
     pub(super) off_road: u8,
 }
 
-/// What happens in a tick.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Tick {
     moves: [Option<Cell>; PEOPLE_MAX],
-    /// Who is missed.
     missed: [bool; PEOPLE_MAX],
     fault: Fault,
     /// What a vehicle that was asked answers, if it does.
@@ -325,7 +307,6 @@ impl World {
 }
 
 impl State {
-    /// People, the car and the guard move, and the sign goes on.
     fn move_all(&mut self, tick: Tick) {
         for (person, to) in self.people.iter_mut().zip(tick.moves) {
             person.at = to.unwrap_or(person.at);
@@ -369,7 +350,6 @@ impl State {
         }
     }
 
-    /// The sensor looks, and the robots do what they do.
     fn sense(&mut self, rules: &Rules, tick: Tick) {
         let went = self.sign.shows_go();
         let mut seen = [None; PEOPLE_MAX];
@@ -427,7 +407,6 @@ impl State {
         self.car.is_some_and(|metres| metres < comes_m(&self.left))
     }
 
-    /// What is kept of the past to judge by.
     fn judge(&mut self, fault: Fault) {
         self.guards = self.team.guards();
         self.guard.has_left = self.team.has_left();
@@ -494,7 +473,6 @@ fn vehicle(metres: u8) -> Vehicle {
     }
 }
 
-/// Somebody as a frame has them.
 fn sighting(person: usize, (cell, id): (Cell, u8)) -> Sighting {
     Sighting {
         id: Some(id.into()),

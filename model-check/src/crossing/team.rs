@@ -16,20 +16,16 @@ use super::street::{Guard, Sensed, Sign, TICK};
 const LEADER: usize = 0;
 const FOLLOWER: usize = 1;
 
-/// The leader's station.
 const LEADING: StationId = StationId(1);
 
-/// The follower's station.
 pub(super) const FOLLOWING: StationId = StationId(2);
 
-/// A robot with its machine.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 struct Member {
     robot: Robot,
     crossing: Machine,
 }
 
-/// What the follower's body does.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 struct Body {
@@ -45,7 +41,6 @@ struct Body {
     has_guarded: bool,
 }
 
-/// The robots and the body of the follower.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Team {
     members: [Member; 2],
@@ -84,7 +79,6 @@ impl Team {
         }
     }
 
-    /// Whether the body begins a maneuver, and so goes to its place.
     pub(super) const fn begins(&self) -> bool {
         self.body.begins
     }
@@ -204,7 +198,6 @@ impl Team {
         }
     }
 
-    /// Handles everything that is to be handled at this time.
     fn settle(&mut self, turn: &mut Turn<'_>) {
         while let Some((member, input)) = turn.queue.pop_front() {
             if member == FOLLOWER || !turn.is_leader_deaf {
@@ -288,7 +281,6 @@ impl Team {
         self.body.to == Some(POST) && self.body.at == HOME
     }
 
-    /// Whether the follower guards, or stands by because of a fallback.
     pub(super) const fn guards(&self) -> bool {
         let follows = matches!(self.members[FOLLOWER].robot.phase(), Phase::Following(_));
         self.body.holds || follows && self.body.task.is_some()
@@ -337,7 +329,6 @@ impl Body {
     }
 }
 
-/// The names that occur in a state.
 #[derive(Default)]
 struct Names {
     newest: BTreeMap<SessionId, Heartbeat>,

@@ -31,7 +31,6 @@ pub struct RuleClaim {
     pub premise: &'static str,
 }
 
-/// Declares rules: what must hold, and the premise.
 macro_rules! rules {
     ($($id:ident: $statement:literal, where $premise:literal;)*) => {
         /// A rule of the ground truth. P4, escorts beside their people, needs continuous geometry: fuzz and `validate` judge it.

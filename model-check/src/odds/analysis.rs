@@ -293,7 +293,6 @@ impl LossOdds {
     }
 }
 
-/// How much is done, and who is told.
 struct Counted<'a> {
     done: usize,
     of: usize,
@@ -301,7 +300,6 @@ struct Counted<'a> {
 }
 
 impl Counted<'_> {
-    /// The next part begins.
     fn tell(&mut self, stage: Stage, loss: f64) {
         let (done, of) = (self.done, self.of);
         (self.watch)(OddsProgress {

@@ -118,7 +118,6 @@ impl Mass {
         self.of[at] += mass;
     }
 
-    /// Takes everything out.
     fn drain(&mut self) -> Vec<(u32, f64)> {
         let states = std::mem::take(&mut self.states);
         let taken = states.into_iter().map(|state| {

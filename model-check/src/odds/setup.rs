@@ -15,9 +15,7 @@ const BURST_WIDTHS: [f64; FOLLOWERS_MAX as usize] = [1e-9, 1e-3, 1e-2];
 /// A team and what surrounds it. The loss rate is no part of it: which states there are does not depend on it.
 #[derive(Clone, Debug)]
 pub struct OddsSetup {
-    /// The settings of every robot.
     pub(super) config: Config,
-    /// How many followers there are.
     pub(super) followers: u8,
     grid: TimeGrid,
     /// The mean length of a burst of losses; `None` where losses are independent.

@@ -36,12 +36,10 @@ impl<'a> StageSpace<'a> {
         }
     }
 
-    /// How many states have been found.
     pub(super) const fn states(&self) -> usize {
         self.states.len()
     }
 
-    /// How many different ways have been found.
     pub(super) const fn transitions(&self) -> usize {
         self.arcs.len()
     }
@@ -54,22 +52,17 @@ impl<'a> StageSpace<'a> {
         self.state(number).marks
     }
 
-    /// Whether the stage is over there.
     pub(super) fn ends(&self, number: u32) -> bool {
         self.marks(number).ends(self.stage)
     }
 
-    /// The number of a state, a new one if it was not seen before.
-    ///
-    /// # Panics
-    /// When 2^32 states are exceeded, far beyond what fits in memory.
+    /// The number of a state, a new one if it was not seen before. Panics beyond 2^32 states, which fit in no memory.
     pub(super) fn number(&mut self, state: TeamState) -> u32 {
         let number = self.states.add(state);
         self.rows.resize(self.states.len(), None);
         number
     }
 
-    /// The ways from a state.
     pub(super) fn arcs(&mut self, number: u32) -> &[Arc] {
         let (start, end) = match self.rows[number as usize] {
             Some(row) => row,

@@ -88,13 +88,11 @@ impl Marks {
         self.0 & Self::FAILED != 0
     }
 
-    /// The same for a stage that has failed.
     #[must_use]
     pub(super) const fn failed(self) -> Self {
         Self(self.0 | Self::FAILED)
     }
 
-    /// Whether the stage is over.
     pub(super) const fn ends(self, stage: Stage) -> bool {
         self.has_failed() || self.has(stage.last())
     }

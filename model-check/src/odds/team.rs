@@ -21,7 +21,6 @@ const ROBOTS_MAX: usize = FOLLOWERS_MAX as usize + 1;
 /// The place of the leader among the robots. Followers come after it.
 const LEADER: u8 = 0;
 
-/// A broadcast under way.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 struct Broadcast {
     /// For how many ticks.
@@ -39,7 +38,6 @@ pub(super) struct TeamState {
     air: SmallVec<[Broadcast; 4]>,
     /// One bit for each follower whose link to the leader is in a burst of losses.
     bad: u8,
-    /// What has been reached.
     pub(super) marks: Marks,
 }
 
@@ -58,7 +56,6 @@ impl TeamState {
 /// Ways on from a state, with what happens on each.
 pub(super) type Ways = Vec<(Chances, TeamState)>;
 
-/// The effect of a robot's step.
 #[derive(Clone)]
 struct TeamStep {
     after: u32,
@@ -66,7 +63,6 @@ struct TeamStep {
     falls_back: bool,
 }
 
-/// The model of a team.
 pub(super) struct TeamModel {
     setup: OddsSetup,
     /// One bit for each follower whose link loses nothing.
@@ -196,7 +192,6 @@ impl TeamModel {
         draft.state
     }
 
-    /// Whether the leader still asks for help.
     pub(super) fn is_requesting(&self, state: &TeamState) -> bool {
         self.robots
             .nodes
@@ -232,7 +227,6 @@ impl TeamModel {
         finished.collect()
     }
 
-    /// All ways in which links can be bad.
     fn bad_links(&self) -> impl Iterator<Item = u8> + use<> {
         let lossless = self.lossless;
         (0..=self.links()).filter(move |bad| bad & lossless == 0)
@@ -335,7 +329,6 @@ impl TeamModel {
         step.after != before || !step.sends.is_empty()
     }
 
-    /// A robot takes something in.
     fn take_in(&mut self, draft: &mut TickDraft, place: u8, cause: TimedCause) {
         let node = &mut draft.state.nodes[usize::from(place)];
         let step = self.step(*node, cause);

@@ -13,18 +13,13 @@ pub(super) struct Chances {
     pub(super) lost: u8,
     /// Messages that arrive, or links that are good at first.
     pub(super) arrived: u8,
-    /// Links that become bad.
     pub(super) worsened: u8,
-    /// Links that stay good.
     pub(super) stayed_good: u8,
-    /// Links that become good.
     pub(super) improved: u8,
-    /// Links that stay bad.
     pub(super) stayed_bad: u8,
 }
 
 impl Chances {
-    /// The probability of that.
     fn probability(self, odds: &LinkOdds) -> f64 {
         let power = |base: f64, exponent: u8| base.powi(i32::from(exponent));
         power(odds.loss, self.lost)
@@ -68,15 +63,11 @@ impl LinkOdds {
 pub(super) struct ChanceTable(Numbered<Chances>);
 
 impl ChanceTable {
-    /// The number of a product.
-    ///
-    /// # Panics
-    /// When there are more than 65,536, which the few messages and links of a tick cannot make up.
+    /// The number of a product. Panics beyond 65,536, which the few messages and links of a tick cannot make up.
     pub(super) fn number(&mut self, chances: Chances) -> u16 {
         u16::try_from(self.0.add(chances)).expect("fewer than 65,536 products")
     }
 
-    /// How many products there are.
     pub(super) const fn len(&self) -> usize {
         self.0.len()
     }

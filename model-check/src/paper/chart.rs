@@ -10,7 +10,6 @@ use super::{Counterexample, Transition};
 use crate::sequence::{ChartPlace, ChartStep, Fate};
 
 impl Counterexample {
-    /// The run step by step.
     pub(super) fn chart(&self) -> Vec<ChartStep> {
         let steps = self.steps.iter().enumerate();
         let in_words = |(i, step): (usize, &Transition)| {
@@ -24,7 +23,6 @@ impl Counterexample {
         steps.map(in_words).collect()
     }
 
-    /// What happens in a step, and where.
     fn placed(&self, step: usize) -> (ChartPlace, String) {
         let Transition { before, action, .. } = &self.steps[step];
         let between = |from, to, fate| ChartPlace::Between { from, to, fate };
@@ -130,7 +128,6 @@ fn change(before: &PaperRobot, after: &PaperRobot) -> Vec<String> {
     said.into_iter().flatten().collect()
 }
 
-/// What becomes of a command.
 fn commanded(before: &PaperRobot, after: &PaperRobot) -> Option<String> {
     let starts = after
         .executing()
@@ -163,7 +160,6 @@ fn stopped(before: &PaperRobot, after: &PaperRobot) -> Option<String> {
     }
 }
 
-/// Whether a command is started that was started before.
 fn is_restarted(step: &Transition) -> bool {
     let PaperAction::Arrive { flight, .. } = step.action else {
         return false;

@@ -13,7 +13,6 @@ use super::world::PaperWorld;
 pub(super) const HOLDS_BIT: u32 = 1 << Hazard::ALL.len();
 
 impl Hazard {
-    /// Whether it is there.
     pub(super) fn is_in(self, world: &PaperWorld) -> bool {
         let on_road = |is_so: &dyn Fn(&Road) -> bool| world.road.as_ref().is_some_and(is_so);
         match self {

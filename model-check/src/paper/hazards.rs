@@ -3,7 +3,6 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Declares the hazards, in order.
 macro_rules! hazards {
     ($($id:ident)*) => {
         /// A property that the paper's text does not keep.
@@ -57,7 +56,6 @@ impl Hazard {
         matches!(self, Self::W1 | Self::W2 | Self::W3 | Self::W4 | Self::W7)
     }
 
-    /// One bit for each.
     pub(super) const fn bit(self) -> u32 {
         1 << self as u32
     }

@@ -40,7 +40,7 @@ pub use texts::Text;
 use crate::by_stateright::steps;
 use crate::report::{CheckVerdict, CutOff, PropertyReport, ScenarioReport};
 use crate::scenario::Size;
-use model::{Cast, Inquiry, PaperAction, Question};
+use model::{Cast, PaperAction, Question};
 use robot::PaperTask;
 use world::PaperWorld;
 
@@ -86,13 +86,9 @@ const CURRENT: Cast = Cast {
 /// A second humanoid comes along; up to the roles.
 const TRIO: Cast = Cast {
     names: &["ARI", "Go2", "NAO"],
-    detecting: 2,
-    detections: 2,
     plan: ESCORT,
     commands: 0,
-    crashes: 0,
-    faults: true,
-    delay: false,
+    ..CURRENT
 };
 
 /// Somebody is escorted across.
@@ -112,13 +108,9 @@ const ESCORTED_TWICE: Cast = Cast {
 /// Two teams of two at one crossing, on a good day.
 const TEAMS: Cast = Cast {
     names: &["ARI", "Go2", "NAO", "Spot"],
-    detecting: 2,
-    detections: 2,
     plan: &[PaperTask::Block],
-    commands: 2,
-    crashes: 0,
     faults: false,
-    delay: false,
+    ..CURRENT
 };
 
 /// A run that brings a hazard about.
@@ -127,7 +119,6 @@ struct Counterexample {
     /// Somebody waits for ever: after the last step nothing happens any more.
     is_without_end: bool,
     cast: Cast,
-    /// Each action with the world before and after it.
     steps: Vec<Transition>,
 }
 
@@ -268,7 +259,7 @@ fn explore(cast: Cast) -> Exploration {
     let question = Question {
         cast,
         reading: Reading::Literal,
-        about: Inquiry::Rest,
+        about: None,
     };
     let checker = question.checker().spawn_bfs().join();
     Exploration {
@@ -291,7 +282,6 @@ fn counterexamples() -> Vec<Counterexample> {
     Hazard::ALL.into_iter().flat_map(in_casts).collect()
 }
 
-/// Who can bring a hazard about.
 const fn casts(hazard: Hazard) -> &'static [Cast] {
     use Hazard::{P3, P4, P5, P6, P7, P11, W1, W2, W3, W4, W7};
     match hazard {
@@ -309,11 +299,10 @@ const fn casts(hazard: Hazard) -> &'static [Cast] {
 /// The shortest run that brings a hazard about in a reading.
 fn find(hazard: Hazard, cast: Cast, reading: Reading) -> Option<Counterexample> {
     let text = hazard.text_beside(cast.plan.contains(&PaperTask::Move));
-    let about = Inquiry::Hazard(hazard);
     let question = Question {
         cast,
         reading,
-        about,
+        about: Some(hazard),
     };
     Some(Counterexample {
         text,
@@ -346,7 +335,7 @@ fn shortest(question: Question, name: &'static str) -> Option<Vec<Transition>> {
 }
 
 impl Counterexample {
-    /// Where it is that somebody waits for ever: after the last step nothing happens any more.
+    /// Where somebody waits for ever: after the last step nothing happens any more.
     fn repeats_after(&self) -> Option<usize> {
         self.is_without_end.then_some(self.steps.len())
     }

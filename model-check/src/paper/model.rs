@@ -42,24 +42,14 @@ pub(super) struct Cast {
     pub(super) delay: bool,
 }
 
-/// What stateright is asked.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Question {
     pub(super) cast: Cast,
     pub(super) reading: Reading,
-    pub(super) about: Inquiry,
+    /// The hazard to find; or else what holds is asked.
+    pub(super) about: Option<Hazard>,
 }
 
-/// What a question is about.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Inquiry {
-    /// What holds.
-    Rest,
-    /// The hazard to find.
-    Hazard(Hazard),
-}
-
-/// What happens.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum PaperAction {
     /// A robot's application, body or timer does something.
@@ -243,33 +233,12 @@ fn successor(world: &PaperWorld, action: PaperAction) -> Option<PaperWorld> {
     Some(next)
 }
 
-/// What stateright looks at to answer a question.
-///
-/// One hazard at a time: with several, stateright goes on after the first, shortest counterexample and
-/// keeps the last.
-fn properties(question: &Question) -> Vec<Property<Question>> {
-    let is_absent = |question: &Question, world: &PaperWorld| match question.about {
-        Inquiry::Hazard(hazard) => !hazard.is_in(world),
-        Inquiry::Rest => true,
-    };
-    match question.about {
-        Inquiry::Hazard(hazard) => vec![Property::always(&hazard.text().id, is_absent)],
-        Inquiry::Rest => vec![
-            Property::always(HOLDS, |_, world: &PaperWorld| {
-                world.memory.brought_about & HOLDS_BIT == 0
-            }),
-            Property::always(CLOSED, |_, world| is_closed(world)),
-            Property::sometimes(PREMISE, |_, world| is_crossed(world)),
-        ],
-    }
-}
-
 impl stateright::Model for Question {
     type State = PaperWorld;
     type Action = PaperAction;
 
     fn init_states(&self) -> Vec<PaperWorld> {
-        let has_road = matches!(self.about, Inquiry::Hazard(hazard) if hazard.is_on_road());
+        let has_road = self.about.is_some_and(Hazard::is_on_road);
         let guard = self.cast.plan.last().filter(|_| has_road);
         vec![PaperWorld {
             reading: self.reading,
@@ -300,7 +269,21 @@ impl stateright::Model for Question {
         successor(world, action)
     }
 
+    /// One hazard at a time: with several, stateright goes on after the first, shortest counterexample and
+    /// keeps the last.
     fn properties(&self) -> Vec<Property<Self>> {
-        properties(self)
+        if let Some(hazard) = self.about {
+            let is_absent = |question: &Self, world: &PaperWorld| {
+                question.about.is_none_or(|hazard| !hazard.is_in(world))
+            };
+            return vec![Property::always(&hazard.text().id, is_absent)];
+        }
+        vec![
+            Property::always(HOLDS, |_, world: &PaperWorld| {
+                world.memory.brought_about & HOLDS_BIT == 0
+            }),
+            Property::always(CLOSED, |_, world| is_closed(world)),
+            Property::sometimes(PREMISE, |_, world| is_crossed(world)),
+        ]
     }
 }

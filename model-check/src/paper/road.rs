@@ -39,7 +39,6 @@ pub(super) struct Charge {
     leader: RobotIndex,
 }
 
-/// Somebody at the crossing.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum PaperPedestrian {
     Waiting,
@@ -53,13 +52,10 @@ pub(super) enum PaperPedestrian {
 pub(super) enum Move {
     /// The pedestrian steps on the road at this leader's word.
     StepOn(RobotIndex),
-    /// The pedestrian is off the road.
     Across,
-    /// A body has finished its fallback.
     EndFallback(RobotIndex),
 }
 
-/// The road.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Road {
     /// The task by which followers guard.
@@ -94,7 +90,6 @@ impl Road {
         }
     }
 
-    /// Whether nobody is on the road.
     pub(super) fn is_free(&self) -> bool {
         !matches!(self.pedestrian, PaperPedestrian::OnRoad(_))
     }
@@ -297,7 +292,6 @@ impl Road {
         }
     }
 
-    /// Whether somebody waits at the kerb.
     pub(super) fn is_waited_at(&self) -> bool {
         self.pedestrian == PaperPedestrian::Waiting
     }

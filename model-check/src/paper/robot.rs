@@ -37,7 +37,6 @@ pub(super) enum HelpStatus {
     /// Still `offerHelp`, and a container that names the leader.
     Follower {
         leader: RobotIndex,
-        /// It asks for leave.
         is_leaving: bool,
     },
 }
@@ -57,7 +56,6 @@ pub(super) enum Progression {
 pub(super) enum Whereabouts {
     /// Stands where it was.
     Start,
-    /// Moves.
     UnderWay,
     /// Stands in the lead position, or in the place from which it blocks.
     Lead,
@@ -76,7 +74,6 @@ pub(super) enum PaperTask {
     Block,
 }
 
-/// A Robot Awareness Message.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) struct PaperRam {
     pub(super) status: HelpStatus,
@@ -95,7 +92,6 @@ pub(super) struct PaperCommand {
     pub(super) original: u8,
 }
 
-/// A Robot Maneuver Coordination Message.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum PaperRmcm {
     /// `LeaderManeuverContainer` with the `requestID`.
@@ -109,7 +105,6 @@ pub(super) enum PaperRmcm {
 pub(super) enum PaperInput {
     Ram(RobotIndex, PaperRam),
     Rmcm(RobotIndex, PaperRmcm),
-    /// A pedestrian is detected.
     Detected,
     /// The leader's application sends its next command, with this serial number.
     Commanded(PaperTask, u8),
@@ -123,13 +118,10 @@ pub(super) enum PaperInput {
     SafetyTimeout,
     /// The leader's execution timeout runs out, in the reading in which it has one.
     LeaderTimeout,
-    /// The follower's application asks for leave.
     LeaveAsked,
-    /// The leader's application grants it.
     LeaveGranted,
 }
 
-/// A robot.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) struct PaperRobot {
     pub(super) state: State,
@@ -142,7 +134,6 @@ pub(super) struct PaperRobot {
     pub(super) commanded: u8,
     /// Leader: the follower has said that it is in its safe idle position, with a command pending.
     pub(super) is_told_idle: bool,
-    /// Leader: the follower has asked for leave.
     pub(super) is_asked_for_leave: bool,
     /// Follower: its leader's RAM was heard since the role or the newest RMCM. No rule of the paper
     /// looks at it; property P4 does.
@@ -188,7 +179,6 @@ impl PaperRobot {
         heard_leader: false,
     };
 
-    /// The RAM that it sends periodically.
     pub(super) const fn ram(&self) -> PaperRam {
         PaperRam {
             status: self.status,
@@ -376,7 +366,6 @@ impl PaperRobot {
         self.leader().is_some() && self.progression != Progression::SafeIdle
     }
 
-    /// The robot that it follows.
     pub(super) const fn leader(&self) -> Option<RobotIndex> {
         match self.status {
             HelpStatus::Follower { leader, .. } => Some(leader),
@@ -384,7 +373,6 @@ impl PaperRobot {
         }
     }
 
-    /// The robot that it leads.
     pub(super) const fn follower(&self) -> Option<RobotIndex> {
         match self.status {
             HelpStatus::Leader { follower } => Some(follower),

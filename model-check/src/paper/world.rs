@@ -8,7 +8,6 @@ use super::readings::Reading;
 use super::road::{Road, invites};
 use super::robot::{PaperInput, PaperRam, PaperRmcm, PaperRobot, RobotIndex};
 
-/// A message under way.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(super) struct PaperFlight {
     pub(super) from: RobotIndex,
@@ -16,7 +15,6 @@ pub(super) struct PaperFlight {
     pub(super) kind: FlightKind,
 }
 
-/// What a message under way is.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(super) enum FlightKind {
     Ram,
@@ -24,7 +22,6 @@ pub(super) enum FlightKind {
     Acknowledgement,
 }
 
-/// What a message under way says.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Content {
     Ram(PaperRam),
@@ -50,7 +47,6 @@ pub(super) struct PaperWorld {
 /// What the properties remember; sets of commands are bits by serial number.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub(super) struct Memory {
-    /// How many commands were given.
     pub(super) given: u8,
     pub(super) started: u8,
     pub(super) fallen_back: u8,
@@ -152,6 +148,13 @@ impl Content {
             Self::Rmcm(PaperRmcm::Acknowledgement(_)) => FlightKind::Acknowledgement,
         }
     }
+
+    pub(super) const fn input(self, from: RobotIndex) -> PaperInput {
+        match self {
+            Self::Ram(ram) => PaperInput::Ram(from, ram),
+            Self::Rmcm(rmcm) => PaperInput::Rmcm(from, rmcm),
+        }
+    }
 }
 
 impl fmt::Display for Content {
@@ -159,15 +162,6 @@ impl fmt::Display for Content {
         match self {
             Self::Ram(ram) => ram.fmt(f),
             Self::Rmcm(rmcm) => rmcm.fmt(f),
-        }
-    }
-}
-
-impl Content {
-    pub(super) const fn input(self, from: RobotIndex) -> PaperInput {
-        match self {
-            Self::Ram(ram) => PaperInput::Ram(from, ram),
-            Self::Rmcm(rmcm) => PaperInput::Rmcm(from, rmcm),
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! So a corridor is never open on the word of a station that was not confirmed.
 
-use crossguard_protocol::Confirmation;
+use crossguard_protocol::{Confirmation, Leading, Member, StationId};
 
 use super::prelude::*;
 
@@ -51,24 +51,18 @@ fn speaks_for_itself(step: &StepView) -> bool {
     let Some(after) = leading_of(step.after) else {
         return true;
     };
-    let others_before = before
-        .members
-        .iter()
-        .filter(|member| member.station != sender);
-    let others_after = after
-        .members
-        .iter()
-        .filter(|member| member.station != sender);
     let joins = after.member(sender).is_some() && before.member(sender).is_none();
-    others_before.eq(others_after) && !joins
+    others(before, sender).eq(others(after, sender)) && !joins
+}
+
+fn others(leading: &Leading, sender: StationId) -> impl Iterator<Item = &Member> {
+    let members = leading.members.iter();
+    members.filter(move |member| member.station != sender)
 }
 
 fn premise(step: &StepView) -> bool {
     let (Some(sender), Some(leading)) = (step.sender(), leading_of(step.before)) else {
         return false;
     };
-    leading
-        .members
-        .iter()
-        .any(|member| member.station != sender)
+    others(leading, sender).next().is_some()
 }

@@ -9,7 +9,7 @@ property! {
     "I1", Authentication::NAMES;
     untimed S "no robot is leader and follower at once; a session has one leader",
         Some("one robot leads and another follows"),
-        Rule::State(StateRule { holds, premise, of_two: false }),
+        Rule::State(StateRule { holds, premise: is_team, of_two: false }),
         "TakesItsLeadersPseudonym";
 }
 
@@ -23,8 +23,4 @@ fn holds(view: &View) -> bool {
         && view
             .followers()
             .all(|(robot, following)| following.session.leader != robot.station())
-}
-
-fn premise(view: &View) -> bool {
-    view.leaders().next().is_some() && view.followers().next().is_some()
 }

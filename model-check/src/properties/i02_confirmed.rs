@@ -8,7 +8,7 @@ property! {
     "I2", Authentication::truth_of(&[Insider::Leader]);
     untimed S "a follower in a session was confirmed by its leader",
         Some("a robot follows"),
-        Rule::State(StateRule { holds, premise, of_two: true }),
+        Rule::State(StateRule { holds, premise: |view| view.followers().next().is_some(), of_two: true }),
         "NeedsNoConfirmation";
 }
 
@@ -20,8 +20,4 @@ fn holds(view: &View) -> bool {
         };
         view.history().is_confirmed(following.session, follower)
     })
-}
-
-fn premise(view: &View) -> bool {
-    view.followers().next().is_some()
 }

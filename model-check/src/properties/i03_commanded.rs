@@ -6,19 +6,14 @@ property! {
     "I3", Authentication::truth_of(&[Insider::Leader]);
     untimed S "a follower starts only what its leader commanded it",
         Some("a follower starts a maneuver"),
-        Rule::Step(StepRule { holds, premise, looks_back: true, of_two: true }),
+        Rule::Step(StepRule { holds, premise: |step| step.started().is_some(), looks_back: true, of_two: true }),
         "ObeysCommandsOfAnySession";
 }
 
 fn holds(step: &StepView) -> bool {
     step.started().is_none_or(|maneuver| {
-        let commanded = step
-            .history
-            .command(step.after.persisted.station, maneuver.id);
+        let station = step.after.persisted.station;
+        let commanded = step.history.command(station, maneuver.id);
         commanded.is_some_and(|command| command.task == maneuver.task)
     })
-}
-
-fn premise(step: &StepView) -> bool {
-    step.started().is_some()
 }

@@ -6,19 +6,14 @@ property! {
     "I4", Authentication::NAMES;
     untimed S "a command is started at most once",
         Some("a follower starts a maneuver"),
-        Rule::Step(StepRule { holds, premise, looks_back: true, of_two: false }),
+        Rule::Step(StepRule { holds, premise: |step| step.started().is_some(), looks_back: true, of_two: false }),
         "StartsRepeatedWhileRunning";
 }
 
 fn holds(step: &StepView) -> bool {
     step.started().is_none_or(|maneuver| {
-        let commanded = step
-            .history
-            .command(step.after.persisted.station, maneuver.id);
+        let station = step.after.persisted.station;
+        let commanded = step.history.command(station, maneuver.id);
         commanded.is_none_or(|command| !command.started)
     })
-}
-
-fn premise(step: &StepView) -> bool {
-    step.started().is_some()
 }

@@ -8,7 +8,7 @@ property! {
     "I5", Authentication::NAMES;
     untimed T "the started requestID only grows within a session",
         Some("a follower starts a second maneuver in the same session"),
-        Rule::Step(StepRule { holds, premise, looks_back: true, of_two: false }),
+        Rule::Step(StepRule { holds, premise: |step| newest_before(step).is_some(), looks_back: true, of_two: false }),
         "StartsOlderCommands";
 }
 
@@ -23,8 +23,4 @@ fn holds(step: &StepView) -> bool {
         (Some(maneuver), Some(newest)) => request_is_newer(maneuver.id.request, newest),
         _ => true,
     }
-}
-
-fn premise(step: &StepView) -> bool {
-    newest_before(step).is_some()
 }

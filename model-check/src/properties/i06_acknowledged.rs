@@ -25,7 +25,6 @@ property! {
         "StartsBeforeItAcknowledges";
 }
 
-/// Whether the follower acknowledges before it starts, in the outputs of one step too.
 fn acknowledges_before_it_starts(step: &StepView) -> bool {
     let station = step.after.persisted.station;
     let accepts = |output: &Output, id: ManeuverId| match output {

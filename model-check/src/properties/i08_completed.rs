@@ -12,7 +12,6 @@ property! {
         "TakesAnyProgress";
 }
 
-/// What leaders count as completed or in position.
 fn counted<'a>(
     view: &View<'a>,
 ) -> impl Iterator<Item = (StationId, ManeuverId, Progress)> + use<'a> {

@@ -4,7 +4,7 @@
 //! follower has contact. Runs in which robots leave sessions for all kinds of reasons are judged by
 //! [`has_lease_on_lost`].
 
-use crossguard_protocol::{Contact, Lease, Phase, Robot, SessionId, StationId};
+use crossguard_protocol::{Contact, Following, Lease, Phase, Robot, SessionId, StationId};
 
 use super::prelude::*;
 
@@ -33,17 +33,12 @@ fn lease_theorem(leaders: &TimedView, followers: &TimedView) -> bool {
         let follower = followers
             .nodes()
             .find(|node| node.persisted.station == station);
-        follower.is_none_or(|node| node.robot.is_none() || has_contact(node, session))
+        let has_contact = |following: &Following| {
+            following.session == session && matches!(following.contact, Contact::Fresh(_))
+        };
+        follower
+            .is_none_or(|node| node.robot.is_none() || following_of(node).is_some_and(has_contact))
     })
-}
-
-/// Whether a robot follows in `session` without having lost contact.
-fn has_contact(node: &Node, session: SessionId) -> bool {
-    let Some(robot) = &node.robot else {
-        return false;
-    };
-    matches!(robot.phase(), Phase::Following(following)
-        if following.session == session && matches!(following.contact, Contact::Fresh(_)))
 }
 
 fn lease_stands(view: &TimedView) -> bool {

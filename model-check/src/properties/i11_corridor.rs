@@ -53,10 +53,7 @@ fn premise(view: &View) -> bool {
 
 fn closes_in_time(step: &TimedStepView) -> bool {
     let after = step.after;
-    match after.watch {
-        StopWatch::FollowerFailed(place, ticks) => !after.shows_go_too_long(place, ticks),
-        _ => true,
-    }
+    !matches!(after.watch, StopWatch::FollowerFailed(place, ticks) if after.shows_go_too_long(place, ticks))
 }
 
 fn fails_while_open(view: &TimedView) -> bool {

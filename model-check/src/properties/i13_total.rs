@@ -6,16 +6,13 @@ property! {
     "I13", Authentication::NONE;
     untimed S "every input in every state yields a valid state",
         None,
-        Rule::Step(StepRule { holds, premise, looks_back: false, of_two: false }),
+        Rule::Step(StepRule { holds, premise: |_| true, looks_back: false, of_two: false }),
         "ReportsTheLeadersLimit";
 }
 
 fn holds(step: &StepView) -> bool {
-    let valid = step
-        .after
-        .robot
-        .as_ref()
-        .is_none_or(|robot| robot.is_valid(step.config));
+    let robot = step.after.robot.as_ref();
+    let valid = robot.is_none_or(|robot| robot.is_valid(step.config));
     // What it has heard all the same is not its own.
     let changes = || {
         let mut after = step.after.clone();
@@ -25,8 +22,4 @@ fn holds(step: &StepView) -> bool {
     let ignored_in_silence =
         step.outputs.ignored().is_none() || (step.outputs.len() == 1 && !changes());
     valid && ignored_in_silence
-}
-
-fn premise(_: &StepView) -> bool {
-    true
 }

@@ -2,7 +2,7 @@
 //!
 //! Checked is what the outputs have made the robot's body do, not what the protocol state says.
 
-use crossguard_protocol::Phase;
+use crossguard_protocol::Following;
 
 use super::prelude::*;
 
@@ -10,20 +10,13 @@ property! {
     "I14", Authentication::NONE;
     untimed S "a released or idle robot executes nothing",
         Some("a maneuver runs"),
-        Rule::State(StateRule { holds, premise, of_two: false }),
+        Rule::State(StateRule { holds, premise: |view| view.nodes().any(|node| node.actuation.running().is_some()), of_two: false }),
         "NEVER_STOPS";
 }
 
 fn holds(view: &View) -> bool {
     view.nodes().all(|node| {
-        let executing = node.robot.as_ref().and_then(|robot| match robot.phase() {
-            Phase::Following(following) => following.executing().map(|maneuver| maneuver.id),
-            _ => None,
-        });
-        node.actuation.running() == executing
+        let executing = following_of(node).and_then(Following::executing);
+        node.actuation.running() == executing.map(|maneuver| maneuver.id)
     })
-}
-
-fn premise(view: &View) -> bool {
-    view.nodes().any(|node| node.actuation.running().is_some())
 }

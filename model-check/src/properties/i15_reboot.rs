@@ -18,15 +18,12 @@ fn has_role(robot: &Robot) -> bool {
 
 fn holds(view: &View) -> bool {
     view.robots().filter(|robot| has_role(robot)).all(|robot| {
-        robot.session().is_none_or(|session| {
-            !view
-                .history()
-                .had_role_before_crash(robot.station(), session)
-        })
+        let history = view.history();
+        let old = |session| history.had_role_before_crash(robot.station(), session);
+        !robot.session().is_some_and(old)
     })
 }
 
-/// A robot that crashed in a role has one again.
 fn premise(view: &View) -> bool {
     view.robots()
         .any(|robot| has_role(robot) && view.history().crashed_in_role(robot.station()))

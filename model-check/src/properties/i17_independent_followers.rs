@@ -77,7 +77,6 @@ fn aged(member: &Member, elapsed: Millis) -> Option<Member> {
     Some(aged)
 }
 
-/// A follower is dropped and another one stays.
 fn premise(step: &StepView) -> bool {
     dropped(step).is_some()
         && !withdraws(step)

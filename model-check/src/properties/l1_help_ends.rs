@@ -14,7 +14,10 @@ property! {
         Some("a requester gets roles; and one gives up"),
         Rule::Timed(TimedRule {
             holds: ends_in_time,
-            premise: &[TimedPremise::Step(gets_roles), TimedPremise::Step(gives_up)],
+            premise: &[
+                TimedPremise::Step(|step| request_ends(step) && !step.after.leader().is_idle()),
+                TimedPremise::Step(|step| request_ends(step) && step.after.leader().is_idle()),
+            ],
             ends_run: true,
         }),
         "asks_too_long";
@@ -27,10 +30,7 @@ fn in_help_requested(view: &View, LivenessSubject { robot, .. }: LivenessSubject
 
 fn ends_in_time(step: &TimedStepView) -> bool {
     let after = step.after;
-    match after.watch {
-        StopWatch::Request(ticks) => !after.is_over(ticks, after.setup.limits.roles),
-        _ => true,
-    }
+    !matches!(after.watch, StopWatch::Request(ticks) if after.is_over(ticks, after.setup.limits.roles))
 }
 
 fn request_ends(step: &TimedStepView) -> bool {
@@ -38,12 +38,4 @@ fn request_ends(step: &TimedStepView) -> bool {
         (step.before.watch, step.after.watch),
         (StopWatch::Request(_), StopWatch::Off)
     )
-}
-
-fn gets_roles(step: &TimedStepView) -> bool {
-    request_ends(step) && !step.after.leader().is_idle()
-}
-
-fn gives_up(step: &TimedStepView) -> bool {
-    request_ends(step) && step.after.leader().is_idle()
 }

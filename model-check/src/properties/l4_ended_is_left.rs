@@ -12,7 +12,6 @@ property! {
         "FollowersWaitForEver";
 }
 
-/// Whether the robot follows in a session that no robot leads any more.
 fn is_orphaned(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
     following_of(view.node(robot)).is_some_and(|following| {
         view.leaders()

@@ -75,7 +75,6 @@ mod w6_application_is_informed;
 mod w7_crossing_gets_done;
 mod w8_go_or_a_reason;
 
-/// What the file of a property needs.
 mod prelude {
     pub(super) use super::authentication::{Authentication, Insider};
     pub(super) use super::property::{
@@ -84,7 +83,7 @@ mod prelude {
     pub(super) use super::property::{TimedPremise, TimedRule};
     pub(super) use super::timed_view::{TimedStepView, TimedView, has_fallback};
     pub(super) use super::view::{LivenessSubject, LivenessSubjects, StepView, View};
-    pub(super) use super::view::{following_of, leading_of};
+    pub(super) use super::view::{following_of, is_team, leading_of};
     pub(super) use crate::node::Node;
     pub(super) use crate::road::{Body, Heard, Pedestrian};
     pub(super) use crate::timed::watch::StopWatch;
@@ -304,7 +303,6 @@ impl PropertyId {
     }
 }
 
-/// Ids for a message.
 pub(crate) fn listed(ids: impl Iterator<Item = PropertyId>) -> String {
     let ids: Vec<_> = ids.map(PropertyId::name).collect();
     ids.join(", ")

@@ -68,7 +68,6 @@ impl Kind {
     }
 }
 
-/// How a property is judged.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Rule {
     /// On every state.
@@ -154,12 +153,9 @@ pub(crate) struct TimedRule {
     pub(crate) ends_run: bool,
 }
 
-/// A part of the premise of a timed rule.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum TimedPremise {
-    /// Met by a state.
     State(fn(&TimedView) -> bool),
-    /// Met by a step.
     Step(fn(&TimedStepView) -> bool),
 }
 

@@ -17,14 +17,12 @@ pub(crate) struct TimedSetup<'a> {
     pub(crate) limits: &'a Limits,
 }
 
-/// A state of the timed model.
 #[derive(Clone, Copy)]
 pub(crate) struct TimedView<'a> {
     /// The robots, in the order of their places.
     pub(crate) nodes: &'a [&'a Node],
     pub(crate) setup: TimedSetup<'a>,
     pub(crate) watch: StopWatch,
-    /// Whether the sign of each team shows go.
     pub(crate) shows_go: [bool; MAX_TEAMS],
     /// Whether a sign shows go although a follower of its team fell back for lack of contact.
     pub(crate) is_unguarded: bool,
@@ -39,11 +37,9 @@ pub(crate) struct TimedView<'a> {
 pub(crate) struct RobotSteps {
     /// Every follower that gave its leader up had waited for as long as it promised.
     pub(crate) keep_contact: bool,
-    /// Every robot is in a valid state.
     pub(crate) are_valid: bool,
 }
 
-/// A step of the timed model.
 #[derive(Clone, Copy)]
 pub(crate) struct TimedStepView<'a> {
     pub(crate) before: &'a TimedView<'a>,
@@ -53,7 +49,6 @@ pub(crate) struct TimedStepView<'a> {
 }
 
 impl RobotSteps {
-    /// Of no robot.
     pub(crate) const NONE: Self = Self {
         keep_contact: true,
         are_valid: true,
@@ -70,12 +65,10 @@ impl<'a> TimedView<'a> {
         self.nodes[usize::from(self.setup.teams.leaders()[0])]
     }
 
-    /// Whether the sign of the robot's team shows go.
     pub(crate) const fn shows_go_at(&self, place: u8) -> bool {
         self.shows_go[self.setup.teams.team_of(place)]
     }
 
-    /// Whether a leader hangs.
     pub(crate) fn leader_hangs(&self) -> bool {
         matches!(self.watch, StopWatch::Hung(place, _) if self.setup.teams.leads(place))
     }

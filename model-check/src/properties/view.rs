@@ -11,7 +11,6 @@ use crate::node::Node;
 /// The robots that a liveness property speaks about, one at a time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum LivenessSubjects {
-    /// Each robot.
     Robots,
     /// Each two robots, either way round.
     Pairs,
@@ -37,7 +36,6 @@ impl LivenessSubjects {
     }
 }
 
-/// A state as the state rules see it.
 #[derive(Clone, Copy)]
 pub(crate) struct View<'a> {
     /// The robots, in the order of their places.
@@ -48,7 +46,6 @@ pub(crate) struct View<'a> {
 
 /// What the robots of a state are part of.
 pub(crate) trait Surroundings {
-    /// The configuration of the robot at this place.
     fn config(&self, place: usize) -> &Config;
 
     /// Whether some message or timer changes the state, without any application's help.
@@ -69,7 +66,6 @@ impl<'a> View<'a> {
         self.nodes.iter().copied()
     }
 
-    /// The robots with their configurations.
     pub(crate) fn configured(
         &self,
     ) -> impl Iterator<Item = (&'a Node, &'a Config)> + Clone + use<'a> {
@@ -78,7 +74,6 @@ impl<'a> View<'a> {
         places.map(move |(place, node)| (*node, world.config(place)))
     }
 
-    /// The robot at this place of the scenario.
     pub(crate) fn node(&self, place: usize) -> &'a Node {
         self.nodes[place]
     }
@@ -88,7 +83,6 @@ impl<'a> View<'a> {
         self.nodes().filter_map(|node| node.robot.as_ref())
     }
 
-    /// The robots that lead, with their sessions.
     pub(crate) fn leaders(
         &self,
     ) -> impl Iterator<Item = (SessionId, &'a Leading)> + Clone + use<'a> {
@@ -98,7 +92,6 @@ impl<'a> View<'a> {
         })
     }
 
-    /// The robots that follow.
     pub(crate) fn followers(
         &self,
     ) -> impl Iterator<Item = (&'a Robot, &'a Following)> + Clone + use<'a> {
@@ -113,7 +106,6 @@ impl<'a> View<'a> {
     }
 }
 
-/// A robot's step as the step rules see it.
 #[derive(Clone, Copy)]
 pub(crate) struct StepView<'a> {
     pub(crate) config: &'a Config,
@@ -126,7 +118,6 @@ pub(crate) struct StepView<'a> {
 }
 
 impl<'a> StepView<'a> {
-    /// The maneuver that the step starts.
     pub(crate) fn started(&self) -> Option<Maneuver> {
         self.outputs.iter().find_map(|output| match output {
             Output::StartManeuver(maneuver) => Some(*maneuver),
@@ -168,7 +159,6 @@ impl<'a> StepView<'a> {
             })
     }
 
-    /// The history after the step.
     pub(crate) fn history_after(&self) -> History {
         let mut history = self.history.clone();
         if let (Some(before), Some(after)) = (&self.before.robot, &self.after.robot) {
@@ -182,7 +172,11 @@ impl<'a> StepView<'a> {
     }
 }
 
-/// What a robot knows as a leader.
+/// Whether one robot leads and another follows.
+pub(crate) fn is_team(view: &View) -> bool {
+    view.leaders().next().is_some() && view.followers().next().is_some()
+}
+
 pub(crate) fn leading_of(node: &Node) -> Option<&Leading> {
     match node.robot.as_ref()?.phase() {
         Phase::Leading(leading) => Some(leading),
@@ -190,7 +184,6 @@ pub(crate) fn leading_of(node: &Node) -> Option<&Leading> {
     }
 }
 
-/// What a robot knows as a follower.
 pub(crate) fn following_of(node: &Node) -> Option<&Following> {
     match node.robot.as_ref()?.phase() {
         Phase::Following(following) => Some(following),

@@ -14,7 +14,7 @@ property! {
         "HearsNoLeader";
     timed L "after one of two leaders at a place hears the other, both signs show go no longer than the bound",
         Some("two leaders whose signs show go hear each other"),
-        Rule::Timed(TimedRule { holds: one_stops_in_time, premise: &[TimedPremise::State(hear_each_other)], ends_run: true }),
+        Rule::Timed(TimedRule { holds: one_stops_in_time, premise: &[TimedPremise::State(|view| view.watch == StopWatch::BothGo(0))], ends_run: true }),
         "YieldsLate";
 }
 
@@ -30,12 +30,5 @@ fn premise(view: &View) -> bool {
 
 fn one_stops_in_time(step: &TimedStepView) -> bool {
     let after = step.after;
-    match after.watch {
-        StopWatch::BothGo(ticks) => !after.is_over(ticks, after.setup.limits.both_go),
-        _ => true,
-    }
-}
-
-fn hear_each_other(view: &TimedView) -> bool {
-    view.watch == StopWatch::BothGo(0)
+    !matches!(after.watch, StopWatch::BothGo(ticks) if after.is_over(ticks, after.setup.limits.both_go))
 }

@@ -13,7 +13,7 @@ property! {
     "W4", Authentication::NAMES;
     untimed T "a robot begins nothing new before its duty on the road is over",
         Some("a robot has a duty on the road"),
-        Rule::Step(StepRule { holds, premise, looks_back: false, of_two: false }),
+        Rule::Step(StepRule { holds, premise: |step| has_duty(step.before), looks_back: false, of_two: false }),
         "ForgetsItsDuty";
 }
 
@@ -39,9 +39,5 @@ fn holds(step: &StepView) -> bool {
     let starts = |output: &Output| matches!(output, Output::StartManeuver(m) if !body.resumes(*m));
     let (before, after) = (begun(step.before), begun(step.after));
     let begins = step.outputs.iter().any(starts) || (after.is_some() && after != before);
-    !premise(step) || !begins
-}
-
-fn premise(step: &StepView) -> bool {
-    has_duty(step.before)
+    !has_duty(step.before) || !begins
 }

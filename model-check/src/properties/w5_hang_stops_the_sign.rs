@@ -11,8 +11,8 @@ property! {
         Rule::Timed(TimedRule {
             holds,
             premise: &[
-                TimedPremise::State(leader_hangs),
-                TimedPremise::State(follower_hangs),
+                TimedPremise::State(|view| hangs(view, true)),
+                TimedPremise::State(|view| hangs(view, false)),
             ],
             ends_run: false,
         }),
@@ -21,22 +21,11 @@ property! {
 
 fn holds(step: &TimedStepView) -> bool {
     let after = step.after;
-    match after.watch {
-        StopWatch::Hung(place, ticks) => !after.shows_go_too_long(place, ticks),
-        _ => true,
-    }
+    !matches!(after.watch, StopWatch::Hung(place, ticks) if after.shows_go_too_long(place, ticks))
 }
 
 /// Whether a robot has just begun to hang, while the sign shows go.
 fn hangs(view: &TimedView, leads: bool) -> bool {
     matches!(view.watch, StopWatch::Hung(place, 0)
         if view.shows_go_at(place) && view.setup.teams.leads(place) == leads)
-}
-
-fn leader_hangs(view: &TimedView) -> bool {
-    hangs(view, true)
-}
-
-fn follower_hangs(view: &TimedView) -> bool {
-    hangs(view, false)
 }

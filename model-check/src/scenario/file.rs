@@ -219,7 +219,6 @@ fn timed_property(name: &str) -> Result<PropertyId, String> {
     property_among(name, "timed property", PropertyId::all_timed())
 }
 
-/// The properties of these names.
 fn all_named(
     names: &[toml::Spanned<String>],
     parse: impl Fn(&str) -> Result<PropertyId, String>,

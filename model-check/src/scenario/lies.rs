@@ -45,7 +45,6 @@ impl LyingPart {
     }
 }
 
-/// Whether the robots that lie fit the rest of the scenario.
 pub(super) fn check(robots: &[RobotSetup], others: [(&'static str, bool); 4]) -> Result<(), Wrong> {
     const WHY: [&str; 4] = [
         "an insider says again whatever it has said, so its own messages need no such channel",

@@ -1,14 +1,10 @@
 //! What is wrong with a scenario file, and where.
 
-/// Where in a file something is wrong.
 pub(crate) enum Location {
-    /// At this offset.
     Offset(usize),
-    /// In the line of this key.
     Key(&'static str),
 }
 
-/// What is wrong, in words, and where.
 pub(crate) struct Wrong {
     pub(super) at: Location,
     pub(super) cause: String,
@@ -20,7 +16,6 @@ impl Wrong {
         Self { at, cause }
     }
 
-    /// In the line of this key.
     pub(crate) fn key(key: &'static str, cause: impl Into<String>) -> Self {
         Self::new(Location::Key(key), cause)
     }

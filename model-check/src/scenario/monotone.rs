@@ -6,7 +6,6 @@ use super::location::{Location, Wrong};
 use super::setup::{Bounds, ChannelSetup};
 use crate::properties::PropertyId;
 
-/// Whether a scenario's channel and what is said of it fit together.
 pub(super) fn check(
     channel: ChannelSetup,
     bounds: Bounds,

@@ -3,8 +3,6 @@
 //!
 //! The times are those of [`Limits`]: the timed model holds its figures against them.
 
-use std::fmt;
-
 use crossguard_protocol::{Config, Millis};
 use serde::Serialize;
 
@@ -27,18 +25,6 @@ pub struct Bound {
     /// How it follows from the settings, where `longest(t) = (t + delay_max) / (1 - drift)` and `delay` is the
     /// longest time that a message takes.
     pub derivation: &'static str,
-}
-
-impl fmt::Display for Bound {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            properties,
-            name,
-            ms,
-            ..
-        } = self;
-        write!(f, "{name}: at most {ms} ms ({properties})")
-    }
 }
 
 /// The bounds of robots with these settings, where a message takes at most `delay`.
@@ -136,7 +122,7 @@ mod tests {
             assert_eq!(bounds.len(), MEASURES.len() + 1);
             for bound in bounds {
                 let by_words = evaluate(bound.derivation, config.settings(), t_lost, 41);
-                assert_eq!(bound.ms, by_words, "{bound}");
+                assert_eq!(bound.ms, by_words, "{}", bound.name);
             }
         }
     }

@@ -7,7 +7,6 @@
 use crate::network::Transmission;
 use crate::transmission::PackedTransmission;
 
-/// How many messages may be under way at a time.
 const MAX_UNDER_WAY: usize = 20;
 
 /// A message under way to one receiver.
@@ -40,16 +39,12 @@ pub(super) struct TimedChannel([PackedTransmission; MAX_UNDER_WAY]);
 impl TimedChannel {
     pub(super) const EMPTY: Self = Self([PackedTransmission::EMPTY; MAX_UNDER_WAY]);
 
-    /// Everything under way.
     pub(super) fn flights(&self) -> impl Iterator<Item = Flight> {
         self.0.iter().copied().filter_map(Flight::of)
     }
 
     /// Sends a message. One that is still under way from before is from now on the one sent now: both
-    /// tell the receiver the same.
-    ///
-    /// # Panics
-    /// When more messages are under way than there is room for.
+    /// tell the receiver the same. Panics when more are under way than there is room for.
     pub(super) fn send(&mut self, transmission: Transmission) {
         let is_same = |slot: &PackedTransmission| slot.transmission() == Some(transmission);
         let place = (self.0.iter().position(is_same))
@@ -59,7 +54,6 @@ impl TimedChannel {
         self.0.sort_unstable();
     }
 
-    /// Takes away a message that has arrived.
     pub(super) fn take(&mut self, flight: Flight) {
         self.retain(|it| it != flight);
     }
@@ -77,7 +71,6 @@ impl TimedChannel {
         });
     }
 
-    /// The channel with every message replaced.
     pub(super) fn map(&self, mut replace: impl FnMut(u16) -> u16) -> Self {
         self.each(|mut it| {
             it.transmission.message = replace(it.transmission.message);

@@ -12,7 +12,6 @@ use crate::properties::timed_view::{RobotSteps, TimedSetup, TimedStepView, Timed
 use crate::scenario::MAX_ROBOTS;
 
 impl TimedModel {
-    /// Shows a state as the rules see it.
     pub(super) fn look<T>(&self, state: &TimedState, look: impl FnOnce(&TimedView) -> T) -> T {
         let nodes: SmallVec<[&Node; MAX_ROBOTS]> = self.nodes(state).collect();
         let timed = &self.timed;
@@ -31,7 +30,6 @@ impl TimedModel {
         })
     }
 
-    /// Shows a step as the rules see it.
     pub(super) fn look_at_step<T>(
         &self,
         before: &TimedState,

@@ -21,7 +21,6 @@ pub struct Figure {
     pub bound_ms: u32,
 }
 
-/// What is measured.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Measure {
     Roles,
@@ -39,7 +38,6 @@ pub(super) enum Measure {
 /// What there is to say about a measure.
 pub(super) struct MeasureClaim {
     measure: Measure,
-    /// The properties that the figure is about.
     pub(super) properties: &'static [PropertyId],
     pub(super) name: &'static str,
     /// The longest time by calculation, and how that follows from the settings.
@@ -102,7 +100,6 @@ impl Measure {
 }
 
 impl MeasureClaim {
-    /// The ids of its properties.
     pub(super) fn ids(&self) -> String {
         listed(self.properties.iter().copied())
     }

@@ -39,14 +39,12 @@ use crate::properties::timed_view::RobotSteps;
 use crate::robots::{Robots, TimedCause};
 use crate::scenario::{MAX_ROBOTS, Scenario};
 
-/// The effect of a robot's step.
 #[derive(Clone, Debug)]
 pub(super) struct TimedRobotStep {
     pub(super) after: u32,
     pub(super) sends: SmallVec<[u16; 2]>,
     /// What the sign shows from then on, if an output was for it.
     pub(super) sign: Option<Sign>,
-    /// What it reports to the application.
     pub(super) telling: Telling,
     /// What it has to do with the contact to a leader.
     pub(super) contact: ContactChange,
@@ -130,7 +128,6 @@ impl TimedModel {
         state
     }
 
-    /// The robots of a state.
     pub(super) fn nodes<'a>(
         &'a self,
         state: &'a TimedState,
@@ -141,7 +138,6 @@ impl TimedModel {
             .map(|&number| self.robots.nodes.value(number))
     }
 
-    /// A robot of a state, by its place.
     pub(super) fn node(&self, state: &TimedState, place: u8) -> &Node {
         self.robots.nodes.value(state.nodes[usize::from(place)])
     }

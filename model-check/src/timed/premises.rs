@@ -15,7 +15,6 @@ struct PremisePart {
 }
 
 impl Premises {
-    /// Of these properties, none met.
     pub(super) fn of(properties: &[PropertyId]) -> Self {
         let parts = properties.iter().flat_map(|&property| {
             let premise = property.timed_rule().map_or(&[][..], |rule| rule.premise);
@@ -32,12 +31,10 @@ impl Premises {
         self.0.iter_mut().filter(|part| !part.is_met)
     }
 
-    /// Whether all are met.
     pub(super) fn are_met(&self) -> bool {
         self.0.iter().all(|part| part.is_met)
     }
 
-    /// Adds what a state meets.
     pub(super) fn note(&mut self, state: &TimedView) {
         for part in self.open() {
             if let TimedPremise::State(is_met) = part.premise {
@@ -46,7 +43,6 @@ impl Premises {
         }
     }
 
-    /// Adds what a step meets.
     pub(super) fn note_step(&mut self, step: &TimedStepView) {
         for part in self.open() {
             if let TimedPremise::Step(is_met) = part.premise {
@@ -62,7 +58,6 @@ impl Premises {
         }
     }
 
-    /// Whether the premise of a property was met.
     pub(super) fn met(&self, property: PropertyId) -> bool {
         let mut parts = self.0.iter().filter(|part| part.property == property);
         parts.all(|part| part.is_met)

@@ -17,17 +17,14 @@ pub(super) struct Quiet {
 /// What a step of a robot has to do with its contact to a leader.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ContactChange {
-    /// It follows no leader.
     NoLeader,
     /// It follows from now on, and its offer had this `t_safety`.
     Joins(Millis),
-    /// It hears news of its leader.
     News,
     /// Time passes, and it gives its leader up.
     GivesUp,
     /// Time passes, and it follows no longer.
     Leaves,
-    /// Nothing.
     Unchanged,
 }
 

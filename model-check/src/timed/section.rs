@@ -23,7 +23,6 @@ pub(crate) struct Section {
     /// How late free endpoints look; `delay_max` where nothing is said. Another value is an endpoint
     /// that does not do what its settings say.
     late_ms: Option<u32>,
-    /// Whether clocks change their rates.
     #[serde(default)]
     rates: Rates,
     /// The longest that a robot hangs, on its own clock.
@@ -68,7 +67,6 @@ pub struct Timed {
     pub properties: Vec<PropertyId>,
     /// The robots that detect, each with its helpers.
     pub(super) teams: Teams,
-    /// The delay in ticks.
     pub(super) delay_ticks: u8,
 }
 
@@ -80,7 +78,6 @@ impl Timed {
     }
 }
 
-/// Why a key has no place in a timed scenario.
 pub(crate) fn no_place_for(key: &'static str) -> Wrong {
     let cause = format!(
         "'{key}' has no place in a timed scenario: 'delay_ms' bounds for how long messages are under way, messages get lost without number, a run begins with its one detection, and crashes are for good"
@@ -89,7 +86,6 @@ pub(crate) fn no_place_for(key: &'static str) -> Wrong {
 }
 
 impl Section {
-    /// The section's meaning in a scenario.
     pub(crate) fn check(
         self,
         settings: &Settings,

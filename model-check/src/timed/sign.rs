@@ -3,10 +3,8 @@
 
 use crossguard_protocol::{Millis, Output};
 
-/// What the sign shows.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Sign {
-    /// The pedestrian may not cross.
     Stop,
     /// The pedestrian may cross, for this long on the clock of the leader.
     Go(Millis),
@@ -34,7 +32,6 @@ impl Sign {
         }
     }
 
-    /// Whether it shows go.
     pub(super) const fn shows_go(self) -> bool {
         matches!(self, Self::Go(_))
     }

@@ -21,7 +21,6 @@ pub struct TimedState {
     pub(super) untold: [Millis; MAX_ROBOTS],
     /// Which clocks are fast, one bit each, where each keeps its rate for a whole run.
     pub(super) rates: Option<u8>,
-    /// What the pedestrian sees, of each team.
     pub(super) signs: [Sign; MAX_TEAMS],
     /// Since when a team's sign has shown go although a follower of it fell back for lack of contact, in
     /// ticks.
@@ -38,12 +37,10 @@ pub struct TimedState {
 }
 
 impl TimedState {
-    /// Whether the sign of a team shows go.
     pub(super) const fn shows_go(&self, team: usize) -> bool {
         self.signs[team].shows_go()
     }
 
-    /// Whether the signs of two teams show go.
     pub(super) fn both_go(&self) -> bool {
         self.signs.iter().all(|sign| sign.shows_go())
     }

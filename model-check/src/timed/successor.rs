@@ -32,7 +32,12 @@ impl TimedModel {
         match action {
             TimedAction::Tick(fast) => self.tick(&mut next, fast),
             TimedAction::Deliver(flight) => next.channel.take(flight),
-            TimedAction::Local(i, event) => spend(&mut next, i, event),
+            TimedAction::Local(i, event) => {
+                next.left.spend(event);
+                if matches!(event, Event::ManeuverFailed(_)) {
+                    next.watch = StopWatch::FollowerFailed(i, 0);
+                }
+            }
             TimedAction::Crash(i) => self.crash(&mut next, i),
             TimedAction::Hang(i) => {
                 next.left.hangs -= 1;
@@ -140,7 +145,6 @@ impl TimedModel {
         }
     }
 
-    /// A robot crashes. A leader's sign goes dark with it, and its application knows nothing any more.
     fn crash(&self, next: &mut TimedState, i: u8) {
         next.left.crashes -= 1;
         if self.timed.teams.leads(i) {
@@ -157,7 +161,6 @@ impl TimedModel {
         next.channel.forget_receiver(i);
     }
 
-    /// Stops the stop-watches.
     fn measure(&self, before: &TimedState, next: &mut TimedState, longest: &mut Longest) {
         let robots = || self.nodes(before).zip(self.nodes(next));
         let stops = |place| {
@@ -255,7 +258,6 @@ impl TimedModel {
         }
     }
 
-    /// Lets a robot take a step; `None` where the robot is down.
     pub(super) fn robot_step(
         &self,
         next: &mut TimedState,
@@ -282,7 +284,6 @@ impl TimedModel {
         Some(step)
     }
 
-    /// Sends messages to all robots that are within reach and up.
     fn send(&self, next: &mut TimedState, from: u8, messages: &[u16]) {
         let team = |place| self.timed.teams.team_of(place);
         let is_near = |to: &u8| next.watch != StopWatch::Apart || team(*to) == team(from);
@@ -317,17 +318,5 @@ impl TimedModel {
             let _ = self.robot_step(&mut at, i, cause, &mut RobotSteps::NONE.clone());
         }
         put_out
-    }
-}
-
-/// Takes an event off what may still happen, and starts the stop-watch of a failure.
-fn spend(next: &mut TimedState, place: u8, event: Event) {
-    match event {
-        Event::CommandManeuver { .. } => next.left.commands -= 1,
-        Event::ManeuverFailed(_) => {
-            next.left.disturbances -= 1;
-            next.watch = StopWatch::FollowerFailed(place, 0);
-        }
-        _ => {}
     }
 }

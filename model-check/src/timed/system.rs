@@ -10,7 +10,6 @@ use crate::numbered::Numbered;
 use crate::properties::PropertyId;
 use crate::properties::timed_view::{RobotSteps, TimedStepView, TimedView};
 
-/// What some states and their transitions show.
 #[derive(Clone)]
 pub(crate) struct Shown {
     pub(super) longest: Longest,
@@ -59,7 +58,7 @@ impl TransitionSystem for TimedModel {
                 self.look_at_step(state, &next, RobotSteps::NONE, note);
             }
             let label = Label {
-                is_marked: takes_no_time(action),
+                is_marked: !matches!(action, TimedAction::Tick(_)),
                 taken: Classes::NONE,
             };
             lead_to(next, label);
@@ -95,10 +94,6 @@ impl TransitionSystem for TimedModel {
     fn has_marks(&self) -> bool {
         true
     }
-}
-
-const fn takes_no_time(action: TimedAction) -> bool {
-    !matches!(action, TimedAction::Tick(_))
 }
 
 /// I12: a cycle of transitions in which no time passes would hold time up for ever. Takes away states that no such

@@ -2,7 +2,6 @@
 
 use crate::scenario::setup::{MAX_ROBOTS, RobotSetup};
 
-/// How many teams there may be.
 pub(crate) const MAX_TEAMS: usize = 2;
 
 /// Which robots belong together. Where two detect, each leads a team of its own, which is itself and the
@@ -32,12 +31,10 @@ impl Teams {
         Some(Self { leaders, of })
     }
 
-    /// The places of the leaders, team by team.
     pub(crate) fn leaders(&self) -> &[u8] {
         &self.leaders
     }
 
-    /// Whether the robot at `place` leads.
     pub(crate) fn leads(&self, place: u8) -> bool {
         self.leaders.contains(&place)
     }
@@ -47,7 +44,6 @@ impl Teams {
         self.of[place as usize]
     }
 
-    /// Whether there are two.
     pub(crate) const fn are_two(&self) -> bool {
         self.leaders.len() == 2
     }

@@ -36,7 +36,6 @@ pub(super) enum Reason {
 /// What one step of a robot reports to its application.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Telling {
-    /// What stays of what it knew before.
     keep: Told,
     add: Told,
     pub(super) reason: Reason,
@@ -103,7 +102,6 @@ impl Telling {
         self.reason = self.reason.max(reason);
     }
 
-    /// What the application knows after this report.
     pub(super) const fn after(self, before: Told) -> Told {
         Told {
             leases: before.leases & self.keep.leases | self.add.leases,

@@ -22,7 +22,6 @@ pub enum StopWatch {
 }
 
 impl StopWatch {
-    /// One tick later.
     pub(super) fn tick(&mut self) {
         match self {
             Self::Off | Self::Apart | Self::Near => {}

@@ -7,13 +7,10 @@ use crate::properties::PropertyId;
 use crate::replay::Replay;
 use crate::scenario::Scenario;
 
-/// The longest run that is followed.
 const STEPS_MAX: usize = 2_000;
 
-/// How many states a search looks at.
 const STATES_MAX: usize = 400_000;
 
-/// A scenario that comes with the kit.
 #[derive(Serialize)]
 struct ShippedScenario {
     name: &'static str,

@@ -31,16 +31,13 @@ pub struct Chances {
     pub breakdowns: bool,
 }
 
-/// What a step does for the crossing.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Part {
-    /// The plan goes on.
     Plan,
     /// Time passes: robots repeat what they said, and what was late arrives.
     Time,
     /// Nothing: something fails, ends early, or changes.
     Aside,
-    /// A robot crashes or hangs.
     Breakdown,
 }
 

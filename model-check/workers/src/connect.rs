@@ -63,7 +63,6 @@ const HELLO: usize = 8 + 16 + 8 + 8;
 /// How long a process that has connected may take to say what it checks.
 const TO_SAY: Duration = Duration::from_secs(5);
 
-/// What a process says first.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Hello {
     digest: u128,

@@ -25,7 +25,6 @@ pub(crate) struct Found {
     cargo: Cargo,
 }
 
-/// What is known of a state where it is found.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 struct Sighting {
     fingerprint: Fingerprint,
@@ -62,7 +61,6 @@ enum Cargo {
     Here(ModelState),
 }
 
-/// What the workers of a process have in common.
 pub(crate) struct Common {
     pub(crate) model: Model,
     /// Properties that states and steps can be judged by.
@@ -73,7 +71,6 @@ pub(crate) struct Common {
     pub(crate) counters: Counters,
 }
 
-/// How far the workers of a process are.
 #[derive(Default)]
 pub(crate) struct Counters {
     pub(crate) states: AtomicU64,
@@ -81,7 +78,6 @@ pub(crate) struct Counters {
     pub(crate) table_bytes: AtomicU64,
 }
 
-/// What one worker has found.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Told {
@@ -161,7 +157,6 @@ impl Explorer {
         }
     }
 
-    /// As timely routes it.
     fn owner(&self, sighting: Sighting) -> usize {
         usize::try_from(sighting.fingerprint.share() % self.peers as u64)
             .expect("less than the peers")
@@ -184,10 +179,8 @@ impl Explorer {
         }
     }
 
-    /// Takes in states that were found at this level.
-    ///
-    /// # Panics
-    /// Where one cannot be read: another process sent nonsense. The panic ends the check as incomplete.
+    /// Takes in states that were found at this level. Panics where one cannot be read, since another process sent
+    /// nonsense: that ends the check as incomplete.
     pub(crate) fn receive(&mut self, found: &mut Vec<Found>, level: u32) {
         self.table
             .fetch(found.iter().map(|found| found.sighting.fingerprint));
@@ -279,7 +272,6 @@ impl Explorer {
         counters.table_bytes.fetch_add(grown, Ordering::Relaxed);
     }
 
-    /// Adds the successors of a state to what was found.
     fn find_successors(&mut self, model: &Model, state: &ModelState, from: Hint) {
         let mut actions = std::mem::take(&mut self.actions);
         actions.clear();
@@ -333,7 +325,6 @@ impl Explorer {
         }
     }
 
-    /// What it has found until now.
     pub(crate) fn told(&self) -> Told {
         let judged = self.common.judged.iter();
         Told {

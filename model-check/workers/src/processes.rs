@@ -22,11 +22,9 @@ use crate::hosts::Cluster;
 use crate::report::Progress;
 use crate::{Options, WorkersError};
 
-/// What timely starts the workers from.
 struct Setup {
     builders: Vec<AllocatorBuilder>,
     others: Box<dyn Any + Send>,
-    /// The connections to the other processes.
     streams: Vec<TcpStream>,
 }
 

@@ -111,7 +111,6 @@ impl Side {
     }
 }
 
-/// What is kept of a state.
 #[derive(Clone, Copy, Debug)]
 struct State {
     fingerprint: Fingerprint,
@@ -162,7 +161,6 @@ impl Entry {
         (self.0 >> Self::LEVEL) as u8
     }
 
-    /// The state, of this segment and of the bucket that begins with this half of a fingerprint.
     #[expect(clippy::cast_possible_truncation, reason = "28 and 42 bits are meant")]
     const fn state(self, segment: usize, begin: u64) -> State {
         let half = begin + (self.0 >> Self::REST) as u64;
@@ -228,7 +226,6 @@ impl Bucket {
     }
 }
 
-/// Buckets in blocks.
 struct Buckets(Vec<Box<[Bucket]>>);
 
 impl Buckets {
@@ -364,7 +361,6 @@ impl Segment {
         }
     }
 
-    /// All states, each with its side.
     fn states(&self) -> impl Iterator<Item = (State, Side)> {
         let buckets = self.buckets.iter().enumerate();
         buckets.flat_map(move |(at, bucket)| {
@@ -375,7 +371,6 @@ impl Segment {
     }
 }
 
-/// All states that one worker owns.
 pub(crate) struct Table {
     segments: Vec<Segment>,
 }
@@ -420,7 +415,6 @@ impl Table {
             .collect()
     }
 
-    /// Bytes that the table takes.
     pub(crate) fn bytes(&self) -> usize {
         let buckets = self.segments.iter().map(|segment| segment.buckets.len());
         buckets.sum::<usize>() * size_of::<Bucket>()

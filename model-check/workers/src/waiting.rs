@@ -7,7 +7,6 @@ use crossguard_model_check::model::ModelState;
 
 use crate::table::Hint;
 
-/// A state that waits, with the hint at it.
 pub(crate) type Waiting = (ModelState, Hint);
 
 /// How many states are kept as they are.
@@ -67,7 +66,6 @@ impl Queue {
         }
     }
 
-    /// Writes behind what is still needed, and says where.
     fn write(&mut self, states: &[u8]) -> io::Result<u64> {
         let needed = self.written.iter().rev().find_map(|written| match written {
             Written::File { begin, len } => Some(begin + *len as u64),
