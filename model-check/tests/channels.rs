@@ -151,6 +151,10 @@ fn delay(action: &Action) -> bool {
     matches!(action, Action::Delay(_))
 }
 
+fn lose(action: &Action) -> bool {
+    matches!(action, Action::Lose(_))
+}
+
 fn arrives(how: Delivery) -> impl Fn(&Action) -> bool {
     move |action| matches!(action, Action::Deliver { transmission, how: h } if transmission.to == 1 && *h == how)
 }
@@ -171,10 +175,7 @@ fn a_message_to_a_robot_that_is_down_arrives_after_its_reboot_or_never() {
     let mut run = Run::of(reboot(false));
     run.take(|action| *action == Action::Crash(1)).take(detect);
     assert_eq!(run.next(arrives(Delivery::AtOnce)), None);
-    assert!(
-        run.next(|action| matches!(action, Action::Lose(_)))
-            .is_some()
-    );
+    assert!(run.next(lose).is_some());
     run.take(delay).take(|action| *action == Action::Restart(1));
     run.take(arrives(Delivery::Late));
     assert!(run.is_offering());
@@ -205,23 +206,15 @@ fn a_robot_that_hangs_does_and_hears_nothing_until_it_goes_on() {
     assert_eq!(run.next(arrives(Delivery::Late)), None);
     // It hangs once more, with a part in a session.
     run.take(resume(1)).take(arrives(Delivery::Late));
-    run.take(|action| matches!(action, Action::Lose(_)));
+    run.take(lose);
     assert!(run.is_offering());
     run.take(hang(1));
     assert!(run.state.hangs(1) && run.is_offering(), "its state stays");
-    assert_eq!(
-        run.next(|action| matches!(action, Action::Expire(1, _))),
-        None
-    );
-    assert!(
-        run.next(|action| matches!(action, Action::Expire(0, _)))
-            .is_some()
-    );
+    let expire = |i| move |action: &Action| matches!(action, Action::Expire(it, _) if *it == i);
+    assert_eq!(run.next(expire(1)), None);
+    assert!(run.next(expire(0)).is_some());
     run.take(resume(1));
-    assert!(
-        run.next(|action| matches!(action, Action::Expire(1, _)))
-            .is_some()
-    );
+    assert!(run.next(expire(1)).is_some());
     assert_eq!(run.next(hang(1)), None, "the bound is used up");
 }
 

@@ -2,10 +2,10 @@
 //! almost that long.
 
 use crossguard_protocol::{
-    Answer, Command, Config, Confirmation, Coordination, Decimetres, Event, Heartbeat, HelpRequest,
-    Input, Millis, OfferNumber, Output, Outputs, Phase, Place, Progress, Ram, Report, RequestId,
-    Rmcm, Robot, SessionId, SessionNumber, StationId, TaskSet, TaskType, UniqueNumber, Urgency,
-    Verdict,
+    Answer, Command, Config, Confirmation, Coordination, Decimetres, Event, Farewell, Heartbeat,
+    HelpRequest, Input, Millis, OfferNumber, Output, Outputs, Phase, Place, Progress, Ram, Report,
+    RequestId, Rmcm, Robot, SessionId, SessionNumber, StationId, TaskSet, TaskType, UniqueNumber,
+    Urgency, Verdict,
 };
 
 const HONEST: StationId = StationId(2);
@@ -53,20 +53,23 @@ impl Honest {
     }
 
     fn hears(&mut self, coordination: Coordination) -> Outputs {
-        self.hears_of(LIAR, coordination)
+        self.hears_of(LIAR, coordination, None)
     }
 
-    fn hears_of(&mut self, station: StationId, coordination: Coordination) -> Outputs {
+    fn hears_of(
+        &mut self,
+        station: StationId,
+        coordination: Coordination,
+        farewell: Option<Farewell>,
+    ) -> Outputs {
         let ram = Ram {
             station,
             coordination,
-            farewell: None,
+            farewell,
             on_duty: false,
         };
-        self.take(Input::Ram {
-            ram,
-            distance: Decimetres(0),
-        })
+        let distance = Decimetres(0);
+        self.take(Input::Ram { ram, distance })
     }
 
     fn elapse(&mut self) -> Outputs {
@@ -217,16 +220,13 @@ fn assert_lasts(can: &str, took_ms: u32) {
     let at_most_ms = at_most_ms(can).expect("it ends");
     println!("{can}: {took_ms} ms, at most {at_most_ms} ms");
     assert!(took_ms <= at_most_ms, "{can}: {took_ms} > {at_most_ms}");
-    assert!(
-        took_ms + SLACK_MS >= at_most_ms,
-        "{can}: {took_ms} << {at_most_ms}"
-    );
+    let is_tight = took_ms + SLACK_MS >= at_most_ms;
+    assert!(is_tight, "{can}: {took_ms} << {at_most_ms}");
 }
 
 fn closes(_: &Robot, outputs: &Outputs) -> bool {
-    outputs
-        .iter()
-        .any(|it| matches!(it, Output::CorridorClosed(_)))
+    let closes = |it: &Output| matches!(it, Output::CorridorClosed(_));
+    outputs.iter().any(closes)
 }
 
 fn is_idle(robot: &Robot, _: &Outputs) -> bool {
@@ -266,11 +266,8 @@ fn commanded() -> Honest {
         task: TASK,
     };
     let outputs = honest.take(Input::Rmcm(Rmcm::Command(command)));
-    assert!(
-        outputs
-            .iter()
-            .any(|it| matches!(it, Output::StartManeuver(_)))
-    );
+    let starts = |it: &Output| matches!(it, Output::StartManeuver(_));
+    assert!(outputs.iter().any(starts));
     honest
 }
 
@@ -283,17 +280,8 @@ fn guards(honest: &mut Honest) {
 fn offers_and_leaves(honest: &mut Honest) {
     offers(honest);
     let session = honest.robot.session().unwrap();
-    let farewell = crossguard_protocol::Farewell::Left(session, OfferNumber(number(0)));
-    let ram = Ram {
-        station: LIAR,
-        coordination: Coordination::None,
-        farewell: Some(farewell),
-        on_duty: false,
-    };
-    honest.take(Input::Ram {
-        ram,
-        distance: Decimetres(0),
-    });
+    let farewell = Farewell::Left(session, OfferNumber(number(0)));
+    honest.hears_of(LIAR, Coordination::None, Some(farewell));
 }
 
 fn asks_on(honest: &mut Honest) {
@@ -336,10 +324,8 @@ fn each_lie_lasts_no_longer_than_its_row_says_and_almost_that_long() {
 
 #[test]
 fn a_bystander_that_leads_there_ends_every_request() {
-    assert_eq!(
-        at_most_ms("leads at the same place, and goes before a request or a session there"),
-        None
-    );
+    let can = "leads at the same place, and goes before a request or a session there";
+    assert_eq!(at_most_ms(can), None);
     for session in 0..5 {
         let mut honest = Honest::asks();
         let took_ms = honest.until(is_idle, |honest| {
@@ -355,7 +341,7 @@ fn a_bystander_that_leads_there_ends_every_request() {
 fn a_bystander_with_ever_new_sessions_hides_no_leader() {
     let other_leads = |honest: &mut Honest| {
         let coordination = leads(beat(honest.now_ms), None, number(0), Urgency::Medium);
-        honest.hears_of(StationId(1), coordination);
+        honest.hears_of(StationId(1), coordination, None);
     };
     let yields = |robot: &Robot, _: &Outputs| matches!(robot.phase(), Phase::Leading(it) if it.yields_to.is_some());
     for with_liar in [false, true] {

@@ -92,10 +92,7 @@ fn each_weakening_breaks_its_rule_alone() {
     for &(street, weaken, rule) in WEAKENINGS {
         let found = explore(street, weaken, &Options::default(), &mut |_| ());
         let broken: Vec<_> = found.broken.iter().map(|(rule, _)| *rule).collect();
-        assert!(
-            broken == [rule] && found.cut_off.is_none(),
-            "{rule:?}: {broken:?}"
-        );
+        assert_eq!((broken, found.cut_off), (vec![rule], None), "{rule:?}");
     }
     let is_broken = |rule: &Rule| WEAKENINGS.iter().any(|(.., broken)| broken == rule);
     assert!(Rule::ALL.iter().all(is_broken));
@@ -105,26 +102,17 @@ fn each_weakening_breaks_its_rule_alone() {
 fn a_street_that_is_cut_off_says_so() {
     let stop = Stop::default();
     stop.request();
+    let with = |stop, states_max, time_max| Options {
+        stop,
+        states_max,
+        time_max,
+        ..Options::default()
+    };
     let cases = [
+        (with(stop, None, None), CutOff::Stopped),
+        (with(Stop::default(), Some(100), None), CutOff::StateLimit),
         (
-            Options {
-                stop,
-                ..Options::default()
-            },
-            CutOff::Stopped,
-        ),
-        (
-            Options {
-                states_max: Some(100),
-                ..Options::default()
-            },
-            CutOff::StateLimit,
-        ),
-        (
-            Options {
-                time_max: Some(Duration::ZERO),
-                ..Options::default()
-            },
+            with(Stop::default(), None, Some(Duration::ZERO)),
             CutOff::TimeLimit,
         ),
     ];

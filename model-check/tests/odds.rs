@@ -28,8 +28,10 @@ fn of(odds: &LossOdds, milestone: Milestone) -> &MilestoneOdds {
     odds.milestone(milestone).unwrap()
 }
 
-fn encloses(enclosure: Enclosure, value: f64, tolerance: f64) -> bool {
-    enclosure.lower - tolerance <= value && value <= enclosure.upper + tolerance
+#[track_caller]
+fn assert_encloses(found: Enclosure, by_hand: f64, tolerance: f64) {
+    let is_inside = found.lower - tolerance <= by_hand && by_hand <= found.upper + tolerance;
+    assert!(is_inside, "{found}, not {by_hand}");
 }
 
 #[test]
@@ -39,13 +41,8 @@ fn without_loss_everything_happens_for_certain_and_at_once() {
         let [odds] = &odds_of(model, &[0.0])[..] else {
             panic!("one loss rate");
         };
-        assert_eq!(
-            odds.crossing,
-            Enclosure {
-                lower: 1.0,
-                upper: 1.0
-            }
-        );
+        let (lower, upper) = (1.0, 1.0);
+        assert_eq!(odds.crossing, Enclosure { lower, upper });
         // Request, offer, list of followers, echo; command and acknowledgement: a delay each.
         let times = [
             (Milestone::Team, 4 * 50),
@@ -55,23 +52,13 @@ fn without_loss_everything_happens_for_certain_and_at_once() {
         ];
         for (milestone, ms) in times {
             let odds = of(odds, milestone);
-            assert!(
-                encloses(odds.probability, 1.0, 0.0),
-                "{milestone:?}: {}",
-                odds.probability
-            );
-            assert!(
-                odds.quantiles
-                    .iter()
-                    .all(|quantile| quantile.ms == Some(ms)),
-                "{odds:?}"
-            );
+            assert_encloses(odds.probability, 1.0, 0.0);
+            let mut quantiles = odds.quantiles.iter();
+            assert!(quantiles.all(|it| it.ms == Some(ms)), "{odds:?}");
         }
         for milestone in [Milestone::Interrupted, Milestone::FellBack] {
-            assert!(
-                of(odds, milestone).probability.upper <= 0.0,
-                "{milestone:?}"
-            );
+            let probability = of(odds, milestone).probability;
+            assert!(probability.upper <= 0.0, "{milestone:?}");
         }
     }
 }
@@ -89,19 +76,10 @@ fn a_command_arrives_as_often_as_the_geometric_series_of_its_repetitions_says() 
             let received = of(odds, Milestone::Received);
             // The first try takes the delay, each other one comes t_ack later.
             for repeats in 0..=i32::from(n_ack) {
-                let by_hand = 1.0 - loss.powi(repeats + 1);
                 let ms = 50 + 600 * u64::try_from(repeats).unwrap();
-                let within = received.within(ms);
-                assert!(
-                    encloses(within, by_hand, 1e-8),
-                    "{n_ack} {loss} {ms}: {within}, not {by_hand}"
-                );
+                assert_encloses(received.within(ms), 1.0 - loss.powi(repeats + 1), 1e-8);
                 // And no sooner than that.
-                let just_before = received.within(ms - 1);
-                assert!(
-                    encloses(just_before, 1.0 - loss.powi(repeats), 1e-8),
-                    "{just_before}"
-                );
+                assert_encloses(received.within(ms - 1), 1.0 - loss.powi(repeats), 1e-8);
             }
             assert!(received.probability.width() < 1e-8);
         }
@@ -116,10 +94,7 @@ fn a_pair_is_gathered_in_four_messages_of_which_each_is_repeated_until_it_arrive
         let by_hand = 4.0 * 50.0 + 4.0 * 100.0 * loss / (1.0 - loss);
         let mean = of(odds, Milestone::Team).mean_ms.unwrap();
         // By t_help of 10 s the request may have ended, and an offer by 3 s, which happens hardly ever.
-        assert!(
-            encloses(mean, by_hand, 0.01),
-            "{loss}: {mean}, not {by_hand}"
-        );
+        assert_encloses(mean, by_hand, 0.01);
         let deviation = of(odds, Milestone::Team).deviation_ms.unwrap();
         let by_hand = 100.0 * (4.0 * loss).sqrt() / (1.0 - loss);
         assert!(
@@ -147,10 +122,10 @@ fn a_leader_that_does_not_repeat_its_command_is_told_by_the_numbers() {
     let weak = OddsModel::with_rules(setup(Config::default(), 1), Unrepeating);
     let weak = odds_of(weak, &[0.3]);
     let received = of(&weak[0], Milestone::Received).probability;
-    assert!(encloses(received, 0.7, 1e-8), "{received}");
+    assert_encloses(received, 0.7, 1e-8);
     let sound = pair(&[0.3]);
     let sound = of(&sound[0], Milestone::Received).probability;
-    assert!(encloses(sound, 1.0 - 0.3_f64.powi(4), 1e-8), "{sound}");
+    assert_encloses(sound, 1.0 - 0.3_f64.powi(4), 1e-8);
 }
 
 #[test]
@@ -159,18 +134,10 @@ fn bursts_interrupt_where_as_many_single_losses_do_not() {
     let grid = TimeGrid::coarsest(&config, DELAY);
     let bursty = OddsSetup::new(config, 1, grid, Some(Millis(500)), HOLD).unwrap();
     let bursty = odds_of(OddsModel::new(bursty), &[0.1]);
-    let single = pair(&[0.1]);
     let interrupted = |odds: &[LossOdds]| of(&odds[0], Milestone::Interrupted).probability;
-    assert!(
-        interrupted(&bursty).lower > 0.05,
-        "{}",
-        interrupted(&bursty)
-    );
-    assert!(
-        interrupted(&single).upper < 1e-6,
-        "{}",
-        interrupted(&single)
-    );
+    let (bursty, single) = (interrupted(&bursty), interrupted(&pair(&[0.1])));
+    assert!(bursty.lower > 0.05, "{bursty}");
+    assert!(single.upper < 1e-6, "{single}");
 }
 
 #[test]
@@ -198,9 +165,5 @@ fn links_one_at_a_time_come_to_what_all_together_come_to() {
         assert!(difference < 2e-3, "{milestone:?}: {joint} and {one}");
     }
     let received = of(&joint[0], Milestone::Received).probability;
-    let by_hand = (1.0 - 0.3_f64.powi(2)).powi(2);
-    assert!(
-        encloses(received, by_hand, 1e-4),
-        "{received}, not {by_hand}"
-    );
+    assert_encloses(received, (1.0 - 0.3_f64.powi(2)).powi(2), 1e-4);
 }

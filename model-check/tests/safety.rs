@@ -47,16 +47,10 @@ fn runs_alone_are_left_out_and_that_is_said() {
     let [safety, whole] = both("stable", || Protocol);
     let left_out = assert_part(&safety, &whole);
     assert!(left_out.contains(&"L7".to_owned()) && left_out.contains(&"L3".to_owned()));
-    assert!(
-        left_out.iter().all(|id| id.starts_with('L')),
-        "{left_out:?}"
-    );
-    let said = |report: &ScenarioReport| {
-        report
-            .assumptions
-            .join("\n")
-            .contains("runs were not judged")
-    };
+    let is_of_runs = left_out.iter().all(|id| id.starts_with('L'));
+    assert!(is_of_runs, "{left_out:?}");
+    let of_runs = "runs were not judged";
+    let said = |report: &ScenarioReport| report.assumptions.join("\n").contains(of_runs);
     assert!(said(&safety) && !said(&whole));
 }
 

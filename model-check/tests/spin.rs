@@ -41,10 +41,8 @@ fn can_run(test: &str) -> bool {
         .find(|program| !is_installed(program));
     if let Some(program) = missing {
         // Not by eprintln!, which the test runner would capture.
-        let _ = writeln!(
-            std::io::stderr(),
-            "SKIPPED {test}: {program} is not installed"
-        );
+        let skipped = format!("SKIPPED {test}: {program} is not installed");
+        let _ = writeln!(std::io::stderr(), "{skipped}");
     }
     missing.is_none()
 }
@@ -96,16 +94,8 @@ impl Verification {
         let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("spin/pair.pml");
         let mut spin = Command::new("spin");
         self.call(spin.arg("-a").args(&self.macros).arg(model));
-        let gcc = [
-            optimize,
-            "-w",
-            "-DSAFETY",
-            "-DNOREDUCE",
-            "-o",
-            "pan",
-            "pan.c",
-        ];
-        self.call(Command::new("gcc").args(gcc));
+        let gcc = ["-w", "-DSAFETY", "-DNOREDUCE", "-o", "pan", "pan.c"];
+        self.call(Command::new("gcc").arg(optimize).args(gcc));
         let printed = self.call(Command::new("./pan").args(["-m40000", "-n", "-c0"]));
         std::fs::remove_dir_all(&self.folder).unwrap();
         printed
@@ -137,11 +127,8 @@ fn says(printed: &str, what: &str, id: PropertyId) -> bool {
 
 fn assert_exhaustive(printed: &str) {
     assert!(printed.contains("Full statespace search"), "{printed}");
-    for limit in [
-        "max search depth too small",
-        "Search not completed",
-        "out of memory",
-    ] {
+    let depth = "max search depth too small";
+    for limit in [depth, "Search not completed", "out of memory"] {
         assert!(!printed.contains(limit), "{printed}");
     }
 }
@@ -204,10 +191,8 @@ fn assert_needed(rule: &str, scenario: &Scenario, properties: &[PropertyId]) {
         .without(rule, properties)
         .run("-O0");
     for &id in properties {
-        assert!(
-            says(&printed, "violated", id),
-            "{rule}: {id} should break: {printed}"
-        );
+        let breaks = says(&printed, "violated", id);
+        assert!(breaks, "{rule}: {id} should break: {printed}");
     }
 }
 
@@ -265,9 +250,8 @@ fn assert_same_sights(printed: &str, scenario: Scenario) -> usize {
     let in_spin: BTreeSet<u32> = printed.lines().filter_map(number).collect();
     let in_kit = sights(&Model::new(scenario));
     let only = |a: &BTreeSet<u32>, b: &BTreeSet<u32>| -> Vec<String> {
-        a.difference(b)
-            .map(|sight| format!("{sight:#034b}"))
-            .collect()
+        let only = a.difference(b);
+        only.map(|sight| format!("{sight:#034b}")).collect()
     };
     let (spin_alone, kit_alone) = (only(&in_spin, &in_kit), only(&in_kit, &in_spin));
     assert!(

@@ -161,10 +161,8 @@ fn a_lease_that_is_longer_than_the_followers_safety_timer_allows_breaks_the_theo
 fn an_offer_whose_safety_timer_is_shorter_than_the_lease_allows_is_not_taken() {
     let (violated, report) = violated(sound_pair(), short_of_safety());
     assert_eq!(violated, Vec::<String>::new());
-    assert_eq!(
-        report.verdict("I10-premise"),
-        Some(CheckVerdict::Unreachable)
-    );
+    let premise = report.verdict("I10-premise");
+    assert_eq!(premise, Some(CheckVerdict::Unreachable));
 }
 
 /// A follower waits longer for its leader than the team's settings say.

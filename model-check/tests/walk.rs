@@ -45,13 +45,16 @@ fn what_may_happen_is_what_the_model_lets_happen() {
         steps.push(walk.possible[choice].clone());
         state = model.successor(&state, actions[choice]).unwrap().0;
         let names = Names::of(model.scenario());
-        let robots: Vec<_> = model.nodes(&state).map(|it| names.tell(it)).collect();
         let walk = Walk::along(model.scenario().clone(), &steps);
-        let words = walk.frames.last().unwrap().robots.iter();
-        assert_eq!(
-            words.map(|robot| robot.words.clone()).collect::<Vec<_>>(),
-            robots
-        );
+        let words = walk
+            .frames
+            .last()
+            .unwrap()
+            .robots
+            .iter()
+            .map(|it| &it.words);
+        let told: Vec<_> = model.nodes(&state).map(|it| names.tell(it)).collect();
+        assert!(words.eq(&told), "{told:?}");
     }
 }
 
@@ -62,15 +65,9 @@ fn a_lost_request_is_on_air_and_then_gone() {
     assert_eq!(frame.robots[0].state, "HelpRequested");
     assert_eq!(frame.robots[0].role, "requester");
     assert_eq!((frame.on_air.len(), frame.on_air[0].to), (1, 1));
-    let lost = walk.possible.iter().find(|step| {
-        matches!(
-            step.place,
-            ChartPlace::Between {
-                fate: Fate::Lost,
-                ..
-            }
-        )
-    });
+    let is_lost =
+        |place: ChartPlace| matches!(place, ChartPlace::Between { fate, .. } if fate == Fate::Lost);
+    let lost = walk.possible.iter().find(|step| is_lost(step.place));
     let steps = [steps, vec![lost.unwrap().clone()]].concat();
     let frame = Walk::along(scenario("pair"), &steps).frames.pop().unwrap();
     assert!(frame.on_air.is_empty());
@@ -126,10 +123,8 @@ fn the_search_finds_a_shortest_way_and_the_walk_gets_there() {
         let frame = walk.frames.last().unwrap();
         assert_eq!(frame.person, PersonFrame::OnRoad(Some(0)));
         assert!(frame.robots[0].shows_go);
-        assert_eq!(
-            (frame.robots[1].guards, frame.robots[1].escorts),
-            (true, escorts)
-        );
+        let other = &frame.robots[1];
+        assert_eq!((other.guards, other.escorts), (true, escorts));
         assert!(frame.met.contains(&"W1"), "{:?}", frame.met);
     }
 }
