@@ -70,11 +70,8 @@ fn saying_and_hearing_a_message_allocates_nothing() {
 
 #[test]
 fn a_ram_of_a_view_and_a_state_allocates_nothing() {
-    let (identifiers, state, view) = (
-        Identifiers::default(),
-        samples::state(),
-        samples::follower_view(),
-    );
+    let identifiers = Identifiers::default();
+    let (state, view) = (samples::state(), samples::follower_view());
     let available = Availability::Available;
     let mapping = measure(|| {
         let ram = ram_from(&identifiers, &state, &view, available, 0, true).unwrap();

@@ -27,16 +27,10 @@ fn every_vector_comes_back_bit_for_bit() {
     for (name, identifiers, octets) in all {
         let received = ItsMessage::decode(&identifiers, &octets).expect(name);
         assert_eq!(received.extended, 0, "{name}");
-        assert_eq!(
-            received.message.encode(&identifiers).unwrap(),
-            octets,
-            "{name}"
-        );
-        assert_eq!(
-            received.message.header().station_id.0,
-            123_456_789,
-            "{name}"
-        );
+        let again = received.message.encode(&identifiers).unwrap();
+        assert_eq!(again, octets, "{name}");
+        let sender = received.message.header().station_id.0;
+        assert_eq!(sender, 123_456_789, "{name}");
     }
 }
 
@@ -72,10 +66,8 @@ fn every_vector_has_the_values_that_it_was_made_of() {
     for row in rows.filter(|row| !row.starts_with('#')) {
         let cells: Vec<_> = row.splitn(3, ' ').collect();
         let expected: Value = serde_json::from_str(cells[2]).expect(row);
-        let mut named = all
-            .iter()
-            .filter(|(name, _)| name.starts_with(cells[0]))
-            .peekable();
+        let named = all.iter().filter(|(name, _)| name.starts_with(cells[0]));
+        let mut named = named.peekable();
         assert!(named.peek().is_some(), "{row}");
         for (name, json) in named {
             assert_eq!(json.pointer(cells[1]), Some(&expected), "{name}: {row}");
@@ -124,49 +116,35 @@ fn road_users_are_where_their_messages_say() {
     let now = 694_694_401_000;
     let user = |name| message(name).road_users(now)[0];
     let car = user("C1");
-    assert_eq!(
-        (car.identity, car.kind),
-        (Identity::Station(123_456_789), Kind::Vehicle)
-    );
+    let station = Identity::Station(123_456_789);
+    assert_eq!((car.identity, car.kind), (station, Kind::Vehicle));
     assert_eq!((car.speed, car.heading), (Some(13.89), Some(90.0)));
     assert_eq!(car.position.latitude, Some(48.765_432_1));
     for (name, cardinality) in [("V1", 1), ("V3", 5), ("W1", 1), ("W6", 5)] {
-        let pedestrian = user(name);
-        assert_eq!(
-            (pedestrian.kind, pedestrian.cardinality),
-            (Kind::Vru, cardinality)
-        );
-        assert_eq!(pedestrian.speed, Some(1.39));
+        let user = user(name);
+        assert_eq!((user.kind, user.cardinality), (Kind::Vru, cardinality));
+        assert_eq!(user.speed, Some(1.39));
     }
-    let cluster = Identity::Object {
+    let of_it = |number| Identity::Object {
         by: 123_456_789,
-        number: 7,
+        number,
     };
-    assert_eq!(user("V3").identity, cluster);
+    assert_eq!(user("V3").identity, of_it(7));
     assert_eq!(user("V3").position, car.position);
     // Its shape is 10 cm east and 20 cm south of the sender.
     let off = distance(&user("V8").position, &car.position);
     assert_eq!(off, Decimetres(2));
     assert!(message("P1").road_users(now).is_empty());
     let object = user("P2");
-    let identity = Identity::Object {
-        by: 123_456_789,
-        number: 5,
-    };
-    assert_eq!((object.identity, object.kind), (identity, Kind::Vehicle));
+    assert_eq!((object.identity, object.kind), (of_it(5), Kind::Vehicle));
     assert_eq!(object.station_type, Some(5));
     assert_eq!(object.measured_its, now - 10);
     // 10 m east and 5 m south of the sender.
-    assert_eq!(
-        distance(&object.position, &car.position),
-        Decimetres(112),
-        "{object:?}"
-    );
+    let off = distance(&object.position, &car.position);
+    assert_eq!(off, Decimetres(112), "{object:?}");
     assert_eq!(object.heading.map(f64::round), Some(153.0));
-    assert_eq!(
-        object.speed.map(|speed| (speed * 100.0).round()),
-        Some(224.0)
-    );
+    let speed_cmps = object.speed.map(|speed| (speed * 100.0).round());
+    assert_eq!(speed_cmps, Some(224.0));
 }
 
 #[test]

@@ -109,7 +109,8 @@ fn what_contradicts_itself_is_not_said() {
     };
     let day = Millis::MAX_TIMER;
     let longer = Millis(day.0 + 1);
-    for (name, view, expected) in [
+    #[rustfmt::skip]
+    let cases = [
         ("a report", samples::follower_view(), Ok(())),
         ("a duty without a part in a session", on_duty, Ok(())),
         ("16 followers are asked for", asks(16), Ok(())),
@@ -121,55 +122,28 @@ fn what_contradicts_itself_is_not_said() {
         ("safety later", offers(longer), Err(timeout(longer))),
         ("two followers", followers(&[1, 2]), Ok(())),
         ("no follower", followers(&[]), Err(ViewError::NoFollowers)),
-        (
-            "a follower twice",
-            followers(&[1, 2, 1]),
-            Err(ViewError::NamedTwice(StationId(1))),
-        ),
-        (
-            "a leader that follows itself",
-            followers(&[1, LEADER.0]),
-            Err(ViewError::OwnFollower(LEADER)),
-        ),
-        (
-            "farewell to another session",
-            has_left(StationId(9)),
-            Ok(()),
-        ),
-        (
-            "farewell to the present session",
-            has_left(LEADER),
-            Err(ViewError::FarewellToPresent(samples::session())),
-        ),
-        (
-            "an own session that was left",
-            has_left(FOLLOWER),
-            Err(ViewError::OwnSession(FOLLOWER)),
-        ),
-        (
-            "the leader's execution limit, in a report",
-            execution_limit,
-            Err(ViewError::ExecutionLimit),
-        ),
-    ] {
+        ("a follower twice", followers(&[1, 2, 1]), Err(ViewError::NamedTwice(StationId(1)))),
+        ("a leader that follows itself", followers(&[1, LEADER.0]), Err(ViewError::OwnFollower(LEADER))),
+        ("farewell to another session", has_left(StationId(9)), Ok(())),
+        ("farewell to the present session", has_left(LEADER), Err(ViewError::FarewellToPresent(samples::session()))),
+        ("an own session that was left", has_left(FOLLOWER), Err(ViewError::OwnSession(FOLLOWER))),
+        ("the leader's execution limit, in a report", execution_limit, Err(ViewError::ExecutionLimit)),
+    ];
+    for (name, view, expected) in cases {
         let said = ram(&view);
         assert_eq!(said.map(drop), expected, "{name}");
         let Ok(said) = said else { continue };
         assert_eq!(view_of_ram(&said), Ok(view), "{name}");
-        let container = said
-            .ram
-            .ram_parameters
-            .robot_leader_follower_operation_container;
+        let parameters = said.ram.ram_parameters;
+        let container = parameters.robot_leader_follower_operation_container;
         let is_part = view.coordination != Coordination::None || view.farewell.is_some();
         assert_eq!(container.is_some(), is_part, "{name}");
     }
 }
 
 fn leader_role(ram: &mut RAM) -> &mut LeaderRole {
-    let operation = &mut ram
-        .ram
-        .ram_parameters
-        .robot_leader_follower_operation_container;
+    let parameters = &mut ram.ram.ram_parameters;
+    let operation = &mut parameters.robot_leader_follower_operation_container;
     match operation.as_mut().and_then(|it| it.role.as_mut()) {
         Some(SessionRole::Leader(role)) => role,
         other => panic!("{other:?} is no leader"),
@@ -189,6 +163,10 @@ type Forged<S, M> = (&'static str, S, fn(&mut M), ViewError);
 #[test]
 fn a_forged_ram_is_refused() {
     let progression = |found, expected| ViewError::TaskProgression { found, expected };
+    let not_own = ViewError::NotOwnSession {
+        sender: StationId(5),
+        session: samples::session(),
+    };
     let cases: [Forged<Ram, RAM>; 7] = [
         (
             "a follower of itself",
@@ -200,10 +178,7 @@ fn a_forged_ram_is_refused() {
             "a leader of the session of another",
             leads(&[1, 2], Place(1)),
             |ram| ram.header.station_id.0 = 5,
-            ViewError::NotOwnSession {
-                sender: StationId(5),
-                session: samples::session(),
-            },
+            not_own,
         ),
         (
             "a follower that is named twice",
@@ -328,34 +303,15 @@ fn the_commands_of_a_message_belong_together() {
         ..parameters
     };
     let crowd: Vec<_> = (1..=17).map(|to| (other(to), parameters)).collect();
+    #[rustfmt::skip]
     let cases: [(&str, &Commands, Result<(), ViewError>); 7] = [
-        (
-            "two",
-            &[(first, parameters), (other(2), parameters)],
-            Ok(()),
-        ),
+        ("two", &[(first, parameters), (other(2), parameters)], Ok(())),
         ("none", &[], Err(ViewError::CommandCount(0))),
         ("too many", &crowd, Err(ViewError::CommandCount(17))),
-        (
-            "to one follower",
-            &[(first, parameters); 2],
-            Err(ViewError::NamedTwice(first.to)),
-        ),
-        (
-            "to the leader",
-            &[(other(LEADER.0), parameters)],
-            Err(ViewError::OwnFollower(LEADER)),
-        ),
-        (
-            "at two places",
-            &[(first, segment(1)), (other(2), segment(2))],
-            Err(ViewError::MapPlacesDiffer(StationId(2))),
-        ),
-        (
-            "in two sessions",
-            &[(first, parameters), (elsewhere, parameters)],
-            Err(ViewError::SessionsDiffer(first.session, session)),
-        ),
+        ("to one follower", &[(first, parameters); 2], Err(ViewError::NamedTwice(first.to))),
+        ("to the leader", &[(other(LEADER.0), parameters)], Err(ViewError::OwnFollower(LEADER))),
+        ("at two places", &[(first, segment(1)), (other(2), segment(2))], Err(ViewError::MapPlacesDiffer(StationId(2)))),
+        ("in two sessions", &[(first, parameters), (elsewhere, parameters)], Err(ViewError::SessionsDiffer(first.session, session))),
     ];
     for (name, commands, expected) in cases {
         assert_eq!(rmcm(commands).map(drop), expected, "{name}");

@@ -131,16 +131,20 @@ pub fn progress_view(progress: Progress) -> Ram {
 
 /// The RAM that a follower sends most of the time: without low-frequency container.
 pub fn typical_ram(identifiers: &Identifiers) -> RAM {
-    let available = Availability::Available;
-    ram_from(
+    ram_of(identifiers, &follower_view(), false)
+}
+
+fn ram_of(identifiers: &Identifiers, view: &Ram, with_low_frequency: bool) -> RAM {
+    let (available, time) = (Availability::Available, GENERATION_DELTA_TIME);
+    let ram = ram_from(
         identifiers,
         &state(),
-        &follower_view(),
+        view,
         available,
-        GENERATION_DELTA_TIME,
-        false,
-    )
-    .unwrap()
+        time,
+        with_low_frequency,
+    );
+    ram.unwrap()
 }
 
 pub fn command() -> Command {
@@ -192,14 +196,8 @@ fn rmcm_of_verdict(
         progression: TaskProgression::Idle,
         time_to_completion,
     };
-    rmcm_from_answer(
-        identifiers,
-        &position(),
-        &answer,
-        status,
-        GENERATION_DELTA_TIME,
-    )
-    .unwrap()
+    let time = GENERATION_DELTA_TIME;
+    rmcm_from_answer(identifiers, &position(), &answer, status, time).unwrap()
 }
 
 /// A RAM with everything in it, every list full, and of every CHOICE the longest alternative.
@@ -258,16 +256,11 @@ pub fn largest_rmcm(identifiers: &Identifiers) -> RMCM {
             id: 65_535,
         }),
     };
-    let follower = |id| {
-        (
-            Command {
-                to: StationId(id),
-                ..command()
-            },
-            parameters,
-        )
+    let command_to = |id| Command {
+        to: StationId(id),
+        ..command()
     };
-    let commands: Vec<_> = (1..=16).map(follower).collect();
+    let commands: Vec<_> = (1..=16).map(|id| (command_to(id), parameters)).collect();
     rmcm_from_commands(identifiers, &position(), &commands, u16::MAX).unwrap()
 }
 
@@ -275,25 +268,14 @@ pub fn largest_rmcm(identifiers: &Identifiers) -> RMCM {
 pub fn golden(identifiers: &Identifiers) -> Vec<(&'static str, Message)> {
     let rams = golden_views().into_iter().map(|(name, view)| {
         let with_low_frequency = view.coordination == Coordination::None && view.farewell.is_none();
-        let (state, available) = (state(), Availability::Available);
-        let time = GENERATION_DELTA_TIME;
-        let ram = ram_from(
-            identifiers,
-            &state,
-            &view,
-            available,
-            time,
-            with_low_frequency,
-        );
-        (name, Message::Ram(ram.unwrap()))
+        let ram = ram_of(identifiers, &view, with_low_frequency);
+        (name, Message::Ram(ram))
     });
+    let rejects = rmcm_of_verdict(identifiers, Verdict::Rejected(Rejection::OnDuty), None);
     let rmcms = [
         ("commands", typical_rmcm(identifiers)),
         ("acknowledges", answer_rmcm(identifiers)),
-        (
-            "rejects, since it is on duty",
-            rmcm_of_verdict(identifiers, Verdict::Rejected(Rejection::OnDuty), None),
-        ),
+        ("rejects, since it is on duty", rejects),
     ];
     let rmcms = rmcms.map(|(name, rmcm)| (name, Message::Rmcm(rmcm)));
     rams.chain(rmcms).collect()
@@ -311,17 +293,12 @@ fn golden_views() -> [(&'static str, Ram); 8] {
         tasks,
         place,
     };
-    let followers = [Confirmation {
-        station: FOLLOWER,
-        offer,
-    }]
-    .into_iter()
-    .collect();
+    let station = FOLLOWER;
     let heartbeat = Heartbeat(700);
     let leads = Coordination::Leader {
         number,
         heartbeat,
-        followers,
+        followers: [Confirmation { station, offer }].into_iter().collect(),
         urgency: request.urgency,
         place,
         yields: false,
@@ -347,6 +324,16 @@ fn golden_views() -> [(&'static str, Ram); 8] {
     let idle = view(FOLLOWER, Coordination::None);
     let ended = Some(Farewell::Ended(number, Ending::Completed));
     let left = Some(Farewell::Left(session, offer));
+    let has_ended = Ram {
+        station: LEADER,
+        farewell: ended,
+        ..idle
+    };
+    let has_left = Ram {
+        farewell: left,
+        on_duty: true,
+        ..idle
+    };
     [
         ("idle, with low-frequency container", idle),
         ("asks for help", view(LEADER, asks)),
@@ -357,35 +344,17 @@ fn golden_views() -> [(&'static str, Ram); 8] {
             "follows and is in position",
             progress_view(Progress::InPosition),
         ),
-        (
-            "has ended its session",
-            Ram {
-                station: LEADER,
-                farewell: ended,
-                ..idle
-            },
-        ),
-        (
-            "has left, with a duty on the road",
-            Ram {
-                farewell: left,
-                on_duty: true,
-                ..idle
-            },
-        ),
+        ("has ended its session", has_ended),
+        ("has left, with a duty on the road", has_left),
     ]
 }
 
 /// Changes the last command of a follower's RAM without changing its status.
 pub fn set_progress(ram: &mut RAM, progress: CommandProgress) {
-    let operation = ram
-        .ram
-        .ram_parameters
-        .robot_leader_follower_operation_container
-        .as_mut();
-    let Some(SessionRole::Follower(follower)) =
-        operation.and_then(|operation| operation.role.as_mut())
-    else {
+    let parameters = &mut ram.ram.ram_parameters;
+    let operation = &mut parameters.robot_leader_follower_operation_container;
+    let role = operation.as_mut().and_then(|it| it.role.as_mut());
+    let Some(SessionRole::Follower(follower)) = role else {
         panic!("not the RAM of a follower");
     };
     follower.last_command = Some(CommandReport {
