@@ -1,10 +1,49 @@
-//! A robot that is the follower of the exchange.
+//! A robot that helps or follows, or has no part in a session yet.
 
-use super::{
-    EventKind, Kind, Laws, Part, Phase, Role, TimerKind, any_firing, any_step, harnesses, stage,
-};
+use super::{EventKind, Kind, Laws, Part, Phase, Role, TimerKind, any_step, harnesses, stage};
 
-steps! { Follower;
+steps! {
+    @each {
+        hears_an_offer(None, Kind::RamOfferHelp);
+        hears_of_a_leader(None, Kind::RamLeader);
+        hears_of_a_follower(None, Kind::RamFollower);
+        unlocks(None, Kind::Fires(TimerKind::IdentityLock));
+        ends_a_farewell(None, Kind::Fires(TimerKind::Farewell));
+        tells_a_farewell(None, Kind::Fires(TimerKind::Ram));
+        clears_the_road(None, Kind::Local(EventKind::RoadClear));
+        becomes_available(None, Kind::Local(EventKind::AvailabilityChanged));
+        renews_its_epoch(None, Kind::Local(EventKind::EpochRenewed));
+        helps_and_hears_a_request(Helper, Kind::RamNeedHelp);
+        helps_and_hears_an_offer(Helper, Kind::RamOfferHelp);
+        helps_and_hears_a_follower(Helper, Kind::RamFollower);
+        must_unlock_as_it_helps(Helper, Kind::Fires(TimerKind::IdentityLock));
+        ends_a_farewell_as_it_helps(Helper, Kind::Fires(TimerKind::Farewell));
+        leaves_as_it_helps(Helper, Kind::Local(EventKind::LeaveRequested));
+        changes_its_availability_as_it_helps(Helper, Kind::Local(EventKind::AvailabilityChanged));
+        renews_its_epoch_as_it_helps(Helper, Kind::Local(EventKind::EpochRenewed));
+        follows_and_hears_a_request(Follower, Kind::RamNeedHelp);
+        follows_and_hears_an_offer(Follower, Kind::RamOfferHelp);
+        follows_and_hears_a_follower(Follower, Kind::RamFollower);
+        ends_a_farewell_as_it_follows(Follower, Kind::Fires(TimerKind::Farewell));
+        clears_the_road_as_it_follows(Follower, Kind::Local(EventKind::RoadClear));
+        renews_its_epoch_as_it_follows(Follower, Kind::Local(EventKind::EpochRenewed));
+        leaves_its_position(Follower, Kind::Local(EventKind::OutOfPosition));
+        sees_a_person(Follower, Kind::Local(EventKind::PersonOnRoad));
+    }
+
+    /// It opens a session, which may be the watched one.
+    detects_a_pedestrian(None, Kind::Local(EventKind::PedestrianDetected)) |kept| {
+        "opens it": !kept.was.requested && kept.now.requested,
+        "opens another": kept.was.ended && kept.before != kept.after,
+    }
+
+    /// It takes another station id, which may be that of the leader or the follower.
+    takes_a_station(None, Kind::Local(EventKind::IdentityChanged)) |kept| {
+        "the leader's": !kept.is(Part::Leader) && Part::Leader.is_of(&kept.exchange, &kept.after),
+        "the follower's": !kept.is(Part::Follower) && Part::Follower.is_of(&kept.exchange, &kept.after),
+        "neither": kept.before != kept.after && Part::Bystander.is_of(&kept.exchange, &kept.after),
+    }
+
     /// It is asked for help.
     hears_a_request(None, Kind::RamNeedHelp) |kept| {
         "makes the offer": !kept.was.offered && kept.now.offered,

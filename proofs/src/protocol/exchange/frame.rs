@@ -1,76 +1,142 @@
 //! What is needed besides the steps.
 
 use super::{
-    EventKind, Kind, Laws, Part, Role, Source, StationId, Symbolic, any_step, any_valid,
-    any_watched, arbitrary, kani, messages, robots, steps,
+    EventKind, Kind, Laws, Part, Proved, Role, Source, StationId, Symbolic, TimerKind, any_valid,
+    any_watched, any_within_a_step, arbitrary, follower, kani, leader, messages, of, stage, steps,
+    timers,
 };
-use crossguard_protocol::{
-    Event, FallbackPolicy, Input, Maneuver, ManeuverId, Output, Rmcm, StopReason,
-};
+use crossguard_protocol::laws::steps::ignores_without_effect;
+use crossguard_protocol::laws::taken::Taken;
+use crossguard_protocol::{Millis, Rmcm};
 
 use crate::harness::cases;
 
-fn others_leave_it_so(part: Part, stage: Role) {
-    let it = any_watched(part, stage);
+/// Gives each kind of input to another macro, behind what that is to be told first.
+macro_rules! each_kind {
+    ($then:ident! $($first:tt)*) => {
+        each_kind! { @$then [$($first)*]
+            RamNone RamNeedHelp RamOfferHelp RamLeader RamFollower Command Answer;
+            Safety Leave Lease Lost Execution Acknowledgement Help Offer Selection Reservation IdentityLock Farewell Ram;
+            PedestrianDetected CommandManeuver InPosition ManeuverCompleted ManeuverFailed TaskCompleted RoadClear AllAnswered
+            LeaveRequested AvailabilityChanged OpenCorridor CloseCorridor IdentityChanged EpochRenewed OutOfPosition PersonOnRoad
+        }
+    };
+    (@$then:ident [$($first:tt)*] $($message:ident)+; $($timer:ident)+; $($event:ident)+) => {
+        $then! { $($first)*
+            $(Kind::$message,)+ $(Kind::Fires(TimerKind::$timer),)+ $(Kind::Local(EventKind::$event),)+
+        }
+    };
+}
+
+macro_rules! all {
+    ($($kind:expr,)+) => {
+        &[$($kind),+]
+    };
+}
+
+/// All kinds of inputs. Time that passes is none: it lets timers fire, and the step settles.
+pub const KINDS: &[Kind] = each_kind!(all!);
+
+/// A number for each kind: a constant cannot compare them.
+const fn number_of(kind: Kind) -> (u8, u8) {
+    match kind {
+        Kind::RamNone => (0, 0),
+        Kind::RamNeedHelp => (0, 1),
+        Kind::RamOfferHelp => (0, 2),
+        Kind::RamLeader => (0, 3),
+        Kind::RamFollower => (0, 4),
+        Kind::Command => (0, 5),
+        Kind::Answer => (0, 6),
+        Kind::Elapsed => (0, 7),
+        Kind::Expired => (0, 8),
+        Kind::Fires(timer) => (1, timer as u8),
+        Kind::Local(event) => (2, event as u8),
+    }
+}
+
+const fn is_one_of(proved: &[Proved], stage: Role, kind: Kind) -> bool {
+    let (group, number) = number_of(kind);
+    let mut i = 0;
+    while i < proved.len() {
+        let (of_group, of_number) = number_of(proved[i].kind);
+        if proved[i].stage as u8 == stage as u8 && of_group == group && of_number == number {
+            return true;
+        }
+        i += 1;
+    }
+    false
+}
+
+/// Whether a harness of a step proves this pair.
+#[must_use]
+pub const fn is_proved(stage: Role, kind: Kind) -> bool {
+    is_one_of(leader::PROVED, stage, kind) || is_one_of(follower::PROVED, stage, kind)
+}
+
+/// Each input of a kind that no harness proves in this stage is ignored; so is a timer that the stage does not have.
+macro_rules! ignores_all_else {
+    ($stage:ident $($kind:expr,)+) => {{
+        let config = stage::config();
+        let robot = any_valid(&config, Role::$stage, stage::peers(Role::$stage));
+        $(
+            if const { !is_proved(Role::$stage, $kind) } {
+                let input = arbitrary::input(&mut Symbolic, $kind, true);
+                let step = Taken::new(&config, robot.clone(), input);
+                assert!(step.is_ignored());
+                ignores_without_effect(&step);
+            }
+        )+
+        kani::cover!(true, "ignored");
+    }};
+}
+
+/// What is ignored keeps what holds: a body tells facts even so.
+fn keeps_what_it_ignores(stage: Role) {
+    let it = any_watched(stage);
+    let number = Symbolic.number(u32::MAX, u32::MAX) as usize;
+    let input = arbitrary::input(&mut Symbolic, KINDS[number % KINDS.len()], true);
+    kani::assume(steps::can_be_next(
+        &it.exchange,
+        &it.history,
+        &it.robot,
+        &input,
+    ));
+    let step = (&it.robot, &input);
+    let now = steps::keeps_as_seen(&it.exchange, &it.history, step, &[], &it.robot);
+    kani::cover!(
+        Part::Follower.is_of(&it.exchange, &it.robot),
+        "its follower"
+    );
+    kani::cover!(it.history == now, "no fact becomes known");
+}
+
+/// When no timer is due any more, the step settles: all that is left to do where the input is ignored.
+fn settles(stage: Role, ignored: Kind) {
+    let config = stage::config();
+    let robot = any_within_a_step(&config, stage);
+    kani::assume(timers::is_consistent(&robot, &config) && robot.next_due() != Some(Millis::ZERO));
+    let kept = of(config, robot).step(ignored, Laws::All);
+    kani::cover!(kept.before != kept.after, "settles");
+}
+
+fn is_left_so(stage: Role) {
+    let it = any_watched(stage);
     let later = arbitrary::history(&mut Symbolic, &it.exchange, &it.robot);
     steps::others_leave_it_so(&it.exchange, &it.history, &it.robot, &later);
     kani::cover!(it.history != later, "more is known");
 }
 
-fn bystands(stage: Role) {
-    let it = any_watched(Part::Bystander, stage);
-    let followers = usize::from(stage == Role::Leader);
-    let after = any_valid(&it.config, stage, (followers, followers));
-    kani::assume(after.station() == it.robot.station());
-    let id = any_maneuver();
-    let input = Input::Local(match choice(3) {
-        0 => Event::InPosition(id),
-        1 => Event::ManeuverCompleted(id),
-        _ => Event::ManeuverFailed(id),
-    });
-    let maneuver = Maneuver {
-        id: any_maneuver(),
-        task: arbitrary::command(&mut Symbolic).task,
-    };
-    let output = match choice(6) {
-        0 => Output::SendRam,
-        1 => {
-            let mut command = arbitrary::command(&mut Symbolic);
-            command.session.leader = after.station();
-            Output::SendRmcm(Rmcm::Command(command))
-        }
-        2 => {
-            let mut answer = arbitrary::answer(&mut Symbolic);
-            answer.from = after.station();
-            Output::SendRmcm(Rmcm::Answer(answer))
-        }
-        3 => Output::StartManeuver(maneuver),
-        4 => Output::StopManeuver(maneuver, StopReason::Superseded),
-        _ => Output::FallBack(maneuver, FallbackPolicy::StopInPlace),
-    };
-    let step = (&it.robot, &input);
-    steps::a_bystander_makes_nothing_known(&it.exchange, &it.history, step, &output, &after);
-    kani::cover!(it.history.requested, "while a session is open");
-}
-
-/// One of so many alternatives.
-fn choice(of: u32) -> u32 {
-    Symbolic.number(of - 1, of)
-}
-
-/// One of a list.
-fn one_of<T: Copy>(all: &[T]) -> T {
-    let count = u32::try_from(all.len()).expect("lists are short");
-    all[choice(count) as usize]
-}
-
-fn any_maneuver() -> ManeuverId {
-    let command = arbitrary::command(&mut Symbolic);
-    ManeuverId::of(command.session, command.request)
+fn reboots(stage: Role) {
+    let it = any_watched(stage);
+    let boot = Symbolic.number(u16::MAX.into(), u32::from(it.robot.boot()) + 1);
+    let boot = u16::try_from(boot).unwrap_or(u16::MAX);
+    kani::assume(boot > it.robot.boot());
+    steps::keeps_over_a_reboot(&it.exchange, &it.history, &it.robot, boot);
+    kani::cover!(true, "boots");
 }
 
 fn stays_true(kind: u32) {
-    let it = any_watched(Part::Bystander, Role::None);
+    let it = any_watched(Role::None);
     let later = arbitrary::history(&mut Symbolic, &it.exchange, &it.robot);
     let mut ram = arbitrary::ram(&mut Symbolic, kind, true);
     // Hints let it be of the follower or leader.
@@ -90,90 +156,58 @@ fn stays_true(kind: u32) {
     );
 }
 
-fn reboots(part: Part, stage: Role) {
-    let it = any_watched(part, stage);
-    let boot = Symbolic.number(u16::MAX.into(), u32::from(it.robot.boot()) + 1);
-    let boot = u16::try_from(boot).unwrap_or(u16::MAX);
-    kani::assume(boot > it.robot.boot());
-    steps::keeps_over_a_reboot(&it.exchange, &it.history, &it.robot, boot);
-    kani::cover!(true, "boots");
+/// Declares harnesses by what they have in common.
+macro_rules! lemmas {
+    ($($doc:literal { $($name:ident => $case:expr;)+ })+) => {
+        cases! { 6; $($(#[doc = $doc] $name => $case;)+)+ }
+    };
 }
 
-cases! { 6;
-    /// What others do leaves a requesting leader as it is.
-    a_requester_is_left_so => others_leave_it_so(Part::Leader, Role::Requester);
+lemmas! {
+    "Whatever has no harness of a step is ignored." {
+        an_idle_robot_ignores_all_else => each_kind!(ignores_all_else! None);
+        a_requester_ignores_all_else => each_kind!(ignores_all_else! Requester);
+        a_helper_ignores_all_else => each_kind!(ignores_all_else! Helper);
+        a_follower_ignores_all_else => each_kind!(ignores_all_else! Follower);
+        a_leader_ignores_all_else => each_kind!(ignores_all_else! Leader);
+    }
 
-    /// What others do leaves a leader as it is.
-    a_leader_is_left_so => others_leave_it_so(Part::Leader, Role::Leader);
+    "What is ignored keeps what holds." {
+        an_idle_robot_keeps_what_it_ignores => keeps_what_it_ignores(Role::None);
+        a_requester_keeps_what_it_ignores => keeps_what_it_ignores(Role::Requester);
+        a_helper_keeps_what_it_ignores => keeps_what_it_ignores(Role::Helper);
+        a_follower_keeps_what_it_ignores => keeps_what_it_ignores(Role::Follower);
+        a_leader_keeps_what_it_ignores => keeps_what_it_ignores(Role::Leader);
+    }
 
-    /// What others do leaves a follower as it is.
-    a_follower_is_left_so => others_leave_it_so(Part::Follower, Role::Follower);
+    "A step settles after the last timer." {
+        an_idle_robot_settles => settles(Role::None, Kind::Local(EventKind::AllAnswered));
+        a_requester_settles => settles(Role::Requester, Kind::Local(EventKind::PedestrianDetected));
+        a_helper_settles => settles(Role::Helper, Kind::Local(EventKind::AllAnswered));
+        a_follower_settles => settles(Role::Follower, Kind::Local(EventKind::AllAnswered));
+        a_leader_settles => settles(Role::Leader, Kind::Local(EventKind::AllAnswered));
+    }
 
-    /// A request stays true.
-    what_a_requester_says_stays_true => stays_true(1);
+    "What others do leaves the robot as it is." {
+        an_idle_robot_is_left_so => is_left_so(Role::None);
+        a_requester_is_left_so => is_left_so(Role::Requester);
+        a_helper_is_left_so => is_left_so(Role::Helper);
+        a_follower_is_left_so => is_left_so(Role::Follower);
+        a_leader_is_left_so => is_left_so(Role::Leader);
+    }
 
-    /// An offer stays true.
-    what_a_helper_says_stays_true => stays_true(2);
+    "The robot loses power and boots." {
+        an_idle_robot_reboots => reboots(Role::None);
+        a_requester_reboots => reboots(Role::Requester);
+        a_helper_reboots => reboots(Role::Helper);
+        a_follower_reboots => reboots(Role::Follower);
+        a_leader_reboots => reboots(Role::Leader);
+    }
 
-    /// A list of followers stays true.
-    what_a_leader_says_stays_true => stays_true(3);
-
-    /// A report and an answer stay true.
-    what_a_follower_says_stays_true => stays_true(4);
-
-    /// A robot that leads or follows elsewhere makes nothing known.
-    a_bystander_leads => bystands(Role::Leader);
-
-    /// A robot that follows elsewhere makes nothing known.
-    a_bystander_follows => bystands(Role::Follower);
-
-    /// A robot that asks for help makes nothing known.
-    a_bystander_asks => bystands(Role::Requester);
-
-    /// A helper of another session makes nothing known.
-    a_bystander_helps => bystands(Role::Helper);
-
-    /// A robot without a part makes nothing known.
-    a_bystander_idles => bystands(Role::None);
-
-    /// A leader loses power and boots.
-    a_leader_reboots => reboots(Part::Leader, Role::Leader);
-
-    /// A follower loses power and boots.
-    a_follower_reboots => reboots(Part::Follower, Role::Follower);
-
-    /// A robot takes another station id, which may be that of the leader or the follower.
-    a_station_is_taken => {
-        let kind = Kind::Local(EventKind::IdentityChanged);
-        let kept = any_step(Part::Bystander, Role::None, kind, Laws::All);
-        let leads = Part::Leader.is_of(&kept.exchange, &kept.after);
-        let follows = Part::Follower.is_of(&kept.exchange, &kept.after);
-        kani::cover!(leads, "the leader's");
-        kani::cover!(follows, "the follower's");
-    };
-
-    /// Any robot, with any part or none, any input.
-    #[random_only("all stages, parts and kinds of input at once")]
-    any_robot_keeps_it => {
-        let part = one_of(&[Part::Leader, Part::Follower, Part::Bystander]);
-        let stage = one_of(&Role::ALL);
-        let kinds = [
-            Kind::RamNone,
-            Kind::RamNeedHelp,
-            Kind::RamOfferHelp,
-            Kind::RamLeader,
-            Kind::RamFollower,
-            Kind::Command,
-            Kind::Answer,
-            Kind::Elapsed,
-            Kind::Expired,
-        ];
-        let kind = match choice(2) {
-            0 => one_of(&kinds),
-            _ => Kind::Local(one_of(&EventKind::ALL)),
-        };
-        let kept = any_step(part, stage, kind, Laws::All);
-        kani::cover!(kept.changed(), "a fact becomes known");
-        kani::cover!(robots::agrees(&kept.exchange, &kept.was, &kept.after) && kept.before != kept.after, "none does");
-    };
+    "A message stays true." {
+        what_a_requester_says_stays_true => stays_true(1);
+        what_a_helper_says_stays_true => stays_true(2);
+        what_a_leader_says_stays_true => stays_true(3);
+        what_a_follower_says_stays_true => stays_true(4);
+    }
 }

@@ -1,14 +1,26 @@
-//! A robot that is the leader of the exchange.
+//! A robot that asks for help or leads.
 
-use super::{
-    EventKind, Kind, Laws, Part, Phase, Role, TimerKind, any_firing, any_step, harnesses, stage,
-};
+use super::{EventKind, Kind, Laws, Part, Phase, Role, TimerKind, any_step, harnesses, stage};
 
-steps! { Leader;
-    /// It opens a session, which may be the watched one.
-    detects_a_pedestrian(None, Kind::Local(EventKind::PedestrianDetected)) |kept| {
-        "opens it": !kept.was.requested && kept.now.requested,
-        "opens another": kept.was.ended && kept.before != kept.after,
+steps! {
+    @each {
+        asks_and_hears_a_request(Requester, Kind::RamNeedHelp);
+        asks_and_hears_a_leader(Requester, Kind::RamLeader);
+        asks_and_hears_a_follower(Requester, Kind::RamFollower);
+        loses_an_offer(Requester, Kind::Fires(TimerKind::Offer));
+        must_unlock_as_it_asks(Requester, Kind::Fires(TimerKind::IdentityLock));
+        ends_a_farewell_as_it_asks(Requester, Kind::Fires(TimerKind::Farewell));
+        needs_no_help(Requester, Kind::Local(EventKind::TaskCompleted));
+        leaves_as_it_asks(Requester, Kind::Local(EventKind::LeaveRequested));
+        changes_its_availability_as_it_asks(Requester, Kind::Local(EventKind::AvailabilityChanged));
+        renews_its_epoch_as_it_asks(Requester, Kind::Local(EventKind::EpochRenewed));
+        leads_and_hears_a_request(Leader, Kind::RamNeedHelp);
+        leads_and_hears_an_offer(Leader, Kind::RamOfferHelp);
+        ends_a_farewell(Leader, Kind::Fires(TimerKind::Farewell));
+        clears_the_road(Leader, Kind::Local(EventKind::RoadClear));
+        changes_its_availability(Leader, Kind::Local(EventKind::AvailabilityChanged));
+        closes_the_corridor(Leader, Kind::Local(EventKind::CloseCorridor));
+        renews_its_epoch(Leader, Kind::Local(EventKind::EpochRenewed));
     }
 
     /// It is offered help.
