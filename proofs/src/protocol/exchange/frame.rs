@@ -90,11 +90,22 @@ macro_rules! ignores_all_else {
     }};
 }
 
+/// Which of [`KINDS`] no harness of a step proves in this stage, as bits: a proof reads a constant then.
+const fn ignored(stage: Role) -> u64 {
+    let (mut ignored, mut i) = (0, 0);
+    while i < KINDS.len() {
+        ignored |= (!is_proved(stage, KINDS[i]) as u64) << i;
+        i += 1;
+    }
+    ignored
+}
+
 /// What is ignored keeps what holds: a body tells facts even so.
-fn keeps_what_it_ignores(stage: Role) {
+fn keeps_what_it_ignores(stage: Role, ignored: u64) {
     let it = any_watched(stage);
-    let number = Symbolic.number(u32::MAX, u32::MAX) as usize;
-    let input = arbitrary::input(&mut Symbolic, KINDS[number % KINDS.len()], true);
+    let number = Symbolic.number(u32::MAX, u32::MAX) as usize % KINDS.len();
+    kani::assume(ignored >> number & 1 == 1);
+    let input = arbitrary::input(&mut Symbolic, KINDS[number], true);
     kani::assume(steps::can_be_next(
         &it.exchange,
         &it.history,
@@ -173,11 +184,11 @@ lemmas! {
     }
 
     "What is ignored keeps what holds." {
-        an_idle_robot_keeps_what_it_ignores => keeps_what_it_ignores(Role::None);
-        a_requester_keeps_what_it_ignores => keeps_what_it_ignores(Role::Requester);
-        a_helper_keeps_what_it_ignores => keeps_what_it_ignores(Role::Helper);
-        a_follower_keeps_what_it_ignores => keeps_what_it_ignores(Role::Follower);
-        a_leader_keeps_what_it_ignores => keeps_what_it_ignores(Role::Leader);
+        an_idle_robot_keeps_what_it_ignores => keeps_what_it_ignores(Role::None, const { ignored(Role::None) });
+        a_requester_keeps_what_it_ignores => keeps_what_it_ignores(Role::Requester, const { ignored(Role::Requester) });
+        a_helper_keeps_what_it_ignores => keeps_what_it_ignores(Role::Helper, const { ignored(Role::Helper) });
+        a_follower_keeps_what_it_ignores => keeps_what_it_ignores(Role::Follower, const { ignored(Role::Follower) });
+        a_leader_keeps_what_it_ignores => keeps_what_it_ignores(Role::Leader, const { ignored(Role::Leader) });
     }
 
     "A step settles after the last timer." {
