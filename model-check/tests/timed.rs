@@ -4,6 +4,7 @@
 //! `cargo run --release -- check timed-pair timed-trio` is the same check with its report.
 
 use crate::scenario_files::assert_refused;
+use crate::scenarios::assert_judged_well;
 use crate::timing::*;
 use crossguard_model_check::check::Options;
 use crossguard_model_check::report::{CheckVerdict, CutOff, ScenarioReport};
@@ -23,9 +24,7 @@ fn run_shipped(name: &str) -> ScenarioReport {
     let scenario = Scenario::load(name).unwrap();
     let limits = Limits::new(&scenario.config, scenario.timed.as_ref().unwrap().delay);
     let report = run(TimedModel::new(scenario));
-    let is_verified = report.exhaustive && !report.failed();
-    assert!(is_verified, "{name}: {report:#?}");
-    assert_eq!(report.size_as_expected, Some(true), "{name}");
+    assert_judged_well(name, &report);
     for figure in &report.figures {
         let ms = figure.ms;
         assert!(ms.is_some_and(|ms| ms <= figure.bound_ms), "{figure:?}");

@@ -22,7 +22,7 @@ fn laws_of(stage: Role, kind: Kind) -> Vec<Laws> {
     all.filter(of_pair).map(|it| it.laws).collect()
 }
 
-/// So many random states of this stage, without those that are not valid.
+/// The valid ones among so many random states of this stage.
 fn states(stage: Role, tries: u32) -> impl Iterator<Item = Robot> {
     let peers = match stage {
         Role::Requester => (0, 4),
