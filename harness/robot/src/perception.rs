@@ -470,7 +470,7 @@ pub fn instant_of(unix_s: f64) -> Result<Instant, String> {
         Ok(age) => now
             .checked_sub(age)
             .ok_or_else(|| format!("unix_s is {unix_s}: that is too long ago")),
-        Err(ahead) if ahead.duration() <= FUTURE => Ok(now),
+        Err(ahead) if ahead.duration() <= FUTURE => Ok(now + ahead.duration()),
         Err(_) => Err(format!(
             "unix_s is {unix_s}: that is in the future of the clock"
         )),

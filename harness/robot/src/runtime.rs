@@ -39,10 +39,10 @@ use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Security;
 use crossguard_endpoint::{Act, Effect, Endpoint, Stimulus};
-use crossguard_protocol::{Config, Event, Millis, Phase, Robot, StationId};
+use crossguard_protocol::{Config, Event, Phase, Robot, StationId};
 
 pub use self::clock::Clock;
-use self::clock::{moment_at, unix_us};
+use self::clock::{moment_at, seconds, unix_us};
 use self::keeper::Keeper;
 use self::reader::{Reader, Waiting};
 pub use self::running::{Order, Orders, Panicked, Running};
@@ -359,11 +359,11 @@ impl Loop {
                 Stimulus::Perceived(&seen)
             }
             Order::Looked(frame, taken) => {
-                let age_ms = taken.elapsed().as_millis();
-                let age = Millis(u32::try_from(age_ms).unwrap_or(u32::MAX));
                 let place = self.machine.application().body().place();
-                self.machine.application_mut().look(&frame, age);
-                let taken_ms = self.now_ms().saturating_sub(age.0.into());
+                let taken_ms = self.clock.signed_ms(taken);
+                let application = self.machine.application_mut();
+                application.look_at(seconds(self.clock.now_us()), &frame, taken_ms);
+                let taken_ms = u64::try_from(taken_ms).unwrap_or(0);
                 let people = self.newest.look(&frame, taken_ms).into_iter();
                 seen = people.map(|vru| seen_from(place, vru)).collect();
                 Stimulus::Perceived(&seen)
@@ -466,9 +466,7 @@ impl Loop {
         // Read once: the sign counts from the moment that the protocol counts from.
         let shown = self.clock.now_us();
         let moment = moment_at(shown);
-        #[expect(clippy::cast_precision_loss, reason = "centuries of microseconds fit")]
-        let now_s = shown as f64 / 1e6;
-        let effects = self.machine.handle(moment, now_s, stimulus);
+        let effects = self.machine.handle(moment, seconds(shown), stimulus);
         // What the robot saw is logged before what it did by that.
         if let Some(sight) = self.machine.application_mut().next_sight() {
             let sighted = self.record_at(shown, Entry::People(sight));

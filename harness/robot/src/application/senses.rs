@@ -29,6 +29,9 @@ const UNKNOWN_ERROR_CM: u16 = 100;
 const ONE_BY_ONE: u8 = u8::MAX;
 const HEARD: u8 = u8::MAX - 1;
 
+/// Frames of one source whose times differ by no more are one, in ms: its time was read off two clocks, one after the other.
+const SAME_MS: i64 = 2;
+
 /// For how long a sight has somebody who came in no newer frame, and a vehicle after its last message, which may be a
 /// second apart, in seconds.
 const SEEN_S: f64 = 1.0;
@@ -65,6 +68,8 @@ pub(super) struct Said {
     observed: Vec<Observed>,
     /// When each source made its newest frame, in seconds.
     newest_s: BTreeMap<u8, f64>,
+    /// When each source made its newest frame, as it says and at the latest, in ms.
+    looked_ms: BTreeMap<u8, (i64, i64)>,
     /// When, in seconds.
     last: Option<(f64, Sight)>,
     /// Whether the sign showed go then.
@@ -123,7 +128,22 @@ impl Application {
         self.observe(source, at_s, sightings);
     }
 
-    /// A sensor source delivered a frame that it made `age` ago.
+    /// A sensor source delivered a frame at `now_s` that it made at `taken_ms`, on the same clock; below 0, before that began. Time
+    /// comes first, and both are whole milliseconds: a frame that is repeated is no newer than it was, also one of a source whose
+    /// clock is a little ahead.
+    pub fn look_at(&mut self, now_s: f64, frame: &SensorFrame, taken_ms: i64) {
+        self.advance(now_s);
+        let read_ms = self.at_ms.cast_signed();
+        let newest = self.said.looked_ms.entry(frame.source);
+        let (named, looked) = newest.or_insert((i64::MIN, i64::MIN));
+        if taken_ms > named.saturating_add(SAME_MS) {
+            (*named, *looked) = (taken_ms, taken_ms.min(read_ms));
+        }
+        let age_ms = read_ms.saturating_sub(taken_ms.min(*looked));
+        self.look(frame, Millis(u32::try_from(age_ms).unwrap_or(u32::MAX)));
+    }
+
+    /// A sensor source delivered a frame that it made `age` before the time that was told last.
     pub fn look(&mut self, frame: &SensorFrame, age: Millis) {
         let Road::Watched(zone) = &self.road else {
             return;

@@ -227,6 +227,36 @@ fn a_late_frame_is_no_sight_of_now() {
     assert_eq!(application.next_sight().unwrap().vehicles.len(), 1);
 }
 
+/// A robot that watches the simulated street, and has seen it empty once.
+fn watching() -> Application {
+    let body = Simulated::new(Build::Humanoid, Site::default(), Place::default(), 1.0, 1);
+    let application = Application::new(Box::new(body), None);
+    let road = Street::default().zone().road.unwrap();
+    let mut application = application.on(Road::Watched(Zone::of_road(road)));
+    application.look_at(10.0, &SensorFrame::default(), 10_000);
+    application
+}
+
+/// Hazard: a source says each frame twice, and half as many that all miss somebody clear the road.
+#[test]
+fn a_frame_that_is_told_twice_counts_once_whenever_it_is_read() {
+    for ahead_ms in [0, 12] {
+        let mut application = watching();
+        let is_clear = |it: &Application| -> bool { it.crossing.occupancy().is_clear(&it.setup) };
+        for frame in 1..=5 {
+            let at_s = 10.0 + 0.1 * f64::from(frame);
+            // The loop has turned when it was made, and turns again 4 ms later.
+            application.advance(at_s);
+            assert!(!is_clear(&application), "{frame} frames");
+            for read_s in [0.004, 0.004_5, 0.009] {
+                let taken_ms = 10_000 + 100 * i64::from(frame) + ahead_ms;
+                application.look_at(at_s + read_s, &SensorFrame::default(), taken_ms);
+            }
+        }
+        assert!(is_clear(&application), "six have looked");
+    }
+}
+
 /// Hazard: a guard whose position is not known passes for one that is at its place.
 #[test]
 fn a_position_that_is_not_known_is_no_pose() {

@@ -37,6 +37,19 @@ impl Clock {
         let since = instant.saturating_duration_since(self.start);
         u64::try_from(since.as_millis()).unwrap_or(u64::MAX)
     }
+
+    /// The same; below 0 before the start.
+    pub(super) fn signed_ms(&self, instant: Instant) -> i64 {
+        let before = self.start.saturating_duration_since(instant).as_millis();
+        let after = self.at_ms(instant);
+        i64::try_from(after).unwrap_or(i64::MAX) - i64::try_from(before).unwrap_or(i64::MAX)
+    }
+}
+
+/// Seconds on the clock of the body.
+#[expect(clippy::cast_precision_loss, reason = "centuries of microseconds fit")]
+pub(super) fn seconds(us: u64) -> f64 {
+    us as f64 / 1e6
 }
 
 /// This moment, which the clock shows as `now_us`.
