@@ -9,7 +9,7 @@
 //! in seconds since 1970. Its age counts from then, however long it waited in a pipe. `covers_m` is the polygon that the source
 //! could see at that time; without it, the whole carriageway. A [part](crate::zone::Zone::covered) of the carriageway is covered if
 //! all of it is in that polygon. Sources are numbered from 0 to 3; without a number it is source 0.
-//! Vehicles are among the people, with `"class": "vehicle"`. `velocity_mps` is unknown, `class` a pedestrian,
+//! Vehicles are among the people, with `"class": "vehicle"`, and say their velocity. `velocity_mps` is unknown, `class` a pedestrian,
 //! `confidence` 1 and `error_m` 0.2 where they are left out. Places are metres to the east and to the north of the site's
 //! origin, as everywhere in the command.
 //!
@@ -189,6 +189,11 @@ pub enum PerceptionError {
         "a frame wants either 'at_s', in seconds from the beginning, or 'unix_s', in seconds since 1970"
     )]
     Undated,
+    /// A vehicle does not say how fast it is: whether it can stop is not known then.
+    #[error(
+        "a vehicle wants 'velocity_mps', in m/s to the east and to the north; one that stands has [0.0, 0.0]"
+    )]
+    Unhurried,
     /// There are too many people.
     #[error("{0} people: at most {PEOPLE_MAX} are possible")]
     Many(usize),
@@ -254,6 +259,9 @@ fn frame(line: FrameLine) -> Result<Observation, PerceptionError> {
             confidence: it.confidence,
         };
         check(&vru)?;
+        if it.class == VruClass::Vehicle && it.velocity_mps.is_none() {
+            return Err(PerceptionError::Unhurried);
+        }
         Ok::<_, PerceptionError>(Perceived {
             vru,
             has_id: it.id.is_some(),
@@ -627,6 +635,7 @@ mod tests {
 {"people": [], "at_s": 1, "covers_m": [[0, 0], [9, 9], [1, 1]]}  | covers_m: its corners enclose nothing
 {"people": [], "at_s": 1, "source": -1}                          | invalid value
 {"people": [{"position_m": [1, 2], "error_m": -1}], "at_s": 1}   | error_m is -1
+{"people": [{"position_m": [1, 2], "class": "vehicle"}], "at_s": 1} | a vehicle wants 'velocity_mps'
 {"id": 1, "place": 3}                                            | unknown field `place`
 {"id": 1, "position_m": [1, 2], "class": "car"}                  | unknown variant `car`
 {"id": 1, "position_m": [1, 2], "confidence": 1.5}               | confidence is 1.5: 0 to 1 is wanted

@@ -25,6 +25,10 @@ const SIGHT_PERIOD_S: f64 = 0.2;
 /// Error of a position of which nobody says how right it is, in centimetres.
 const UNKNOWN_ERROR_CM: u16 = 100;
 
+/// Types of stations that are vulnerable road users by ETSI, and no slower than cars: `TrafficParticipantType` of TS 102 894-2.
+const MOPED: u8 = 3;
+const MOTORCYCLE: u8 = 4;
+
 /// The sources of people who come one by one, and of vehicles that are heard.
 const ONE_BY_ONE: u8 = u8::MAX;
 const HEARD: u8 = u8::MAX - 1;
@@ -240,13 +244,28 @@ impl Application {
             }
         }
         let is_news = |known: &&Neighbour| known.heard_ms == now_ms;
-        for known in map.of_kind(Kind::Vehicle).filter(is_news) {
-            self.hear_vehicle(known);
+        for known in map.iter().filter(is_news) {
+            if self.rides(known) {
+                self.hear_vehicle(known);
+            }
         }
         if !matches!(self.road, Road::Known(_)) {
             for known in map.of_kind(Kind::Vru).filter(is_news) {
                 self.hear_person(known);
             }
+        }
+    }
+
+    /// Whether somebody comes like a vehicle: is one, a moped or a motorcycle, or is faster than people walk, whatever it is.
+    fn rides(&self, known: &Neighbour) -> bool {
+        let user = &known.user;
+        let walks_mps = f64::from(self.setup.sensors.speed_max_cmps) / 100.0;
+        let is_fast = user.speed.is_some_and(|mps| mps > walks_mps);
+        match user.kind {
+            Kind::Vehicle => true,
+            Kind::Vru => is_fast || matches!(user.station_type, Some(MOPED | MOTORCYCLE)),
+            Kind::Object => is_fast,
+            Kind::Robot | Kind::RoadSideUnit => false,
         }
     }
 

@@ -257,6 +257,40 @@ fn a_frame_that_is_told_twice_counts_once_whenever_it_is_read() {
     }
 }
 
+/// Hazard: go is shown to somebody in front of a motorcycle, which is a vulnerable road user by ETSI.
+#[test]
+fn whoever_is_as_fast_as_a_vehicle_hinders_like_one() {
+    for (kind, station_type, mps, expected) in [
+        (Kind::Vehicle, Some(5), 13.9, true),
+        (Kind::Vru, Some(4), 13.9, true),
+        (Kind::Vru, Some(3), 3.0, true),
+        (Kind::Vru, Some(2), 6.0, true),
+        (Kind::Vru, None, 13.9, true),
+        (Kind::Object, None, 13.9, true),
+        (Kind::Vru, Some(1), 1.5, false),
+        (Kind::Object, None, 0.0, false),
+    ] {
+        let mut application = watching();
+        assert_eq!(application.crossing.hindered(&application.setup), None);
+        let user = crossguard_codec::RoadUser {
+            identity: Identity::Station(9),
+            kind,
+            station_type,
+            position: Site::default().position(Place::new(-12.0, 2.0)),
+            speed: Some(mps),
+            heading: Some(90.0),
+            cardinality: 1,
+            signals: None,
+            measured_its: 0,
+        };
+        let mut map = LocalDynamicMap::default();
+        map.observe(user, 10_000);
+        application.listen(&map, &Robot::new(StationId(1), 1), 10_000);
+        let hindered = application.crossing.hindered(&application.setup);
+        assert_eq!(hindered.is_some(), expected, "{user:?}: {hindered:?}");
+    }
+}
+
 /// Hazard: a guard whose position is not known passes for one that is at its place.
 #[test]
 fn a_position_that_is_not_known_is_no_pose() {
