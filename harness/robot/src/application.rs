@@ -274,8 +274,14 @@ impl Application {
         {
             self.crossing.come_elsewhere();
         }
+        let waited = self.crossing.waits_for_clear();
         let outputs = self.crossing.learn(&self.setup, robot);
         self.carry_out(&outputs);
+        if !waited && self.crossing.waits_for_clear() {
+            // It was said of what the robot's own sensors see, and not of the duty that has begun since.
+            let is_clear = |it: &Stimulus<'_>| matches!(it, Stimulus::Event(Event::RoadClear));
+            self.wishes.retain(|it| !is_clear(it));
+        }
     }
 
     /// What a robot shows to vehicles that holds them back: what its plan says while it leads, and stop at its place as a
