@@ -4,6 +4,8 @@ mod support;
 #[path = "support/zone.rs"]
 mod zone;
 
+use crossguard_codec::its::ItsMessage;
+use crossguard_codec::{Identifiers, Kind};
 use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::station::Security;
@@ -16,7 +18,7 @@ use crossguard_robot::plan::Plan;
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::street::Road;
 
-use self::support::{Street, TICK_MS};
+use self::support::{Street, TICK_MS, effects};
 
 fn machine(station: u32, plan: Option<Plan>, road: Road) -> Machine {
     let place = Place::new(-f64::from(station), -2.0);
@@ -37,15 +39,26 @@ fn is_escorting(street: &mut Street<Done>) -> bool {
 struct Done {
     /// Whether the follower has said that it sees nobody any more.
     sees_nobody: bool,
+    /// How many RAM of the leader had people, and how many there were.
+    announced: (u32, u32),
 }
 
 fn note(done: &mut Done, robot: usize, effect: Effect) {
-    if let Effect::Stepped {
-        input: Input::Local(Event::RoadClear),
-        ..
-    } = effect
-    {
-        done.sees_nobody |= robot == 1;
+    match effect {
+        Effect::Stepped {
+            input: Input::Local(Event::RoadClear),
+            ..
+        } if robot == 1 => done.sees_nobody = true,
+        Effect::Transmit { octets, .. } if robot == 0 => {
+            let message = ItsMessage::decode(&Identifiers::default(), &octets).unwrap();
+            let users = message.message.road_users(support::BEGAN_ITS);
+            if users.iter().any(|it| it.kind == Kind::Robot) {
+                let has_people = users.iter().any(|it| it.kind == Kind::Vru);
+                done.announced.0 += u32::from(has_people);
+                done.announced.1 += 1;
+            }
+        }
+        _ => {}
     }
 }
 
@@ -112,4 +125,39 @@ fn a_word_of_before_a_duty_does_not_end_it() {
         let (_, has_duty) = says_clear_at(Some(leaves_ms));
         assert!(has_duty, "the leader leaves at {leaves_ms}, {at_ms}");
     }
+}
+
+/// Hazard: a robot outside of the session announces everybody around, so the leader does not, and its escort hears of nobody.
+#[test]
+fn a_leader_announces_people_to_its_team_whatever_others_announce() {
+    let person = [PerceivedVru::pedestrian(7, [2.0, 3.0])];
+    let announced = |street: &mut Street<Done>| {
+        let mut other = machine(1, None, Road::Unknown);
+        street.notes.announced = (0, 0);
+        for _ in 0..300 {
+            street.now_ms += TICK_MS;
+            let (now_ms, arrived_ms) = (street.now_ms, street.now_ms.into());
+            if now_ms.is_multiple_of(100) {
+                street.tell(0, Stimulus::Perceived(&person));
+                let people = [PerceivedVru::pedestrian(7, [1.0, 3.0])];
+                for effect in effects(&mut other, now_ms, Stimulus::Perceived(&people)) {
+                    if let Effect::Transmit { packet, .. } = &effect {
+                        street.tell(0, Stimulus::Datagram { packet, arrived_ms });
+                    }
+                }
+            }
+            for robot in 0..2 {
+                street.tell(robot, Stimulus::Time);
+            }
+        }
+        street.notes.announced
+    };
+    let idle = vec![
+        Some(machine(2, None, Road::Unknown)),
+        Some(machine(3, None, Road::Unknown)),
+    ];
+    let (with, all) = announced(&mut Street::new(idle, note));
+    assert!(with < all / 2, "idle: {with} of {all}, the other one does");
+    let (with, all) = announced(&mut street());
+    assert!(with > all / 2, "leading: {with} of {all}");
 }

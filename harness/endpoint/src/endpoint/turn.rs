@@ -5,7 +5,9 @@ use std::fmt::Display;
 use crossguard_codec::core::ram::RAM;
 use crossguard_codec::geonet::{Address, Indication, PACKET_LEN_MAX, Signer};
 use crossguard_codec::{Heard, RobotState, Service, TaskParameters};
-use crossguard_protocol::{Coordination, Event, Ignored, Input, Output, Outputs, Robot, StationId};
+use crossguard_protocol::{
+    Coordination, Event, Ignored, Input, Output, Outputs, Phase, Robot, StationId,
+};
 
 use super::act::{Act, act};
 use super::{Around, Effect, others};
@@ -164,6 +166,9 @@ impl Host for Turn<'_> {
                 surroundings.hear_ended(now_ms, from, ended);
                 return;
             }
+            // Its team goes by what it announces: with a part in a session it leaves nobody to another robot.
+            let is_free = matches!(me.phase(), Phase::Idle);
+            let cluster = cluster.filter(|_| is_free);
             let cluster = cluster.and_then(|it| containers::on_plane(it, &state.position, plane));
             surroundings.hear(now_ms, me.station().0, from, cluster.as_ref());
         }
