@@ -141,6 +141,9 @@ struct SpotTable {
 /// How far the carriageway goes on beside the crossing unless the site says it, in metres.
 const ALONG_M: f64 = 10.0;
 
+/// How far apart kerbs are at least, in metres: less is no lane.
+const WIDTH_MIN_M: f64 = 2.0;
+
 /// How fast crossings are designed for elderly people and small children, in m/s; for others it is 1.2 m/s.
 const SLOW_MPS: f64 = 0.9;
 
@@ -201,6 +204,31 @@ impl SiteFile {
         self.lane_at(place).map(|lane| lane.to.bearing(lane.from))
     }
 
+    /// Why a place is not for this, if it is not.
+    pub(crate) fn misfit(&self, name: &str, place: Place, purpose: Purpose) -> Option<String> {
+        let lane = self.lane_at(place).map(|lane| &lane.name);
+        let road = self.carriageway();
+        match (purpose, lane) {
+            (Purpose::Guard, None) => (!self.lanes.is_empty())
+                .then(|| format!("{name} is for guarding, and on no lane")),
+            (Purpose::Guard, Some(lane)) => {
+                road.filter(|road| !road.is_beside(place)).map(|_| {
+                    format!(
+                        "{name} is on lane '{lane}', which is not between the kerbs: people on it would not count as on \
+                         the road"
+                    )
+                })
+            }
+            (Purpose::Wait | Purpose::Cross, Some(lane)) => Some(format!(
+                "{name} is on lane '{lane}': only places to guard may be on one"
+            )),
+            (Purpose::Cross, None) => road.filter(|road| road.has(place)).map(|_| {
+                format!("{name} is between the kerbs: a person is escorted from one pavement to the other")
+            }),
+            (Purpose::Wait, None) => None,
+        }
+    }
+
     /// The lane that a place is on.
     #[must_use]
     pub fn lane_at(&self, place: Place) -> Option<&Lane> {
@@ -247,25 +275,29 @@ impl SiteTables {
             );
             return Err(Misfit::at(kerbs, what));
         }
+        if let Some((kerbs, road)) = self.crossing.kerbs_m.as_ref().zip(checked.carriageway()) {
+            let width_m = road.width_m();
+            if width_m < WIDTH_MIN_M {
+                let what = format!(
+                    "the kerbs are {width_m:.2} m apart: at least {WIDTH_MIN_M} m is wanted"
+                );
+                return Err(Misfit::at(kerbs, what));
+            }
+            if let Some(lane) = checked.lanes.iter().find(|lane| road.cuts(lane)) {
+                let what = format!(
+                    "lane '{}' leads over a kerb: the kerbs are the edges of the carriageway that people step over",
+                    lane.name
+                );
+                return Err(Misfit::at(kerbs, what));
+            }
+        }
         for (name, spot) in self.places {
             let place = located::place(&spot.get_ref().at_m)?;
             let purpose = spot.get_ref().purpose;
-            let lane = checked.lane_at(place).map(|lane| lane.name.clone());
-            let what = match (purpose, lane) {
-                (Purpose::Guard, None) if !checked.lanes.is_empty() => {
-                    format!("place '{name}' is for guarding, and on no lane")
-                }
-                (Purpose::Wait | Purpose::Cross, Some(lane)) => {
-                    format!(
-                        "place '{name}' is on lane '{lane}': only places to guard may be on one"
-                    )
-                }
-                _ => {
-                    checked.places.insert(name, Spot { place, purpose });
-                    continue;
-                }
-            };
-            return Err(Misfit::at(&spot, what));
+            if let Some(what) = checked.misfit(&format!("place '{name}'"), place, purpose) {
+                return Err(Misfit::at(&spot, what));
+            }
+            checked.places.insert(name, Spot { place, purpose });
         }
         Ok(checked)
     }
@@ -373,6 +405,9 @@ width_m = 3.5    | width_m = nan     | s.toml:20: NaN is not possible: 1 to 30 m
 [1.0, -1.0]      | [1.0, 1.0]        | place 'near-kerb' is on lane 'near'
 [1.0, -1.0]      | [1.0, 1e30]       | is no place: metres east and north
 [5.0, 0.0]]      | [-3.0, 0.5]]      | s.toml:10: the kerb is shorter than a metre
+[[-3.0, 7.0], [5.0, 7.0]] | [[-3.0, 0.05], [5.0, 0.05]] | s.toml:10: the kerbs are 0.05 m apart: at least 2 m
+[[[-3.0, 0.0], [5.0, 0.0]], [[-3.0, 7.0], [5.0, 7.0]]] | [[[0.0, -3.0], [0.0, 5.0]], [[7.0, -3.0], [7.0, 5.0]]] | s.toml:10: lane 'near' leads over a kerb
+[[-3.0, 7.0], [5.0, 7.0]] | [[-3.0, 3.5], [5.0, 3.5]] | place 'far-lane' is on lane 'far', which is not between the kerbs
 [5.0, 7.0]]      | [5.0, 3.0]]       | s.toml:10: the two kerbs meet, or will within 10 m beside the crossing
 [5.0, 7.0]]]     | [5.0, 7.0]], [[0.0, 9.0], [5.0, 9.0]]] | s.toml:10: 2 kerbs are wanted, not 3: the two edges
 , [[-3.0, 7.0], [5.0, 7.0]]] | ] | s.toml:10: 2 kerbs are wanted, not 1
@@ -391,5 +426,10 @@ map_place = "segment 276:12" | map_place = "street 1" | s.toml:13:
             let error = SiteFile::parse("s.toml", "s", &text).unwrap_err();
             assert!(error.to_string().contains(&cause), "{to}: {error}");
         }
+        let narrow = STREET.replace("width_m = 3.5", "width_m = 1.0");
+        let island = narrow.replacen("[1.0, 8.0]", "[1.0, 3.5]", 1);
+        let error = SiteFile::parse("s.toml", "s", &island).unwrap_err();
+        let cause = "place 'far-kerb' is between the kerbs";
+        assert!(error.to_string().contains(cause), "{error}");
     }
 }

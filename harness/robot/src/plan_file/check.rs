@@ -45,7 +45,7 @@ impl PlanTables {
         let stages = stages(&self, &followers, &site)?;
         apart(&self, &roles, &stages)?;
         safety::guards_first(&self, &followers, &stages, settings)?;
-        safety::ways_in_time(&self, &followers, &stages, settings)?;
+        safety::ways_in_time(&self, &site, &followers, &stages, settings)?;
         let either_way = self.either_way.as_ref().map(|Exact([from, to])| {
             let crossing = Some((Purpose::Cross, "an escort"));
             let kerbs = [place(&site, from, crossing)?, place(&site, to, crossing)?];
@@ -53,6 +53,12 @@ impl PlanTables {
                 return Err(Misfit::at(
                     to,
                     "a place at each of two kerbs is wanted, and these are one",
+                ));
+            }
+            if site.carriageway().is_some_and(|road| !road.parts(kerbs)) {
+                return Err(Misfit::at(
+                    to,
+                    "a place at each of two kerbs is wanted, and these are on one side of the road",
                 ));
             }
             Ok(kerbs)
@@ -201,7 +207,13 @@ fn place(
     wanted: Option<(Purpose, &str)>,
 ) -> Result<Place, Misfit> {
     let text = match name.get_ref() {
-        SpotName::At(Exact(place)) => return located::place_at(name, *place),
+        SpotName::At(Exact(metres)) => {
+            let place = located::place_at(name, *metres)?;
+            let misfit = wanted.and_then(|(purpose, whose)| {
+                site.misfit(&format!("the place of {whose}"), place, purpose)
+            });
+            return misfit.map_or(Ok(place), |what| Err(Misfit::at(name, what)));
+        }
         SpotName::Named(text) => text,
     };
     let Some(spot) = site.places.get(text) else {

@@ -72,10 +72,11 @@ pub(super) fn guards_first(
     Ok(())
 }
 
-/// Looks that each way can be walked at its speed in the time of its task, and an escort's in that of a crossing. Where a
-/// follower is before its first part is known where the plan says it.
+/// Looks that each way can be walked at its speed in the time of its task, and an escort's in that of a crossing, and that an
+/// escort's leads over the road. Where a follower is before its first part is known where the plan says it.
 pub(super) fn ways_in_time(
     tables: &PlanTables,
+    site: &SiteFile,
     followers: &[&Role],
     stages: &[Stage],
     settings: &Settings,
@@ -86,6 +87,16 @@ pub(super) fn ways_in_time(
         let Some(from) = places[follower].replace(leg.to) else {
             continue;
         };
+        let parts = site
+            .carriageway()
+            .is_none_or(|road| road.parts([from, leg.to]));
+        if escorts.contains(leg.task) && !parts {
+            let name = &followers[follower].name;
+            let what = format!(
+                "role '{name}' escorts people from one place to another that is not over the road: it stays on one side"
+            );
+            return Err(at(tables, number, name, what));
+        }
         let way_m = from.distance(leg.to);
         let way_s = way_m / leg.speed_mps;
         let of_task = settings.t_exec[usize::from(leg.task.value())];

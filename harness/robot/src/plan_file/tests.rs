@@ -86,6 +86,10 @@ const MISFITS: &str = r#"
 [2.5, -1.0]       | "corner"            | p.toml:13: roles 'second' and 'leader' are 0.00 m apart
 "far-kerb"        | "bench"             | p.toml:17: site 'street' has no place 'bench'; it has
 "far-kerb"        | "far-lane"          | p.toml:17: place 'far-lane' is not for a move
+"far-lane"        | [-4.0, -0.8]        | p.toml:15: the place of a block is for guarding, and on no lane
+"far-kerb"        | [1.0, 3.4]          | p.toml:17: the place of a move is on lane 'near'
+"far-kerb"        | [9.0, -1.0]         | p.toml:17: role 'first' escorts people from one place to another that is not over the road
+\n[[roles]]\nname = "leader" | either_way = ["near-kerb", [4.0, -1.0]]\n[[roles]]\nname = "leader" | p.toml:1: a place at each of two kerbs is wanted, and these are on one side of the road
 "far-lane"        | "corner"            | p.toml:15: place 'corner' is not for a block
 "move"            | "dance"             | p.toml:17: 'dance' is no task:
 0.424             | 9                   | p.toml:17:

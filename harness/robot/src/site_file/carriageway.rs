@@ -8,6 +8,7 @@
 //!
 //! A person who leaves the crossing sideways is still on the carriageway.
 
+use super::Lane;
 use crate::site::Place;
 
 /// The carriageway at a crossing, by its corners, counter-clockwise: the first two are of one kerb.
@@ -43,6 +44,43 @@ impl Carriageway {
             across(c, d, b),
         ];
         ways.into_iter().fold(0.0, f64::max)
+    }
+
+    /// Whether a place is between the lines of the kerbs, however far along the road.
+    pub(super) fn is_beside(&self, place: Place) -> bool {
+        self.pavement(place).is_none()
+    }
+
+    /// Behind which kerb a place is, 0 or 1; `None` between them.
+    fn pavement(&self, place: Place) -> Option<usize> {
+        let [a, b, c, d] = self.crossing;
+        [[a, b], [c, d]]
+            .into_iter()
+            .position(|[from, to]| turn(from, to, place) <= 0.0)
+    }
+
+    /// Whether a place is on it.
+    pub(super) fn has(&self, place: Place) -> bool {
+        let corner = |number: usize| self.whole[number % 4];
+        (0..4).all(|first| turn(corner(first), corner(first + 1), place) > 0.0)
+    }
+
+    /// Whether two places are behind different kerbs.
+    pub(crate) fn parts(&self, places: [Place; 2]) -> bool {
+        let [from, to] = places.map(|place| self.pavement(place));
+        from.is_some() && to.is_some() && from != to
+    }
+
+    /// Whether the middle of a lane leads over a kerb.
+    pub(super) fn cuts(&self, lane: &Lane) -> bool {
+        let [a, b, c, d] = self.crossing;
+        let parts = |[from, to]: [Place; 2], [one, other]: [Place; 2]| {
+            (turn(from, to, one) > 0.0) != (turn(from, to, other) > 0.0)
+        };
+        let lane = [lane.from, lane.to];
+        [[a, b], [c, d]]
+            .into_iter()
+            .any(|kerb| parts(kerb, lane) && parts(lane, kerb))
     }
 
     /// Whether the lines of the kerbs do not meet in it.
