@@ -1,7 +1,9 @@
 //! The crossing machine in virtual time: who waits, what is clear, who is where, and whole crossings with real robots.
 #![allow(clippy::wildcard_imports, reason = "scripts use the whole vocabulary")]
 
+mod escort;
 mod ground;
+mod leader;
 mod occupancy;
 mod position;
 mod scene;

@@ -116,6 +116,17 @@ fn a_frame_that_is_not_newer_is_dropped() {
     );
 }
 
+/// A sign may have shown go before the robot began, and people step on the road for two seconds after it.
+#[test]
+fn a_frame_counts_once_nobody_steps_off_the_kerb_any_more() {
+    for (from, is_clear) in [(2_000, false), (2_001, true)] {
+        let mut scene = Scene::new(street());
+        scene.look(from, &[]);
+        (1..NEEDED).for_each(|_| drop(scene.look(100, &[])));
+        assert_eq!(scene.is_clear(), is_clear, "from {from} ms on");
+    }
+}
+
 /// A repeated frame is no further observation.
 #[test]
 fn a_frame_counts_once() {
@@ -211,6 +222,15 @@ fn a_person_in_a_frame_that_was_overtaken_is_on_the_road() {
         let mut scene = watch();
         (0..NEEDED).for_each(|_| drop(scene.look(100, &[])));
         assert!(scene.is_clear());
+        if age == 0 {
+            let what = RoadUser::Vehicle;
+            let car = Sighting {
+                what,
+                ..person(1, 100, 300)
+            };
+            scene.frame(0, age, 0b11, &[car, person(2, 100, -100)]);
+            assert!(scene.is_clear(), "a vehicle, and somebody beside the road");
+        }
         scene.frame(0, age, 0b11, &[person(1, 100, 300)]);
         assert!(!scene.is_clear(), "{age} ms old");
     }

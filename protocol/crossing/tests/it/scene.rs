@@ -1,7 +1,10 @@
 //! A street of 7 m that runs from west to east, with pavements of 2.5 m, and a machine that watches it.
 
 use crossguard_crossing::*;
-use crossguard_protocol::{Event, Millis, Urgency};
+use crossguard_protocol::{
+    Event, Maneuver, ManeuverId, Millis, RequestId, SessionId, SessionNumber, StationId, TaskType,
+    UniqueNumber, Urgency,
+};
 
 /// A rectangle, in centimetres.
 pub(crate) fn rectangle(west: i32, south: i32, east: i32, north: i32) -> Option<Shape> {
@@ -45,6 +48,15 @@ pub(crate) fn walking(sighting: Sighting, east_cm: i32, north_cm: i32) -> Sighti
     }
 }
 
+/// A maneuver that robot 1 commands, by the number of its command.
+pub(crate) fn maneuver(task: TaskType, request: u8) -> Maneuver {
+    let number = SessionNumber(UniqueNumber { boot: 1, count: 0 });
+    let leader = StationId(1);
+    let session = SessionId { leader, number };
+    let id = ManeuverId::of(session, RequestId(request));
+    Maneuver { id, task }
+}
+
 /// A machine that watches, in virtual time.
 pub(crate) struct Scene {
     pub(crate) setup: Setup,
@@ -75,6 +87,12 @@ impl Scene {
 
     pub(crate) fn pass(&mut self, ms: u32) {
         self.tell(Input::Elapsed(Millis(ms)));
+    }
+
+    /// The body is there, by a position that was measured so long ago.
+    pub(crate) fn is_at(&mut self, east: i32, north: i32, age: u32) -> Vec<Output> {
+        let (at, error_cm) = (Point::new(east, north), 0);
+        self.tell(Input::Pose(Some(Pose { at, error_cm }), Millis(age)))
     }
 
     /// A frame of a source that looked so long ago.

@@ -1,7 +1,7 @@
 //! Which vehicles hinder (hazard I).
 
 use crossguard_crossing::*;
-use crossguard_protocol::{Millis, StationId};
+use crossguard_protocol::{Millis, StationId, TaskType};
 
 use crate::scene::*;
 
@@ -123,27 +123,72 @@ fn too_many_vehicles_hinder() {
     }
 }
 
-/// Two cameras number from 1: the one that stands does not take the place of the one that comes.
+/// Two cameras number from 1. A vehicle that stands does not take the place of one that comes, whichever camera has it.
 #[test]
-fn vehicles_of_two_sources_are_two() {
-    let mut scene = Scene::new(street());
-    let car = |at| Sighting {
+fn vehicles_of_two_sources_and_two_of_one_are_two() {
+    let [comes, stands] = [(-1_900, 1_389), (2_900, 0)].map(|(east, speed)| Sighting {
         what: RoadUser::Vehicle,
-        at,
-        ..person(1, 0, 0)
-    };
-    scene.look(100, &[walking(car(Point::new(-1_900, 200)), 1_389, 0)]);
-    scene.frame(
-        1,
-        0,
-        0b11,
-        &[walking(car(Point::new(2_900, 200)), 1_389, 0)],
-    );
-    let hindered = scene.crossing.hindered(&scene.setup);
-    assert!(
-        matches!(hindered, Some(Hindrance::Vehicle(_))),
-        "{hindered:?}"
-    );
+        ..walking(person(1, east, 200), speed, 0)
+    });
+    let id = Some(2);
+    let cases = [
+        [(0, vec![comes]), (1, vec![stands])],
+        [(0, vec![comes, Sighting { id, ..stands }]), (1, vec![])],
+    ];
+    for frames in cases {
+        let mut scene = Scene::new(street());
+        for (source, vehicles) in &frames {
+            scene.frame(*source, 0, 0b11, vehicles);
+        }
+        let hindered = scene.crossing.hindered(&scene.setup);
+        assert!(
+            matches!(hindered, Some(Hindrance::Vehicle(_))),
+            "{hindered:?}, {frames:?}"
+        );
+    }
+}
+
+/// The sign shows go, though its robot does not know of an open corridor yet.
+#[test]
+fn a_sign_that_shows_go_is_turned_before_a_vehicle_that_cannot_stop() {
+    let mut setup = street();
+    setup.watches = false;
+    for (shows, expected) in [(1_900, true), (0, false)] {
+        let mut scene = Scene::new(setup.clone());
+        scene.tell(Input::CorridorOpen(Millis(shows)));
+        let out = scene.tell(Input::Vehicle(vehicle(-1_900, 200, 1_389, 0), Millis(0)));
+        assert_eq!(out.contains(&Output::Stop), expected, "{shows} ms");
+    }
+}
+
+/// A body waits for vehicles within 2 m of the road that its way leads on or over, and nowhere else beside it.
+#[test]
+fn a_body_waits_at_the_kerb_and_not_before_it_or_along_it() {
+    let mut setup = street();
+    setup.watches = false;
+    for (north, to, expected) in [
+        (-200, (0, 200), true),
+        (-201, (0, 200), false),
+        (-100, (0, 800), true),
+        (-100, (500, -100), false),
+    ] {
+        let mut scene = Scene::new(setup.clone());
+        scene.tell(Input::Vehicle(vehicle(-1_900, 200, 1_389, 0), Millis(0)));
+        scene.is_at(0, north, 0);
+        let to = Some(Point::new(to.0, to.1));
+        let out = scene.tell(Input::Started(maneuver(TaskType::BLOCK, 0), to));
+        assert_eq!(out.contains(&Output::Wait), expected, "{north}, {to:?}");
+    }
+}
+
+#[test]
+fn a_robot_that_comes_elsewhere_knows_nothing_of_that_place() {
+    let mut scene = Scene::new(street());
+    let car = vehicle(-1_900, 200, 1_389, 0);
+    scene.frame(0, 0, 0b11, &[person(1, 100, 300)]);
+    scene.tell(Input::Vehicle(car, Millis(0)));
+    scene.crossing.come_elsewhere();
+    assert_eq!(scene.crossing, Crossing::default());
 }
 
 /// Paper, section VI names coordination with vehicles as further work.

@@ -7,7 +7,7 @@ use crate::scene::*;
 use crate::team::*;
 
 /// Where the blocker stands.
-const POST: Point = Point::new(-200, 200);
+pub(crate) const POST: Point = Point::new(-200, 200);
 
 pub(crate) fn leg(task: TaskType, to: Point) -> Leg {
     Leg {
@@ -252,7 +252,7 @@ fn pass_beside_a_car(team: &mut Team, robot: usize, ms: u32) {
     pass_beside(team, robot, car(-1_900), ms);
 }
 
-fn pass_beside(team: &mut Team, robot: usize, vehicle: Vehicle, ms: u32) {
+pub(crate) fn pass_beside(team: &mut Team, robot: usize, vehicle: Vehicle, ms: u32) {
     for _ in 0..ms / 50 {
         team.hear(robot, Input::Vehicle(vehicle, Millis(0)));
         team.pass(50);
@@ -564,6 +564,7 @@ fn an_escort_does_not_wait_on_the_road_for_people_who_come_late() {
     team.pass_until("done", |it| {
         it.told(1, |event| matches!(event, Event::ManeuverCompleted(_))) > 0
     });
+    assert_eq!(calls(&team), 1, "not on its second way");
     team.pass_until("a second call", |it| calls(it) == 2);
     assert_eq!(team.told(0, |it| *it == Event::LeaveRequested), 0);
     assert_eq!(team.alone, 0);
@@ -621,6 +622,9 @@ fn a_call_ends_when_the_person_leaves() {
         team.hear(0, Input::CallIgnored);
         team.people[0] = walking(team.people[0], 140, 0);
         team.pass_until("idle", Team::is_idle);
+        // A guard that is on its way to the road goes there first.
+        let left = team.told(0, |it| *it == Event::LeaveRequested);
+        assert_eq!(left > 0, helpers == 0);
         assert!(!team.shows_go());
         assert_eq!(team.first(0, |it| matches!(it, Output::Go(_))), None);
         team.pass(5_000);
@@ -679,6 +683,7 @@ fn a_guard_that_knows_nothing_of_the_road_waits_for_a_person() {
         let mut team = left_alone(task, false);
         team.pass(60_000);
         assert!(team.robots[1].robot.duty().is_some());
+        assert!(team.robots[1].crossing.waits_for_clear());
         // The word waits for the body.
         team.hear(1, Input::BodyIsFree(false));
         team.hear(1, Input::SaidClear);
