@@ -31,6 +31,20 @@ fn a_way_that_leads_over_a_road_is_noticed() {
     }
 }
 
+/// Two shapes side by side have no place in common.
+#[test]
+fn a_shape_has_two_of_its_sides() {
+    let shape = rectangle(0, 0, 10, 10).unwrap();
+    for (place, expected) in [
+        ((0, 5), true),
+        ((10, 5), false),
+        ((5, 0), true),
+        ((5, 10), false),
+    ] {
+        assert_eq!(shape.has(at(place)), expected, "{place:?}");
+    }
+}
+
 #[test]
 fn the_middle_of_a_shape_is_the_mean_of_its_corners() {
     let corners = [(100, 200), (700, -200), (400, 600)].map(at);

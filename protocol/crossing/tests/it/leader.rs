@@ -73,6 +73,36 @@ fn a_session_is_left_that_nobody_wants_any_more_unless_guards_are_on_their_way_t
     }
 }
 
+/// Nobody crosses under a plan without guards.
+#[test]
+fn a_plan_that_lets_nobody_cross_is_over_when_it_is_done() {
+    let stage = leg(TaskType::INITIAL_POS, Point::new(-200, -150));
+    let mut team = team(plan(&[stage]), true);
+    team.people = vec![person(1, 100, -100)];
+    team.pass(6_000);
+    assert!(team.told(0, |it| *it == Event::TaskCompleted) > 0);
+    assert!(!team.shows_go());
+}
+
+/// The road runs from the north-west to the south-east.
+#[test]
+fn followers_with_the_same_part_stand_along_the_road() {
+    let kerbs = [Point::new(0, 0), Point::new(300, 400)];
+    let plan = Plan {
+        kerbs: Some(kerbs),
+        ..plan(&[leg(TaskType::BLOCK, kerbs[0])])
+    };
+    for (seat, expected) in [
+        (0, (0, 0)),
+        (1, (120, -90)),
+        (2, (-120, 90)),
+        (3, (240, -180)),
+    ] {
+        let leg = plan.leg(0, seat, false).unwrap();
+        assert_eq!(leg.to, Point::new(expected.0, expected.1), "seat {seat}");
+    }
+}
+
 /// A vehicle keeps go from beginning as the guard arrives, so it begins by the clock.
 #[test]
 fn go_is_shown_to_somebody_who_stands_on_the_road() {

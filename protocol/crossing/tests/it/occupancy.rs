@@ -256,6 +256,29 @@ fn a_source_that_looks_away_sees_nobody_leave() {
     assert!(scene.crossing.occupancy().sees_nobody(&scene.setup));
 }
 
+/// Somebody is seen by a source that does not say what it covers, or covers a part alone.
+#[test]
+fn a_source_sees_nobody_once_what_it_covered_is_empty() {
+    for (before, after, expected) in [
+        (0b01, 0b01, true),
+        (0b01, 0b10, false),
+        (0b11, 0b01, false),
+        (0b00, 0b00, false),
+        (0b00, 0b11, true),
+    ] {
+        let mut scene = watch();
+        (0..NEEDED).for_each(|_| drop(scene.look(100, &[])));
+        scene.pass(100);
+        scene.frame(0, 0, before, &[person(1, 100, 300)]);
+        for _ in 0..NEEDED {
+            scene.pass(100);
+            scene.frame(0, 0, after, &[]);
+        }
+        let sees_nobody = scene.crossing.occupancy().sees_nobody(&scene.setup);
+        assert_eq!(sees_nobody, expected, "{before:b}, {after:b}");
+    }
+}
+
 /// A lorry hides a part for one frame: that part is counted anew, and not lost for ever.
 #[test]
 fn parts_are_counted_each_for_itself() {

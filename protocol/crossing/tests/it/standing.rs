@@ -57,6 +57,26 @@ fn a_guard_on_duty_calls_nobody_and_stays() {
     assert_eq!(called, 0);
 }
 
+/// A robot without sensors hears of somebody on the road, and then of nobody any more.
+#[test]
+fn a_robot_without_a_part_goes_home_once_it_hears_of_nobody_on_the_road() {
+    let home = Point::new(0, -150);
+    let setup = Setup {
+        watches: false,
+        home: Some(home),
+        ..street()
+    };
+    let mut scene = Scene::new(setup);
+    scene.tell(Input::Heard(person(1, 100, 300), Millis(0)));
+    for (ms, goes) in [(1_000, false), (100, true)] {
+        scene.is_at(0, 100, 0);
+        scene.pass(ms - 1);
+        scene.is_at(0, 100, 0);
+        scene.pass(1);
+        assert_eq!(scene.out.contains(&Output::WalkTo(home)), goes, "{ms} ms");
+    }
+}
+
 #[test]
 fn a_follower_says_once_that_it_sees_somebody_on_the_road_and_that_it_does_not_any_more() {
     let mut team = blocking();

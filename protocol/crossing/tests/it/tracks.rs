@@ -167,9 +167,9 @@ fn uncertain_people_and_people_elsewhere_do_not_wait() {
     let mut scene = watch();
     let mut unsure = person(1, 100, -100);
     for (confidence, ms, expected) in [
-        (40, 2_000, None),
-        (60, 1_500, Some(Urgency::Medium)),
-        (30, 500, Some(Urgency::Medium)),
+        (49, 2_000, None),
+        (50, 1_500, Some(Urgency::Medium)),
+        (25, 500, Some(Urgency::Medium)),
     ] {
         unsure.confidence = confidence;
         assert_eq!(scene.sees(&mut unsure, ms), expected, "{confidence} %");
@@ -233,9 +233,72 @@ fn swapped_ids_of_people_out_of_reach_of_each_other_swap_nobody() {
         scene.look(100, &people);
     }
     assert_eq!(scene.conducts(), [Conduct::Waiting; 2]);
+    let middle = scene.crossing.tracks().middle();
+    assert_eq!(middle, Some(Point::new(50, -100)));
 }
 
-/// Hazard D: the tracker restarts and numbers from 1 again.
+/// A person who has crossed changes places with another one who waits over there.
+#[test]
+fn people_within_reach_of_each_other_keep_their_ids() {
+    let mut scene = watch();
+    let [left, right] = [100, 200];
+    let mut crosses = walking(person(1, left, 20), 0, 200);
+    scene.sees(&mut crosses, 3_500);
+    let over_there = |[first, second]: [i32; 2]| [person(1, first, 720), person(2, second, 720)];
+    (0..15).for_each(|_| drop(scene.look(100, &over_there([left, right]))));
+    assert_eq!(scene.conducts(), [Conduct::Across, Conduct::Waiting]);
+    scene.look(500, &over_there([right, left]));
+    let mut people: Vec<_> = scene.crossing.tracks().iter().collect();
+    people.sort_by_key(|it| it.at().east_cm());
+    let conducts: Vec<_> = people.iter().map(|it| it.conduct(&scene.setup)).collect();
+    assert_eq!(conducts, [Conduct::Waiting, Conduct::Across]);
+}
+
+/// A source takes a person for a vehicle now and then, and the other way round.
+#[test]
+fn a_person_is_no_vehicle_whatever_a_source_takes_them_for() {
+    use RoadUser::{Pedestrian, Vehicle, WheelchairUser};
+    for (before, after, expected) in [
+        (Pedestrian, Vehicle, Pedestrian),
+        (Vehicle, Pedestrian, Pedestrian),
+        (Pedestrian, WheelchairUser, WheelchairUser),
+        (Vehicle, Vehicle, Vehicle),
+    ] {
+        let mut scene = watch();
+        scene.pass(2_001);
+        let seen = |what| Sighting {
+            what,
+            ..person(1, 100, 300)
+        };
+        scene.look(100, &[seen(before)]);
+        for _ in 0..9 {
+            scene.look(100, &[seen(after)]);
+        }
+        let tracks: Vec<_> = scene.crossing.tracks().iter().map(Track::what).collect();
+        assert_eq!(tracks, [expected], "{before:?}, {after:?}");
+        assert_eq!(
+            scene.is_clear(),
+            expected == Vehicle,
+            "{before:?}, {after:?}"
+        );
+    }
+}
+
+/// A vehicle passes beside a person who is out of sight.
+#[test]
+fn a_vehicle_does_not_take_a_person_along() {
+    let mut scene = watch();
+    scene.look(100, &[person(1, 100, 300)]);
+    let car = Sighting {
+        what: RoadUser::Vehicle,
+        id: None,
+        ..person(9, 150, 300)
+    };
+    scene.look(500, &[car]);
+    let mut people = scene.crossing.tracks().iter();
+    assert!(people.any(|it| it.at() == Point::new(100, 300) && it.is_on_road()));
+}
+
 /// A sensor that has one of them or the other took the two for somebody who walks to and fro.
 #[test]
 fn two_people_of_whom_one_is_hidden_in_turn_both_wait() {
@@ -274,6 +337,7 @@ fn another_id_is_the_same_person_there_and_somebody_else_elsewhere() {
     }
 }
 
+/// Hazard D: the tracker restarts and numbers from 1 again.
 #[test]
 fn an_id_that_jumps_is_somebody_else() {
     let mut setup = street();
@@ -329,9 +393,17 @@ fn more_people_than_can_be_kept_track_of_are_a_crowd_that_waits() {
     };
     frame(&mut crossing, &people);
     assert_eq!(crossing.tracks().urgency(), Some(Urgency::Medium));
-    assert!(crossing.tracks().is_waiting());
+    assert!(crossing.tracks().is_waiting() && crossing.tracks().is_somebody_lost());
     (0..11).for_each(|_| frame(&mut crossing, &[]));
-    assert!(!crossing.tracks().is_waiting());
+    assert!(!crossing.tracks().is_waiting() && !crossing.tracks().is_somebody_lost());
+    // Vehicles, and people elsewhere, are no crowd.
+    let what = RoadUser::Vehicle;
+    let vehicles: Vec<_> = people.iter().map(|it| Sighting { what, ..*it }).collect();
+    let elsewhere: Vec<_> = (0..4).map(|id| person(id, 600, -100)).collect();
+    for seen in [vehicles, elsewhere] {
+        frame(&mut crossing, &seen);
+        assert!(!crossing.tracks().is_waiting(), "{seen:?}");
+    }
 }
 
 /// Another station can add people, and take none away.
@@ -380,8 +452,10 @@ fn a_person_who_is_found_again_under_go_waits_still() {
         scene.tell(Input::CorridorOpen(Millis(1_900)));
         assert!(scene.crossing.tracks().is_waiting());
     }
+    assert!(scene.crossing.tracks().is_somebody_lost());
     scene.look(100, &[person(2, 120, -100)]);
     assert!(scene.crossing.tracks().is_waiting());
+    assert!(!scene.crossing.tracks().is_somebody_lost());
     assert_eq!(scene.conducts(), [Conduct::Waiting]);
     // Not without end.
     for _ in 0..31 {
@@ -405,15 +479,35 @@ fn who_was_lost_on_the_road_is_resolved_by_empty_frames() {
     assert_eq!(scene.conducts(), []);
 }
 
+/// A robot with sensors has room for two, and one of them is there.
 #[test]
 fn no_number_of_people_who_were_lost_on_the_road_takes_the_place_of_those_who_are_there() {
     let setup = street();
     let mut crossing = Crossing::<2>::default();
-    for id in 0..5 {
-        crossing.step(&setup, Input::Elapsed(Millis(1_500)));
-        crossing.step(&setup, Input::Heard(person(id, 100, 300), Millis(0)));
+    let mut look = |ms, people: &[Sighting]| {
+        crossing.step(&setup, Input::Elapsed(Millis(ms)));
+        let (source, age, covers) = (0, Millis(0), Coverage::ALL);
+        crossing.step(
+            &setup,
+            Input::Frame(Frame {
+                source,
+                age,
+                covers,
+                sightings: people,
+            }),
+        );
+        let tracks = crossing.tracks();
+        let conducts = tracks.iter().map(|it| it.conduct(&setup));
+        (conducts.collect::<Vec<_>>(), tracks.is_somebody_lost())
+    };
+    let stays = person(1, -200, 300);
+    for id in 2..7 {
+        let lost = person(id, 100 * i32::try_from(id).unwrap(), 300);
+        look(100, &[stays, lost]);
+        look(800, &[stays]);
+        look(300, &[stays]);
     }
-    crossing.step(&setup, Input::Elapsed(Millis(1_500)));
-    crossing.step(&setup, Input::Heard(person(9, 100, -200), Millis(0)));
-    assert!(!crossing.tracks().is_waiting(), "nobody is a crowd");
+    let comes = person(9, 100, -200);
+    let expected = vec![Conduct::OnRoad, Conduct::Passing];
+    assert_eq!(look(100, &[stays, comes]), (expected, false));
 }

@@ -25,7 +25,9 @@ fn hinders(vehicle: Vehicle, age: u32, silence: u32) -> bool {
     setup.watches = false;
     let mut scene = Scene::new(setup);
     scene.tell(Input::Vehicle(vehicle, Millis(age)));
-    scene.pass(silence);
+    if silence > 0 {
+        scene.pass(silence);
+    }
     scene.crossing.hindered(&scene.setup) == Some(Hindrance::Vehicle(7))
 }
 
@@ -36,12 +38,17 @@ fn a_vehicle_hinders_that_can_no_longer_stop_comfortably() {
     for (name, vehicle, expected) in [
         ("50 km/h at 16 m", vehicle(-1_900, 200, fast, 0), true),
         ("50 km/h at 59 m", vehicle(-6_200, 200, fast, 0), true),
+        ("the last that cannot", vehicle(-6_293, 200, fast, 0), true),
+        ("the first that can", vehicle(-6_294, 200, fast, 0), false),
         ("50 km/h at 62 m", vehicle(-6_500, 200, fast, 0), false),
         ("from the east", vehicle(2_100, 500, -fast, 0), true),
         ("it stands", vehicle(-400, 200, 40, 0), false),
         ("its rear is there", vehicle(1_600, 200, fast, 0), true),
         ("it has passed", vehicle(1_800, 200, fast, 0), false),
         ("it is on the crossing", vehicle(450, 200, fast, 0), true),
+        ("it is abreast", vehicle(100, -600, 100, 0), true),
+        ("it passes near", vehicle(-1_900, 1_881, fast, 0), true),
+        ("just aside", vehicle(-1_900, 1_882, fast, 0), false),
         ("it passes aside", vehicle(-1_900, 4_000, fast, 0), false),
         (
             "it comes from the north",
@@ -62,6 +69,7 @@ fn an_older_report_counts_as_if_the_vehicle_had_gone_on() {
         (0, 300, true),
         (0, 5_000, true),
         (0, 5_001, false),
+        (5_000, 0, true),
         (5_001, 0, false),
     ] {
         assert_eq!(
