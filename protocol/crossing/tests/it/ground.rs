@@ -20,6 +20,8 @@ fn a_way_that_leads_over_a_road_is_noticed() {
         ((-100, -100), (100, -10), false),
         ((-3_100, 350), (-3_010, 350), false),
         ((-3_100, 600), (-2_900, 900), false),
+        ((-3_100, 350), (-3_000, 350), true),
+        ((3_100, 350), (3_000, 350), false),
     ] {
         for [from, to] in [[from, to], [to, from]] {
             assert_eq!(
@@ -42,6 +44,14 @@ fn a_shape_has_two_of_its_sides() {
         ((5, 10), false),
     ] {
         assert_eq!(shape.has(at(place)), expected, "{place:?}");
+    }
+}
+
+#[test]
+fn a_place_that_is_too_far_is_at_the_edge_of_its_side() {
+    for (cm, expected) in [(i32::MIN, -FAR_CM), (-FAR_CM, -FAR_CM), (i32::MAX, FAR_CM)] {
+        let place = Point::new(cm, -1);
+        assert_eq!((place.east_cm(), place.north_cm()), (expected, -1));
     }
 }
 

@@ -86,7 +86,7 @@ fn a_plan_that_lets_nobody_cross_is_over_when_it_is_done() {
 
 /// The road runs from the north-west to the south-east.
 #[test]
-fn followers_with_the_same_part_stand_along_the_road() {
+fn followers_with_the_same_part_stand_along_the_road_and_begin_at_the_nearer_kerb() {
     let kerbs = [Point::new(0, 0), Point::new(300, 400)];
     let plan = Plan {
         kerbs: Some(kerbs),
@@ -100,6 +100,10 @@ fn followers_with_the_same_part_stand_along_the_road() {
     ] {
         let leg = plan.leg(0, seat, false).unwrap();
         assert_eq!(leg.to, Point::new(expected.0, expected.1), "seat {seat}");
+    }
+    for (people, expected) in [((150, 199), false), ((150, 200), false), ((150, 201), true)] {
+        let people = Point::new(people.0, people.1);
+        assert_eq!(plan.begins_over_there(people), expected, "{people:?}");
     }
 }
 

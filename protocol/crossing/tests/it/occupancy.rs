@@ -1,5 +1,7 @@
 //! When the carriageway is clear (hazards A, B, C): only by fresh, consecutive, empty frames that cover it.
 
+use std::collections::BTreeSet;
+
 use crossguard_crossing::*;
 
 use crate::scene::*;
@@ -125,6 +127,13 @@ fn a_frame_counts_once_nobody_steps_off_the_kerb_any_more() {
         (1..NEEDED).for_each(|_| drop(scene.look(100, &[])));
         assert_eq!(scene.is_clear(), is_clear, "from {from} ms on");
     }
+}
+
+#[test]
+fn each_reason_to_drop_a_frame_has_a_name_of_its_own() {
+    use FrameDrop::{Malformed, NoSuchSource, OutOfOrder, Stale};
+    let names = [Stale, OutOfOrder, NoSuchSource, Malformed].map(FrameDrop::name);
+    assert_eq!(BTreeSet::from(names).len(), names.len());
 }
 
 /// A repeated frame is no further observation.

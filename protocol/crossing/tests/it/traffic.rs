@@ -1,5 +1,7 @@
 //! Which vehicles hinder (hazard I).
 
+use std::collections::BTreeSet;
+
 use crossguard_crossing::*;
 use crossguard_protocol::{Millis, StationId, TaskType};
 
@@ -187,6 +189,20 @@ fn a_body_waits_at_the_kerb_and_not_before_it_or_along_it() {
         let out = scene.tell(Input::Started(maneuver(TaskType::BLOCK, 0), to));
         assert_eq!(out.contains(&Output::Wait), expected, "{north}, {to:?}");
     }
+}
+
+#[test]
+fn each_hindrance_has_a_text_of_its_own() {
+    let hindrances = [
+        Hindrance::GuardElsewhere(StationId(2)),
+        Hindrance::GuardElsewhere(StationId(3)),
+        Hindrance::LeaderElsewhere,
+        Hindrance::NoSight,
+        Hindrance::Vehicle(7),
+        Hindrance::NoPromise(StationId(7)),
+    ];
+    let texts = hindrances.map(|it| it.to_string());
+    assert_eq!(BTreeSet::from(texts).len(), hindrances.len());
 }
 
 #[test]
