@@ -5,7 +5,7 @@ use crossguard_protocol::{
     Notice, Phase, Progress, Robot, StationId,
 };
 
-use crate::ground::Point;
+use crate::ground::{Point, Way};
 use crate::input::{
     BodyReport, Frame, FrameDrop, Hindrance, Input, Output, Outputs, Pose, RoadUser, Sighting,
 };
@@ -345,15 +345,17 @@ impl<const N: usize> Crossing<N> {
         } else {
             self.occupancy.doubt(frame.source);
         }
-        for (number, sighting) in frame.sightings.iter().enumerate() {
-            if let (RoadUser::Vehicle, Some(velocity)) = (sighting.what, sighting.velocity) {
-                let number = u32::try_from(number).unwrap_or(u32::MAX);
+        for (number, sighting) in (0..).zip(frame.sightings) {
+            if let Some(velocity) = sighting.velocity.filter(|it| rides(setup, sighting, *it)) {
+                // A number that several have tells them apart no more than none.
+                let mut others = frame.sightings.iter().filter(|it| it.id == sighting.id);
+                let id = sighting.id.filter(|_| others.nth(1).is_none());
                 let vehicle = crate::input::Vehicle {
                     station: None,
-                    // Apart from those of stations and of other sources.
-                    key: u32::MAX
-                        - u32::from(frame.source) * 4_096
-                        - sighting.id.unwrap_or(number) % 4_096,
+                    // Apart from those of stations and of other sources, and those with a number from those without.
+                    key: 1 << 63
+                        | u64::from(frame.source) << 33
+                        | id.map_or(1 << 32 | number, u64::from),
                     at: sighting.at,
                     error_cm: sighting.error_cm,
                     velocity,
@@ -801,6 +803,12 @@ fn executing(robot: &Robot) -> Option<Maneuver> {
         Phase::Following(following) => following.executing(),
         _ => None,
     }
+}
+
+/// Whether somebody who goes like this comes like a vehicle: faster than people walk.
+fn rides(setup: &Setup, sighting: &Sighting, velocity: Way) -> bool {
+    matches!(sighting.what, RoadUser::Vehicle | RoadUser::Motorcyclist)
+        || velocity.length_cm() > u32::from(setup.sensors.speed_max_cmps)
 }
 
 /// Whether somebody may be on the carriageway.

@@ -59,8 +59,8 @@ pub struct Frame<'a> {
 /// A vehicle that is heard or seen.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Vehicle {
-    /// What it is known by: a hint.
-    pub key: u32,
+    /// What it is known by: a hint. From bit 63 on it is of a sensor's frame.
+    pub key: u64,
     /// The station that it is, if it tells itself where it is: it can be asked to stop.
     pub station: Option<StationId>,
     /// Where its front is.
@@ -168,7 +168,7 @@ pub enum Hindrance {
     /// The sensors do not cover the carriageway now.
     NoSight,
     /// A vehicle can no longer stop comfortably: its key.
-    Vehicle(u32),
+    Vehicle(u64),
     /// A vehicle that is to be asked has not said that it will stop.
     NoPromise(StationId),
 }

@@ -118,7 +118,7 @@ fn sighting(source: &mut impl Source) -> Sighting {
 
 fn vehicle(source: &mut impl Source, key: u32) -> Vehicle {
     Vehicle {
-        key,
+        key: key.into(),
         station: source.flag().then_some(StationId(key)),
         at: point(source),
         error_cm: source.u16(10),

@@ -49,7 +49,7 @@ struct Known {
 pub struct Traffic {
     vehicles: [Option<Known>; VEHICLES],
     /// There are too many: this one counts as one that cannot stop.
-    further: Option<(u32, Millis)>,
+    further: Option<(u64, Millis)>,
 }
 
 impl Traffic {
@@ -132,7 +132,7 @@ impl Traffic {
 
     /// The first vehicle that could no longer stop comfortably before the crossing.
     #[must_use]
-    pub fn hindrance(&self, setup: &Setup) -> Option<u32> {
+    pub fn hindrance(&self, setup: &Setup) -> Option<u64> {
         self.first(setup, crossing(setup)?, &setup.traffic, |_| true)
     }
 
@@ -159,7 +159,7 @@ impl Traffic {
         place: &Shape,
         rules: &TrafficRules,
         counts: impl Fn(&Vehicle) -> bool,
-    ) -> Option<u32> {
+    ) -> Option<u64> {
         let hinders = |it: &&Known| {
             let ahead = ahead(setup, place, &it.vehicle).filter(|_| counts(&it.vehicle));
             ahead.is_some_and(|motion| !motion.can_stop(rules, it.age))

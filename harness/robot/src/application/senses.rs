@@ -287,7 +287,12 @@ impl Application {
         let seen = heard(known, at, RoadUser::Vehicle, Some(velocity));
         self.observe_one(HEARD, seen);
         let vehicle = Vehicle {
-            key: key(user.identity),
+            key: match user.identity {
+                Identity::Station(id) => id.into(),
+                Identity::Object { by, number } => {
+                    1 << 62 | u64::from(by) << 16 | u64::from(number)
+                }
+            },
             station: match user.identity {
                 Identity::Station(id) => Some(StationId(id)),
                 Identity::Object { .. } => None,

@@ -5,6 +5,7 @@ mod escort;
 mod ground;
 mod leader;
 mod occupancy;
+mod outsider;
 mod position;
 mod scene;
 mod standing;

@@ -108,9 +108,9 @@ fn too_many_vehicles_hinder() {
     let mut setup = street();
     setup.watches = false;
     let mut scene = Scene::new(setup);
-    let numbered = |key: u32, vehicle| Vehicle { key, ..vehicle };
+    let numbered = |key: u64, vehicle| Vehicle { key, ..vehicle };
     let far = vehicle(-60_000, 200, 1_389, 0);
-    let count = u32::try_from(traffic::VEHICLES).unwrap();
+    let count = u64::try_from(traffic::VEHICLES).unwrap();
     // Vehicles that stand take nobody's place.
     (0..count).for_each(|key| {
         scene.tell(Input::Vehicle(
