@@ -321,7 +321,8 @@ impl<const N: usize> Tracks<N> {
                     None => self.nearest(setup, source, age, sighting, &taken),
                 };
                 let free = || self.tracks.iter().position(Option::is_none);
-                let place = found.or_else(free).or_else(|| self.lost());
+                let place = found.or_else(free);
+                let place = place.or_else(|| self.spare(setup, source, sighting.at));
                 let mut is_person = sighting.what != RoadUser::Vehicle;
                 if let Some(place) = place {
                     taken[place] = true;
@@ -363,10 +364,23 @@ impl<const N: usize> Tracks<N> {
             .map(|(place, _)| place)
     }
 
-    /// Somebody who was lost on the road. That their track goes frees nobody: occupancy decides.
-    fn lost(&self) -> Option<usize> {
-        let mut tracks = self.tracks.iter();
-        tracks.position(|slot| slot.is_some_and(|it| it.is_on_road() && !it.is_fresh()))
+    /// Whose track goes where there are too many: of somebody who was lost on the road, for occupancy decides whether it is clear; of
+    /// somebody elsewhere; and, for somebody in the zone whom the robot sees itself, of those whom others report.
+    fn spare(&self, setup: &Setup, source: u8, at: Point) -> Option<usize> {
+        let takes_hearsay = source != OTHERS && setup.ground.is_zone(at);
+        let rank = |track: &Track| {
+            if track.is_on_road() && !track.is_fresh() {
+                Some(0)
+            } else if !setup.ground.is_zone(track.at) {
+                Some(1)
+            } else {
+                let is_hearsay = takes_hearsay && track.source == OTHERS;
+                is_hearsay.then(|| 2 + u8::from(track.is_on_road()))
+            }
+        };
+        let places = self.tracks.iter().enumerate();
+        let ranked = places.filter_map(|(place, slot)| Some((rank(slot.as_ref()?)?, place)));
+        ranked.min().map(|(_, place)| place)
     }
 
     /// The nearest free track within the reach of a sighting.

@@ -1,8 +1,11 @@
 //! What one station, or one odd frame, takes away.
 
 use crossguard_crossing::*;
+use crossguard_protocol::{Millis, TaskType};
 
 use crate::scene::*;
+use crate::team::Team;
+use crate::whole::{leg, plan, team};
 
 fn car(id: Option<u32>, at: Point, speed: i32) -> Sighting {
     let car = Sighting {
@@ -50,5 +53,48 @@ fn vehicles_of_one_frame_are_as_many_as_it_has() {
             matches!(hindered, Some(Hindrance::Vehicle(_))),
             "{name}: {hindered:?}"
         );
+    }
+}
+
+/// A CPM with many people elsewhere.
+fn crowd_elsewhere(team: &mut Team, robot: usize) {
+    for number in 0..64 {
+        let far = person(
+            1_000 + number,
+            100_000 + 2_000 * i32::try_from(number).unwrap(),
+            0,
+        );
+        team.hear(robot, Input::Heard(far, Millis(0)));
+    }
+}
+
+#[test]
+fn an_escort_stays_with_its_person_however_many_others_are_reported() {
+    for crowd in [false, true] {
+        let mut team = team(plan(&[leg(TaskType::MOVE, Point::new(100, 800))]), true);
+        team.robots[1].body.at = Point::new(0, -100);
+        let pass = |team: &mut Team, ms: u32| {
+            for _ in 0..ms / 100 {
+                if crowd {
+                    crowd_elsewhere(team, 0);
+                    crowd_elsewhere(team, 1);
+                }
+                team.pass(100);
+            }
+        };
+        pass(&mut team, 1_000);
+        team.people = vec![person(1, 100, -100)];
+        for _ in 0..200 {
+            if !team.shows_go() {
+                pass(&mut team, 100);
+            }
+        }
+        assert!(team.shows_go());
+        team.people[0] = walking(team.people[0], 0, 40);
+        pass(&mut team, 5_000);
+        team.people[0] = walking(team.people[0], 0, 0);
+        pass(&mut team, 10_000);
+        let ahead = team.robots[1].body.at.north_cm() - team.people[0].at.north_cm();
+        assert!((0..=250).contains(&ahead), "crowd {crowd}: {ahead} cm");
     }
 }
