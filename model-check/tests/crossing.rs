@@ -7,7 +7,7 @@ use crossguard_crossing::Setup;
 use crossguard_model_check::check::{Options, Stop};
 use crossguard_model_check::crossing::*;
 use crossguard_model_check::report::CutOff;
-use crossguard_protocol::Millis;
+use crossguard_protocol::{Millis, TaskSet};
 
 #[test]
 fn every_rule_holds_in_every_street_and_every_premise_is_met() {
@@ -36,6 +36,10 @@ const GUARD: Street = Street {
 };
 const LATE: Street = Street {
     late: true,
+    ..PERSON
+};
+const OUTAGE: Street = Street {
+    outages: 1,
     ..PERSON
 };
 const WITH_VEHICLE: Street = Street {
@@ -74,6 +78,8 @@ const WEAKENINGS: &[Weakening] = &[
     (GUARD, trusts_one_frame, Rule::P1),
     // Nobody steps on the road later than half a second after go.
     (LATE, |setup| setup.waiting.step_off = Millis(500), Rule::P1),
+    // A guard that falls back takes its block for a maneuver beside which nobody crosses.
+    (OUTAGE, |setup| if setup.plan.is_none() { setup.guarding = TaskSet::EMPTY }, Rule::P1),
     // A guard is in position wherever it is.
     (DRIFTING, |setup| setup.position.tolerance_cm = 10_000, Rule::P2),
     // It is for a minute after its last position.

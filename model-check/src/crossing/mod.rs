@@ -10,11 +10,13 @@
 //! Time passes in ticks of half a second. In each tick people and the vehicle move as they like, the sensor misses people
 //! within the assumption `sees`, and at most one of the things happens that a [`Street`] allows. People step on the
 //! carriageway under go, or soon after it where a [`Street`] says so, and are then on it for as long as they like, also
-//! beside the crossing. A vehicle, changes of ids, hangs, blindness and drifts are bounded for a run, and no run is as long as
-//! `T_lock` or `T_exec`; nothing else is bounded. In [`Watch::Guard`] the follower's machine is alone: what leads has none, and its application says anything at any
-//! time, as often as the [`Street`] allows. `truth` judges, and shares nothing with the machine. P4, about escorts, needs finer
-//! geometry and is not here.
+//! beside the crossing. A vehicle, changes of ids, hangs, blindness, drifts and the number of outages are bounded for a run, and
+//! no run is as long as `T_lock` or `T_exec`; nothing else is bounded. In an outage messages to one robot, or to both, are lost,
+//! for any time. In [`Watch::Guard`] the follower's machine is alone: what leads has none, and its application says anything at
+//! any time, as often as the [`Street`] allows. `truth` judges, and shares nothing with the machine. P4, about escorts, needs
+//! finer geometry and is not here.
 
+mod people;
 mod rules;
 mod street;
 mod team;
@@ -70,6 +72,8 @@ pub struct Street {
     pub blind: u8,
     /// How often the guard drifts off its place, or does not know any more where it is.
     pub drifts: u8,
+    /// How many outages there are: for any time, messages to one robot, or to both, are lost.
+    pub outages: u8,
     /// Whether a vehicle comes along.
     pub vehicle: bool,
     /// Whether the leader asks it to stop. It answers as it likes, at any time or never, and does not stop.
@@ -88,6 +92,7 @@ impl Street {
         hang: 0,
         blind: 0,
         drifts: 0,
+        outages: 0,
         vehicle: false,
         asks: false,
     };
@@ -109,7 +114,7 @@ pub struct Shipped {
 }
 
 /// The shipped streets.
-pub const SHIPPED: [Shipped; 12] = {
+pub const SHIPPED: [Shipped; 13] = {
     const PERSON: Street = Street::PERSON;
     const MET: &[Rule] = &[Rule::P1, Rule::P5, Rule::P6];
     const ALONE: &[Rule] = &[Rule::P1];
@@ -145,7 +150,9 @@ pub const SHIPPED: [Shipped; 12] = {
         of("street-blind", "the same, and the sensor delivers nothing for up to 1 s",
             Street { blind: 2, ..PERSON }, MET, 409_428),
         of("street-drift", "the same, and the guard leaves its place, or does not know it any more",
-            Street { drifts: 1, ..PERSON }, DRIFT, 285_042),
+            Street { drifts: 1, ..PERSON }, DRIFT, 285_125),
+        of("street-outage", "the same, and messages to one robot or to both are lost, once, for any time",
+            Street { outages: 1, ..PERSON }, MET, 1_510_660),
         of("street-vehicle", "the same, and a vehicle comes at 50 km/h",
             Street { vehicle: true, ..PERSON }, VEHICLE, 421_333),
         of("street-asked", "the same, and the leader asks it to stop: it says that it will, that it will not, or nothing",
@@ -202,7 +209,7 @@ impl Shipped {
             properties: properties.collect(),
             assumptions: ASSUMPTIONS
                 .into_iter()
-                .chain([self.street.watch.assumption()])
+                .chain([self.street.delivery(), self.street.watch.assumption()])
                 .map(str::to_owned)
                 .collect(),
             ..ScenarioReport::of(self.name, self.summary, robots, found.size, found.cut_off)
@@ -214,17 +221,30 @@ impl Shipped {
 const ASSUMPTIONS: [&str; 5] = [
     "sees: the sensor, which covers the whole road, misses nobody in more than 1 frame in a row; nobody walks faster than 9 m/s, or crosses within a second",
     "people step on the road under go, in street-late also within 2 s after it, and stay on it for as long as they like",
-    "time passes in ticks of 0.5 s, and at most one fault happens in a tick; messages arrive at once",
+    "time passes in ticks of 0.5 s, and at most one fault happens in a tick",
     "positions of bodies and vehicles are true",
     "no run is as long as T_lock or T_exec",
 ];
+
+impl Street {
+    /// What a verdict assumes of messages.
+    const fn delivery(&self) -> &'static str {
+        if self.outages > 0 {
+            "messages arrive at once, and are lost in outages: those to one robot, or to both"
+        } else if self.hang > 0 {
+            "messages arrive at once, and are lost while the leader hangs"
+        } else {
+            "messages arrive at once"
+        }
+    }
+}
 
 impl Watch {
     /// What a verdict assumes of who sees people.
     const fn assumption(self) -> &'static str {
         match self {
             Self::Leader => {
-                "the follower has no sensors: a person tells it that the road is clear, when it is, once its leader is idle"
+                "the follower has no sensors: a person tells it that the road is clear, when it is and nobody may step on it, once its leader is idle"
             }
             Self::Both => "both robots take in the same frames at the same time",
             Self::Guard => {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crossguard_crossing::{Coverage, Frame, Input, Point, RoadUser, Sighting, Vehicle, Way};
+use crossguard_crossing::{Input, Point, Vehicle, Way};
 use crossguard_protocol::{
     Event, HelpRequest, Millis, Place, StationId, TaskSet, TaskType, Urgency,
 };
@@ -10,9 +10,10 @@ use stateright::Property;
 
 use crate::exploration::Stop;
 
+use super::people::{Cell, PEOPLE_MAX, Person, Seen, tell_frame};
 use super::rules::Rules;
 use super::team::{FOLLOWING, Team};
-use super::truth::{ADRIFT_MAX, DETECT_MAX, END_MAX, Rule, STOP_M};
+use super::truth::{AWAY_MAX, DETECT_MAX, END_MAX, Rule, STOP_M};
 use super::{Street, Watch};
 
 pub(super) const TICK: Millis = Millis(500);
@@ -31,74 +32,6 @@ const fn comes_m(street: &Street) -> u8 {
 
 const VEHICLE: StationId = StationId(7);
 
-pub(super) const PEOPLE_MAX: usize = 2;
-
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Cell {
-    /// On the pavement, at the crossing.
-    Near,
-    /// On the pavement, where people do not wait and see the sign.
-    Aside,
-    Lane,
-    /// On the carriageway, beside the crossing.
-    Beside,
-    /// On the other pavement.
-    Far,
-    /// Out of everybody's sight, off the road.
-    Away,
-}
-
-impl Cell {
-    pub(super) const fn is_road(self) -> bool {
-        matches!(self, Self::Lane | Self::Beside)
-    }
-
-    /// Where it is. Cells from one of which somebody gets to another within a tick are at most 4.5 m apart.
-    const fn place(self, person: usize) -> Point {
-        let east = if person == 0 { 100 } else { 0 };
-        match self {
-            Self::Near => Point::new(east, -30),
-            Self::Aside => Point::new(350 + east, -30),
-            Self::Lane => Point::new(east, 350),
-            Self::Beside => Point::new(450 + east, 350),
-            Self::Far => Point::new(east, 730),
-            Self::Away => Point::new(east, -4_000),
-        }
-    }
-
-    /// Where somebody may be a tick later. People step on the road under go or soon after it, and leave it where they like.
-    const fn moves(self, goes: bool, is_free: bool, is_late: bool) -> &'static [Self] {
-        match self {
-            Self::Near if goes && is_late => &[Self::Near, Self::Lane, Self::Away, Self::Aside],
-            Self::Near if goes => &[Self::Near, Self::Lane, Self::Away],
-            Self::Near if is_late => &[Self::Near, Self::Away, Self::Aside],
-            Self::Near => &[Self::Near, Self::Away],
-            Self::Aside if goes => &[Self::Aside, Self::Near, Self::Away, Self::Beside],
-            Self::Aside => &[Self::Aside, Self::Near, Self::Away],
-            Self::Lane => &[Self::Lane, Self::Near, Self::Far, Self::Beside],
-            Self::Beside => &[Self::Beside, Self::Lane],
-            // Somebody who stays there for longer waits there.
-            Self::Far if is_free => &[Self::Away],
-            Self::Far => &[Self::Far, Self::Away],
-            Self::Away => &[Self::Away],
-        }
-    }
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) struct Person {
-    pub(super) at: Cell,
-    /// In how many frames the sensor has missed them in a row.
-    pub(super) missed: u8,
-    /// What the sensor calls them.
-    id: u8,
-    has_walked: bool,
-    /// Whether a frame that was taken in at once, by a guard that is on its own while it guarded, had them there.
-    pub(super) was_seen_there: bool,
-    /// For how many ticks they have been on the road, at most 2.
-    on_road: u8,
-}
-
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(super) struct Guard {
@@ -106,14 +39,21 @@ pub(super) struct Guard {
     pub(super) is_drifted: bool,
     /// It does not say any more where it is.
     pub(super) is_lost: bool,
-    /// For how many ticks it has been off its place, saturating.
-    pub(super) adrift: u8,
+    /// For how many ticks it has not guarded at its place, saturating.
+    pub(super) away: u8,
     /// It has guarded, and does not any more; or a word of the leader has freed it.
     pub(super) has_left: bool,
     /// A vehicle has come within its way to stop for a tick, and nobody has been on the road.
     pub(super) ought_to_wait: bool,
     /// It stepped on the road all the same.
     pub(super) stepped_out: bool,
+}
+
+impl Guard {
+    /// Whether its body is not where it goes by its maneuver, or does not know where that is.
+    const fn is_off(self) -> bool {
+        self.is_drifted || self.is_lost
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
@@ -132,18 +72,17 @@ impl Sign {
         self.left > 0
     }
 
-    const fn lets_go(self) -> bool {
+    pub(super) const fn lets_go(self) -> bool {
         self.shows_go() || self.late > 0
     }
 }
-
-/// Who was where, and was seen as whom, at one time.
-type Seen = [Option<(Cell, u8)>; PEOPLE_MAX];
 
 /// What the leader takes in at a tick.
 pub(super) struct Sensed<'a> {
     /// How many ticks have passed since it ran last; none while it hangs.
     pub(super) passed: u8,
+    /// Which members no message gets to.
+    pub(super) deaf: [bool; 2],
     /// Frames with their ages in ticks.
     frames: &'a [(u8, Seen)],
     vehicle: Option<Vehicle>,
@@ -181,22 +120,12 @@ impl Sensed<'_> {
     }
 }
 
-fn tell_frame(age: u8, seen: Seen, tell: &mut impl FnMut(Input<'_>)) {
-    let people = seen.iter().enumerate();
-    let people = people.filter_map(|(number, it)| Some(sighting(number, (*it)?)));
-    let sightings: Vec<_> = people.collect();
-    tell(Input::Frame(Frame {
-        source: 0,
-        age: Millis(u32::from(age) * TICK.0),
-        covers: Coverage::ALL,
-        sightings: &sightings,
-    }));
-}
-
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(super) struct State {
     pub(super) team: Team,
+    /// Which members no message gets to.
+    deaf: [bool; 2],
     pub(super) people: Vec<Person>,
     pub(super) guard: Guard,
     pub(super) sign: Sign,
@@ -240,6 +169,10 @@ enum Fault {
     Drifts,
     IsLost,
     CarComes,
+    /// From now on no message gets to these members.
+    Cuts([bool; 2]),
+    /// They all do again.
+    Restores,
 }
 
 /// A street to explore.
@@ -281,7 +214,8 @@ impl World {
 
     fn faults(state: &State) -> Vec<Fault> {
         let left = &state.left;
-        let may_drift = left.drifts > 0 && state.team.guards() && state.guard.adrift == 0;
+        let may_drift = left.drifts > 0 && state.team.guards() && !state.guard.is_off();
+        let may_cut = left.outages > 0 && state.deaf == [false; 2];
         // What leads without a machine is silent for as long as it can be.
         let is_silent = left.watch == Watch::Guard && state.hangs > 0 && left.hang > 0;
         let possible = [
@@ -292,6 +226,10 @@ impl World {
             (Fault::Drifts, may_drift),
             (Fault::IsLost, may_drift),
             (Fault::CarComes, left.vehicle),
+            (Fault::Cuts([true, false]), may_cut),
+            (Fault::Cuts([false, true]), may_cut),
+            (Fault::Cuts([true; 2]), may_cut),
+            (Fault::Restores, state.deaf.contains(&true)),
         ];
         let possible = possible.into_iter().filter(|(_, may)| *may);
         possible.map(|(fault, _)| fault).collect()
@@ -327,7 +265,7 @@ impl State {
         self.car = self.car.filter(|metres| *metres > 0);
         self.promised &= self.car.is_some();
         if self.team.begins() {
-            self.guard = Guard::default();
+            (self.guard.is_drifted, self.guard.is_lost) = (false, false);
         }
         self.guard.ought_to_wait = has_come && !self.people.iter().any(|it| it.has_walked);
         self.guard.stepped_out = self.team.walk() && self.guard.ought_to_wait;
@@ -347,6 +285,8 @@ impl State {
             Fault::Drifts => (left.drifts, self.guard.is_drifted) = (left.drifts - 1, true),
             Fault::IsLost => (left.drifts, self.guard.is_lost) = (left.drifts - 1, true),
             Fault::CarComes => (left.vehicle, self.car) = (false, Some(comes_m(left))),
+            Fault::Cuts(deaf) => (left.outages, self.deaf) = (left.outages - 1, deaf),
+            Fault::Restores => self.deaf = [false; 2],
         }
     }
 
@@ -388,6 +328,7 @@ impl State {
         self.sign.asks = false;
         let sensed = Sensed {
             passed,
+            deaf: [self.deaf[0] || passed == 0, self.deaf[1]],
             frames: &frames,
             vehicle: self.car.map(vehicle),
             answer,
@@ -410,11 +351,11 @@ impl State {
     fn judge(&mut self, fault: Fault) {
         self.guards = self.team.guards();
         self.guard.has_left = self.team.has_left();
-        let is_off = self.guard.is_drifted || self.guard.is_lost;
-        self.guard.adrift = if is_off && self.guards {
-            (self.guard.adrift + 1).min(ADRIFT_MAX + 1)
-        } else {
+        let is_there = self.guards && self.team.is_posted() && !self.guard.is_off();
+        self.guard.away = if is_there {
             0
+        } else {
+            (self.guard.away + 1).min(AWAY_MAX + 1)
         };
         self.is_free = self.team.is_idle();
         // Where an application may say anything, nobody need be detected, and no session need end.
@@ -430,6 +371,7 @@ impl State {
         // Somebody at the other kerb whom no frame had on the road waits there, as far as anybody can know.
         let is_off_road =
             |it: &Person| it.at == Cell::Away || it.at == Cell::Far && it.was_seen_there;
+        let is_disturbed = is_disturbed || self.deaf.contains(&true);
         let is_calm = self.people.iter().all(is_off_road) && !is_disturbed && self.car.is_none();
         self.off_road = if is_calm && !self.is_free {
             (self.off_road + 1).min(END_MAX + 1)
@@ -473,17 +415,6 @@ fn vehicle(metres: u8) -> Vehicle {
     }
 }
 
-fn sighting(person: usize, (cell, id): (Cell, u8)) -> Sighting {
-    Sighting {
-        id: Some(id.into()),
-        at: cell.place(person),
-        error_cm: 0,
-        velocity: None,
-        what: RoadUser::Pedestrian,
-        confidence: 90,
-    }
-}
-
 impl stateright::Model for World {
     type State = State;
     type Action = Tick;
@@ -499,8 +430,12 @@ impl stateright::Model for World {
         };
         vec![State {
             team: Team::new(),
+            deaf: [false; 2],
             people: (0..self.street.people).map(person).collect(),
-            guard: Guard::default(),
+            guard: Guard {
+                away: AWAY_MAX + 1,
+                ..Guard::default()
+            },
             sign: Sign::default(),
             car: None,
             promised: false,
@@ -577,7 +512,7 @@ impl fmt::Display for State {
         }
         let sign = if self.sign.shows_go() { "go" } else { "stop" };
         write!(f, "sign {sign}, {}", self.team)?;
-        if self.guard.adrift > 0 {
+        if self.guards && self.guard.away > 0 {
             write!(f, ", the guard is off its place")?;
         }
         if let Some(metres) = self.car {
@@ -591,6 +526,10 @@ impl fmt::Display for State {
         }
         if self.guard.has_left {
             write!(f, ", the guard has left")?;
+        }
+        let members = ["leader", "follower"].into_iter().zip(self.deaf);
+        for (member, _) in members.filter(|(_, is_deaf)| *is_deaf) {
+            write!(f, ", no message gets to the {member}")?;
         }
         Ok(())
     }

@@ -53,8 +53,8 @@ struct Turn<'a> {
     queue: VecDeque<(usize, protocol::Input)>,
     sign: &'a mut Sign,
     guard: Guard,
-    /// Whether the leader hangs, and what is sent to it is lost.
-    is_leader_deaf: bool,
+    /// Who hears nothing: a leader that hangs, or a member that no message gets to.
+    deaf: [bool; 2],
 }
 
 impl Turn<'_> {
@@ -108,7 +108,7 @@ impl Team {
             queue: VecDeque::new(),
             sign,
             guard,
-            is_leader_deaf: sensed.passed == 0,
+            deaf: sensed.deaf,
         };
         // A guard that is on its own sees people before it hears of an end that came at the same time.
         if rules.watch == Watch::Guard {
@@ -119,7 +119,7 @@ impl Team {
         self.lead(sensed, &mut turn);
         let is_leader_idle = matches!(self.members[LEADER].robot.phase(), Phase::Idle);
         let is_told = rules.watch == Watch::Leader && is_leader_idle;
-        if is_told && is_road_empty && !turn.sign.shows_go() {
+        if is_told && is_road_empty && !turn.sign.lets_go() {
             self.tell(FOLLOWER, Input::SaidClear, &mut turn);
         }
         self.follow(sensed, &mut turn);
@@ -200,9 +200,7 @@ impl Team {
 
     fn settle(&mut self, turn: &mut Turn<'_>) {
         while let Some((member, input)) = turn.queue.pop_front() {
-            if member == FOLLOWER || !turn.is_leader_deaf {
-                self.step(member, input, turn);
-            }
+            self.step(member, input, turn);
         }
     }
 
@@ -212,6 +210,7 @@ impl Team {
         for said in out.iter().copied() {
             match said {
                 Said::SendRam => self.send_ram(member, turn),
+                Said::SendRmcm(_) if turn.deaf[1 - member] => {}
                 Said::SendRmcm(rmcm) => {
                     let rmcm = protocol::Input::Rmcm(rmcm);
                     turn.queue.push_back((1 - member, rmcm));
@@ -263,9 +262,11 @@ impl Team {
     }
 
     fn send_ram(&mut self, from: usize, turn: &mut Turn<'_>) {
+        if turn.deaf[1 - from] {
+            return;
+        }
         let ram = self.members[from].robot.ram();
         if from == FOLLOWER
-            && !turn.is_leader_deaf
             && let Some(pose) = pose(turn.guard, self.body.at)
         {
             let at = Input::FollowerAt(ram.station, Some(pose), Millis::ZERO);
@@ -279,6 +280,11 @@ impl Team {
     /// Whether the follower's body has not come to the place of its maneuver yet.
     pub(super) fn is_sent(&self) -> bool {
         self.body.to == Some(POST) && self.body.at == HOME
+    }
+
+    /// Whether the follower's body is where its maneuver leads.
+    pub(super) fn is_posted(&self) -> bool {
+        self.body.at == POST
     }
 
     pub(super) const fn guards(&self) -> bool {

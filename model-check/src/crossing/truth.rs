@@ -3,7 +3,8 @@
 use serde::Deserialize;
 
 use super::Watch;
-use super::street::{Cell, State};
+use super::people::Cell;
+use super::street::State;
 
 /// The team is free at most so many ticks after everybody was off the road for good: the leader's patience, which ends a session
 /// whose guard does not come back, or go that nobody uses, and some seconds.
@@ -13,7 +14,7 @@ pub(super) const END_MAX: u8 = 54;
 pub(super) const DETECT_MAX: u8 = 6;
 
 /// Go is shown for so many ticks at most after a guard has left its place.
-pub(super) const ADRIFT_MAX: u8 = 2;
+pub(super) const AWAY_MAX: u8 = 2;
 
 /// At 50 km/h a driver goes 27.8 m within the 2 s of reaction, and then 32.2 m to stop at 3 m/s².
 pub(super) const STOP_M: u8 = 60;
@@ -62,7 +63,7 @@ macro_rules! rules {
 rules! {
     P1: "while somebody is on the carriageway, no guard that can stay leaves, and no word frees it",
         where "somebody is on the carriageway beside the crossing, at a sign that shows stop, and the sensor has missed them as often as it may";
-    P2: "go is shown only while the guard is at its place, or left it at most 1 s ago",
+    P2: "go is shown only while the guard guards at its place, or did at most 1 s ago",
         where "the guard has left its place while go is shown";
     P3: "go does not begin while a vehicle that is heard can no longer stop comfortably",
         where "a vehicle can no longer stop, somebody waits, and the guard is at its place";
@@ -80,7 +81,7 @@ impl Rule {
     pub(super) fn holds(self, state: &State) -> bool {
         match self {
             Self::P1 => !(is_on_road(state) && state.guard.has_left),
-            Self::P2 => !state.sign.shows_go() || state.guard.adrift <= ADRIFT_MAX,
+            Self::P2 => !state.sign.shows_go() || state.guard.away <= AWAY_MAX,
             Self::P3 => !(state.sign.has_begun && cannot_stop(state)),
             Self::P5 => state.undetected <= DETECT_MAX,
             Self::P6 => state.off_road <= END_MAX,
@@ -97,7 +98,7 @@ impl Rule {
                     |it: &Cell, missed| *it == Cell::Beside && missed >= state.left.misses;
                 !state.sign.shows_go() && people.any(|it| is_missed(&it.at, it.missed))
             }
-            Self::P2 => state.sign.shows_go() && state.guard.adrift > 0,
+            Self::P2 => state.sign.shows_go() && state.guard.away > 0,
             Self::P3 => cannot_stop(state) && state.guards && people.any(|it| it.at == Cell::Near),
             Self::P5 => state.undetected > 0 && people.any(|it| it.missed > 0),
             Self::P6 => state.is_free && people.any(|it| it.at == Cell::Far),
