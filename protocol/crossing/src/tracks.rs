@@ -371,7 +371,7 @@ impl<const N: usize> Tracks<N> {
         let rank = |track: &Track| {
             if track.is_on_road() && !track.is_fresh() {
                 Some(0)
-            } else if !setup.ground.is_zone(track.at) {
+            } else if !track.is_on_road() && !setup.ground.is_zone(track.at) {
                 Some(1)
             } else {
                 let is_hearsay = takes_hearsay && track.source == OTHERS;
