@@ -42,6 +42,10 @@ const OUTAGE: Street = Street {
     outages: 1,
     ..PERSON
 };
+const TEAM: Street = Street {
+    guards: 2,
+    ..PERSON
+};
 const WITH_VEHICLE: Street = Street {
     vehicle: true,
     ..PERSON
@@ -84,6 +88,8 @@ const WEAKENINGS: &[Weakening] = &[
     (DRIFTING, |setup| setup.position.tolerance_cm = 10_000, Rule::P2),
     // It is for a minute after its last position.
     (DRIFTING, |setup| setup.position.lease = Millis(60_000), Rule::P2),
+    // A leader whose plan has two guards asks for one.
+    (TEAM, |setup| setup.request.followers = 1, Rule::P2),
     (WITH_VEHICLE, |setup| if setup.plan.is_some() { trusts_drivers(setup) }, Rule::P3),
     (WITH_VEHICLE, |setup| if setup.plan.is_none() { trusts_drivers(setup) }, Rule::P9),
     // Silence is a promise.

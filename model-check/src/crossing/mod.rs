@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   people ──► sensor: misses, ids, blindness ──► Crossing ◄──► Robot   leader
-//!      ▲                                                          │ good channel
+//!      ▲                                                          │ channel
 //!    sign ◄───────────────────────────────────── Crossing ◄──► Robot   follower ──► body
 //!      └───────────► truth: P1 to P3, P5, P6, P9 and P10, from people, bodies and the sign alone
 //! ```
@@ -11,8 +11,8 @@
 //! within the assumption `sees`, and at most one of the things happens that a [`Street`] allows. People step on the
 //! carriageway under go, or soon after it where a [`Street`] says so, and are then on it for as long as they like, also
 //! beside the crossing. A vehicle, changes of ids, hangs, blindness, drifts and the number of outages are bounded for a run, and
-//! no run is as long as `T_lock` or `T_exec`; nothing else is bounded. In an outage messages to one robot, or to both, are lost,
-//! for any time. In [`Watch::Guard`] the follower's machine is alone: what leads has none, and its application says anything at
+//! no run is as long as `T_lock` or `T_exec`; nothing else is bounded. In an outage messages between the leader and one guard are
+//! lost, one way or both, for any time. In [`Watch::Guard`] the follower's machine is alone: what leads has none, and its application says anything at
 //! any time, as often as the [`Street`] allows. `truth` judges, and shares nothing with the machine. P4, about escorts, needs
 //! finer geometry and is not here.
 
@@ -40,6 +40,9 @@ pub use truth::{Rule, RuleClaim};
 /// In how many consecutive frames the machines assume that the sensor misses somebody at most, and it does.
 pub const MISS_MAX: u8 = 1;
 
+/// How many guards there are at most.
+pub(crate) const GUARDS_MAX: usize = 2;
+
 /// Whose crossing machine sees people.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Watch {
@@ -58,6 +61,8 @@ pub struct Street {
     pub watch: Watch,
     /// How often an application that leads without a machine says anything.
     pub words: u8,
+    /// How many guards there are, one or two. Each has a place of its own.
+    pub guards: u8,
     /// How many people there are, at most two.
     pub people: u8,
     /// Whether people step on the road for up to 2 s after go has ended, too, also from where nobody waits.
@@ -72,7 +77,7 @@ pub struct Street {
     pub blind: u8,
     /// How often the guard drifts off its place, or does not know any more where it is.
     pub drifts: u8,
-    /// How many outages there are: for any time, messages to one robot, or to both, are lost.
+    /// How many outages there are: for any time, messages between the leader and one guard are lost, one way or both.
     pub outages: u8,
     /// Whether a vehicle comes along.
     pub vehicle: bool,
@@ -85,6 +90,7 @@ impl Street {
     pub const PERSON: Self = Self {
         watch: Watch::Leader,
         words: 0,
+        guards: 1,
         people: 1,
         late: false,
         misses: MISS_MAX,
@@ -114,7 +120,7 @@ pub struct Shipped {
 }
 
 /// The shipped streets.
-pub const SHIPPED: [Shipped; 13] = {
+pub const SHIPPED: [Shipped; 15] = {
     const PERSON: Street = Street::PERSON;
     const MET: &[Rule] = &[Rule::P1, Rule::P5, Rule::P6];
     const ALONE: &[Rule] = &[Rule::P1];
@@ -153,7 +159,11 @@ pub const SHIPPED: [Shipped; 13] = {
             Street { drifts: 1, ..PERSON }, DRIFT, 285_125),
         of("street-outage", "the same, and messages to one robot or to both are lost, once, for any time",
             Street { outages: 1, ..PERSON }, MET, 1_510_660),
-        of("street-vehicle", "the same, and a vehicle comes at 50 km/h",
+        of("street-team", "two guards, one of which leaves its place, or does not know it any more",
+            Street { guards: 2, drifts: 1, ..PERSON }, DRIFT, 509_078),
+        of("street-split", "the same with guards that stay; messages of one of them, or to it, are lost, once, for any time",
+            Street { guards: 2, outages: 1, misses: 0, ..PERSON }, UNMISSED, 678_182),
+        of("street-vehicle", "one guard, and a vehicle comes at 50 km/h",
             Street { vehicle: true, ..PERSON }, VEHICLE, 421_333),
         of("street-asked", "the same, and the leader asks it to stop: it says that it will, that it will not, or nothing",
             Street { vehicle: true, asks: true, ..PERSON }, ASKED, 523_140),
@@ -162,9 +172,9 @@ pub const SHIPPED: [Shipped; 13] = {
         of("street-sight", "one person, and both robots take in the frames of the sensor",
             Street { watch: Watch::Both, ..PERSON }, MET, 137_753),
         of("street-guard", "the machine of a guard that sees; what leads says anything, at any time",
-            Street { watch: Watch::Guard, words: 5, ..PERSON }, ALONE, 692_014),
+            Street { watch: Watch::Guard, words: 5, ..PERSON }, ALONE, 712_028),
         of("street-silence", "the same, and what leads falls silent for 2.5 s",
-            Street { watch: Watch::Guard, words: 3, hang: 5, ..PERSON }, ALONE, 1_215_473),
+            Street { watch: Watch::Guard, words: 3, hang: 5, ..PERSON }, ALONE, 1_227_910),
     ];
     shipped
 };
@@ -199,7 +209,9 @@ impl Shipped {
                 PropertyReport::plain(claim.premise_id, "premise", is_met, claim.premise),
             ]
         });
-        let robots = ["leader", "follower"].map(str::to_owned).to_vec();
+        let followers = (0..self.street.guards).map(|_| "follower");
+        let robots = core::iter::once("leader").chain(followers);
+        let robots = robots.map(str::to_owned).collect();
         let is_whole = found.cut_off.is_none();
         ScenarioReport {
             transitions: found.transitions,
@@ -230,7 +242,7 @@ impl Street {
     /// What a verdict assumes of messages.
     const fn delivery(&self) -> &'static str {
         if self.outages > 0 {
-            "messages arrive at once, and are lost in outages: those to one robot, or to both"
+            "messages arrive at once, and are lost in outages, between the leader and one guard, one way or both"
         } else if self.hang > 0 {
             "messages arrive at once, and are lost while the leader hangs"
         } else {
@@ -244,7 +256,7 @@ impl Watch {
     const fn assumption(self) -> &'static str {
         match self {
             Self::Leader => {
-                "the follower has no sensors: a person tells it that the road is clear, when it is and nobody may step on it, once its leader is idle"
+                "followers have no sensors: a person tells them that the road is clear, when it is and nobody may step on it, once their leader is idle"
             }
             Self::Both => "both robots take in the same frames at the same time",
             Self::Guard => {

@@ -1,21 +1,28 @@
-//! What both robots are set up with.
+//! The settings of the robots, and their places.
 
 use crossguard_crossing::{
     Coverage, Ground, Leg, Plan, Point, Pose, PositionRules, Sensors, Setup, Shape, Stage,
-    WaitingRules,
+    WaitingRules, Way, Who,
 };
-use crossguard_protocol::{Config, HelpRequest, List, Millis, Settings, TaskSet, TaskType};
+use crossguard_protocol::{Config, HelpRequest, Millis, Settings, StationId, TaskSet, TaskType};
 
 use super::street::{Guard, LATE_TIME, TICK};
-use super::{MISS_MAX, Street, Watch};
+use super::{GUARDS_MAX, MISS_MAX, Street, Watch};
 
-pub(super) const POST: Point = Point::new(-200, 200);
+pub(super) const LEADING: StationId = StationId(1);
 
-/// Where the guard waits without a session, at the kerb.
-pub(super) const HOME: Point = Point::new(-200, -100);
+/// The stations of followers, and the places from which they guard.
+pub(super) const FOLLOWING: [StationId; GUARDS_MAX] = [StationId(2), StationId(3)];
+pub(super) const POSTS: [Point; GUARDS_MAX] = [Point::new(-200, 200), Point::new(-200, 500)];
+
+/// Where guards wait without a session, at the kerbs.
+pub(super) const HOMES: [Point; GUARDS_MAX] = [Point::new(-200, -100), Point::new(-200, 800)];
 
 /// Where a guard is that has drifted: 4 m off its place.
-const DRIFTED: Point = Point::new(-600, 200);
+const DRIFT: Way = Way {
+    east_cm: -400,
+    north_cm: 0,
+};
 
 /// How long before it would be at the crossing a vehicle is asked: whenever it is heard.
 const ASKS: Millis = Millis(10_000);
@@ -24,15 +31,20 @@ const ASKS: Millis = Millis(10_000);
 pub(super) type Machine = crossguard_crossing::Crossing<4>;
 
 /// Where the body of a guard says that it is, if it is there but for what went wrong.
-pub(super) fn pose(guard: Guard, at: Point) -> Option<Pose> {
-    let at = if guard.is_drifted { DRIFTED } else { at };
+pub(super) fn pose(guard: Guard, follower: usize, at: Point) -> Option<Pose> {
+    let at = if guard.is_drifted {
+        POSTS[follower].plus(DRIFT)
+    } else {
+        at
+    };
     (!guard.is_lost).then_some(Pose { at, error_cm: 10 })
 }
 
 #[derive(Clone, Debug)]
 pub(super) struct Rules {
     pub(super) watch: Watch,
-    pub(super) setups: [Setup; 2],
+    /// Of the leader, and then of its followers.
+    pub(super) setups: Vec<Setup>,
     pub(super) config: Config,
 }
 
@@ -71,7 +83,7 @@ fn rectangle(west: i32, south: i32, east: i32, north: i32) -> Option<Shape> {
     Shape::new(&corners.map(|(east, north)| Point::new(east, north)))
 }
 
-fn setups(street: Street, config: &Config) -> [Setup; 2] {
+fn setups(street: Street, config: &Config) -> Vec<Setup> {
     let ground = Ground {
         road: rectangle(-3_000, 0, 3_000, 700),
         crossing: rectangle(-300, 0, 300, 700),
@@ -79,12 +91,17 @@ fn setups(street: Street, config: &Config) -> [Setup; 2] {
         parts: Coverage(1),
     };
     let task = TaskType::BLOCK;
-    let leg = Leg {
+    let legs = POSTS.map(|to| Leg {
         task,
-        to: POST,
+        to,
         speed_mmps: 1_000,
         heading_ddeg: None,
+    });
+    let parts = (0..street.guards).map(Who::Role).zip(legs);
+    let stage = Stage {
+        parts: parts.collect(),
     };
+    let followers = usize::from(street.guards);
     let mut leader = Setup {
         watches: true,
         calls: true,
@@ -107,9 +124,9 @@ fn setups(street: Street, config: &Config) -> [Setup; 2] {
         },
         ground,
         plan: Some(Plan {
-            followers: 1,
-            stages: core::iter::once(Stage::everybody(leg)).collect(),
-            roles: List::EMPTY,
+            followers: street.guards,
+            stages: core::iter::once(stage).collect(),
+            roles: FOLLOWING.into_iter().take(followers).map(Some).collect(),
             own_place: None,
             patience: Millis(10_000),
             kerbs: None,
@@ -120,14 +137,16 @@ fn setups(street: Street, config: &Config) -> [Setup; 2] {
     leader.traffic.asks = if street.asks { ASKS } else { Millis::ZERO };
     leader.request = HelpRequest {
         tasks: TaskSet::of(&[task]),
+        followers: street.guards,
         ..leader.request
     };
-    let follower = Setup {
+    let follower = |home| Setup {
         watches: street.watch != Watch::Leader,
         calls: false,
         plan: None,
-        home: Some(HOME),
+        home: Some(home),
         ..leader.clone()
     };
-    [leader, follower]
+    let followers: Vec<_> = HOMES.into_iter().take(followers).map(follower).collect();
+    core::iter::once(leader).chain(followers).collect()
 }

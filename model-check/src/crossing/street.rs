@@ -11,8 +11,8 @@ use stateright::Property;
 use crate::exploration::Stop;
 
 use super::people::{Cell, PEOPLE_MAX, Person, Seen, tell_frame};
-use super::rules::Rules;
-use super::team::{FOLLOWING, Team};
+use super::rules::{FOLLOWING, Rules};
+use super::team::Team;
 use super::truth::{AWAY_MAX, DETECT_MAX, END_MAX, Rule, STOP_M};
 use super::{Street, Watch};
 
@@ -41,6 +41,8 @@ pub(super) struct Guard {
     pub(super) is_lost: bool,
     /// For how many ticks it has not guarded at its place, saturating.
     pub(super) away: u8,
+    /// Whether it guards: it executes its maneuver, or holds a place.
+    pub(super) is_guarding: bool,
     /// It has guarded, and does not any more; or a word of the leader has freed it.
     pub(super) has_left: bool,
     /// A vehicle has come within its way to stop for a tick, and nobody has been on the road.
@@ -54,6 +56,14 @@ impl Guard {
     const fn is_off(self) -> bool {
         self.is_drifted || self.is_lost
     }
+}
+
+/// Messages between the leader and a follower that are lost.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) struct Cut {
+    pub(super) follower: usize,
+    pub(super) to_leader: bool,
+    pub(super) to_follower: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
@@ -81,8 +91,7 @@ impl Sign {
 pub(super) struct Sensed<'a> {
     /// How many ticks have passed since it ran last; none while it hangs.
     pub(super) passed: u8,
-    /// Which members no message gets to.
-    pub(super) deaf: [bool; 2],
+    pub(super) cut: Option<Cut>,
     /// Frames with their ages in ticks.
     frames: &'a [(u8, Seen)],
     vehicle: Option<Vehicle>,
@@ -121,13 +130,11 @@ impl Sensed<'_> {
 }
 
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
-#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(super) struct State {
     pub(super) team: Team,
-    /// Which members no message gets to.
-    deaf: [bool; 2],
+    cut: Option<Cut>,
     pub(super) people: Vec<Person>,
-    pub(super) guard: Guard,
+    pub(super) guards: Vec<Guard>,
     pub(super) sign: Sign,
     /// How many metres a vehicle is before the crossing.
     pub(super) car: Option<u8>,
@@ -140,7 +147,6 @@ pub(super) struct State {
     /// For how many ticks the leader hangs already.
     hangs: u8,
     pub(super) left: Street,
-    pub(super) guards: bool,
     pub(super) is_free: bool,
     /// For how many ticks somebody has waited in front of an idle team.
     pub(super) undetected: u8,
@@ -166,12 +172,12 @@ enum Fault {
     ChangesIds,
     Blind,
     Hangs,
-    Drifts,
-    IsLost,
+    Drifts(usize),
+    IsLost(usize),
     CarComes,
-    /// From now on no message gets to these members.
-    Cuts([bool; 2]),
-    /// They all do again.
+    /// An outage begins.
+    Cuts(Cut),
+    /// It ends.
     Restores,
 }
 
@@ -214,8 +220,7 @@ impl World {
 
     fn faults(state: &State) -> Vec<Fault> {
         let left = &state.left;
-        let may_drift = left.drifts > 0 && state.team.guards() && !state.guard.is_off();
-        let may_cut = left.outages > 0 && state.deaf == [false; 2];
+        let may_cut = left.outages > 0 && state.cut.is_none();
         // What leads without a machine is silent for as long as it can be.
         let is_silent = left.watch == Watch::Guard && state.hangs > 0 && left.hang > 0;
         let possible = [
@@ -223,15 +228,33 @@ impl World {
             (Fault::ChangesIds, left.id_changes > 0),
             (Fault::Blind, left.blind > 0),
             (Fault::Hangs, left.hang > 0),
-            (Fault::Drifts, may_drift),
-            (Fault::IsLost, may_drift),
             (Fault::CarComes, left.vehicle),
-            (Fault::Cuts([true, false]), may_cut),
-            (Fault::Cuts([false, true]), may_cut),
-            (Fault::Cuts([true; 2]), may_cut),
-            (Fault::Restores, state.deaf.contains(&true)),
+            (Fault::Restores, state.cut.is_some()),
         ];
-        let possible = possible.into_iter().filter(|(_, may)| *may);
+        let of_guards = state
+            .guards
+            .iter()
+            .enumerate()
+            .flat_map(|(follower, guard)| {
+                let may_drift = left.drifts > 0 && guard.is_guarding && !guard.is_off();
+                let cut = |to_leader, to_follower| {
+                    let cut = Cut {
+                        follower,
+                        to_leader,
+                        to_follower,
+                    };
+                    (Fault::Cuts(cut), may_cut)
+                };
+                [
+                    (Fault::Drifts(follower), may_drift),
+                    (Fault::IsLost(follower), may_drift),
+                    cut(true, false),
+                    cut(false, true),
+                    cut(true, true),
+                ]
+            });
+        let possible = possible.into_iter().chain(of_guards);
+        let possible = possible.filter(|(_, may)| *may);
         possible.map(|(fault, _)| fault).collect()
     }
 
@@ -264,11 +287,14 @@ impl State {
         self.car = self.car.and_then(|metres| metres.checked_sub(PER_TICK_M));
         self.car = self.car.filter(|metres| *metres > 0);
         self.promised &= self.car.is_some();
-        if self.team.begins() {
-            (self.guard.is_drifted, self.guard.is_lost) = (false, false);
+        let ought_to_wait = has_come && !self.people.iter().any(|it| it.has_walked);
+        for (follower, guard) in self.guards.iter_mut().enumerate() {
+            if self.team.begins(follower) {
+                (guard.is_drifted, guard.is_lost) = (false, false);
+            }
+            guard.ought_to_wait = ought_to_wait;
+            guard.stepped_out = self.team.walk(follower) && ought_to_wait;
         }
-        self.guard.ought_to_wait = has_come && !self.people.iter().any(|it| it.has_walked);
-        self.guard.stepped_out = self.team.walk() && self.guard.ought_to_wait;
         let left = &mut self.left;
         left.words -= u8::from(tick.word.is_some());
         match tick.fault {
@@ -282,11 +308,15 @@ impl State {
             }
             Fault::Blind => left.blind -= 1,
             Fault::Hangs => left.hang -= 1,
-            Fault::Drifts => (left.drifts, self.guard.is_drifted) = (left.drifts - 1, true),
-            Fault::IsLost => (left.drifts, self.guard.is_lost) = (left.drifts - 1, true),
+            Fault::Drifts(follower) => {
+                (left.drifts, self.guards[follower].is_drifted) = (left.drifts - 1, true);
+            }
+            Fault::IsLost(follower) => {
+                (left.drifts, self.guards[follower].is_lost) = (left.drifts - 1, true);
+            }
             Fault::CarComes => (left.vehicle, self.car) = (false, Some(comes_m(left))),
-            Fault::Cuts(deaf) => (left.outages, self.deaf) = (left.outages - 1, deaf),
-            Fault::Restores => self.deaf = [false; 2],
+            Fault::Cuts(cut) => (left.outages, self.cut) = (left.outages - 1, Some(cut)),
+            Fault::Restores => self.cut = None,
         }
     }
 
@@ -303,7 +333,7 @@ impl State {
                 seen[number] = Some((person.at, person.id));
                 let is_taken_in = match (self.left.watch, tick.fault) {
                     (_, Fault::Blind) => false,
-                    (Watch::Guard, _) => !self.guard.has_left,
+                    (Watch::Guard, _) => !self.guards.iter().any(|it| it.has_left),
                     (Watch::Leader | Watch::Both, fault) => fault != Fault::Hangs,
                 };
                 person.was_seen_there |= is_taken_in && person.at.is_road();
@@ -328,7 +358,7 @@ impl State {
         self.sign.asks = false;
         let sensed = Sensed {
             passed,
-            deaf: [self.deaf[0] || passed == 0, self.deaf[1]],
+            cut: self.cut,
             frames: &frames,
             vehicle: self.car.map(vehicle),
             answer,
@@ -337,7 +367,7 @@ impl State {
         };
         let is_road_empty = !self.people.iter().any(|it| it.at.is_road());
         self.team
-            .tick(rules, self.guard, &sensed, is_road_empty, &mut self.sign);
+            .tick(rules, &self.guards, &sensed, is_road_empty, &mut self.sign);
         self.sign.has_begun = self.sign.shows_go() && !went;
         let is_silent = self.is_heard() && !had_promised && !self.promised;
         self.began_unpromised = self.left.asks && self.sign.has_begun && is_silent;
@@ -349,14 +379,16 @@ impl State {
     }
 
     fn judge(&mut self, fault: Fault) {
-        self.guards = self.team.guards();
-        self.guard.has_left = self.team.has_left();
-        let is_there = self.guards && self.team.is_posted() && !self.guard.is_off();
-        self.guard.away = if is_there {
-            0
-        } else {
-            (self.guard.away + 1).min(AWAY_MAX + 1)
-        };
+        for (follower, guard) in self.guards.iter_mut().enumerate() {
+            guard.is_guarding = self.team.guards(follower);
+            guard.has_left = self.team.has_left(follower);
+            let is_there = guard.is_guarding && self.team.is_posted(follower) && !guard.is_off();
+            guard.away = if is_there {
+                0
+            } else {
+                (guard.away + 1).min(AWAY_MAX + 1)
+            };
+        }
         self.is_free = self.team.is_idle();
         // Where an application may say anything, nobody need be detected, and no session need end.
         let is_disturbed =
@@ -371,7 +403,7 @@ impl State {
         // Somebody at the other kerb whom no frame had on the road waits there, as far as anybody can know.
         let is_off_road =
             |it: &Person| it.at == Cell::Away || it.at == Cell::Far && it.was_seen_there;
-        let is_disturbed = is_disturbed || self.deaf.contains(&true);
+        let is_disturbed = is_disturbed || self.cut.is_some();
         let is_calm = self.people.iter().all(is_off_road) && !is_disturbed && self.car.is_none();
         self.off_road = if is_calm && !self.is_free {
             (self.off_road + 1).min(END_MAX + 1)
@@ -392,7 +424,7 @@ const WORDS: [Option<Event>; 8] = [
         place: Place::UNKNOWN,
     })),
     Some(Event::CommandManeuver {
-        follower: FOLLOWING,
+        follower: FOLLOWING[0],
         task: TaskType::BLOCK,
     }),
     Some(Event::OpenCorridor),
@@ -428,14 +460,15 @@ impl stateright::Model for World {
             was_seen_there: false,
             on_road: 0,
         };
+        let guard = Guard {
+            away: AWAY_MAX + 1,
+            ..Guard::default()
+        };
         vec![State {
-            team: Team::new(),
-            deaf: [false; 2],
+            team: Team::new(self.street.guards.into()),
+            cut: None,
             people: (0..self.street.people).map(person).collect(),
-            guard: Guard {
-                away: AWAY_MAX + 1,
-                ..Guard::default()
-            },
+            guards: vec![guard; self.street.guards.into()],
             sign: Sign::default(),
             car: None,
             promised: false,
@@ -443,7 +476,6 @@ impl stateright::Model for World {
             piled: Vec::new(),
             hangs: 0,
             left: self.street,
-            guards: false,
             is_free: true,
             undetected: 0,
             off_road: 0,
@@ -512,9 +544,6 @@ impl fmt::Display for State {
         }
         let sign = if self.sign.shows_go() { "go" } else { "stop" };
         write!(f, "sign {sign}, {}", self.team)?;
-        if self.guards && self.guard.away > 0 {
-            write!(f, ", the guard is off its place")?;
-        }
         if let Some(metres) = self.car {
             write!(f, ", a vehicle {metres} m away")?;
             if self.promised {
@@ -524,12 +553,23 @@ impl fmt::Display for State {
         if self.hangs > 0 {
             write!(f, ", the leader hangs")?;
         }
-        if self.guard.has_left {
-            write!(f, ", the guard has left")?;
+        for (guard, station) in self.guards.iter().zip(FOLLOWING) {
+            let told = [
+                (guard.is_guarding && guard.away > 0, "is off its place"),
+                (guard.has_left, "has left"),
+            ];
+            for (_, what) in told.iter().filter(|(is, _)| *is) {
+                write!(f, ", the guard {station} {what}")?;
+            }
         }
-        let members = ["leader", "follower"].into_iter().zip(self.deaf);
-        for (member, _) in members.filter(|(_, is_deaf)| *is_deaf) {
-            write!(f, ", no message gets to the {member}")?;
+        if let Some(cut) = self.cut {
+            let station = FOLLOWING[cut.follower];
+            let ways = match (cut.to_leader, cut.to_follower) {
+                (true, true) => "from and to",
+                (true, false) => "from",
+                _ => "to",
+            };
+            write!(f, ", messages {ways} {station} are lost")?;
         }
         Ok(())
     }

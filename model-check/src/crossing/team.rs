@@ -1,24 +1,20 @@
-//! A leader and a follower, each a robot of the protocol with a crossing machine, on a good channel.
+//! A leader and its followers, each a robot of the protocol with a crossing machine, and the channel between them.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::fmt;
 
-use crossguard_crossing::{BodyReport, Input, Leg, Output, Outputs, Point};
+use crossguard_crossing::{BodyReport, Input, Leg, Output, Outputs, Point, Pose};
 use crossguard_protocol::{
     self as protocol, Decimetres, Duty, Event, Heartbeat, ManeuverId, Millis, Phase, Renaming,
     Robot, SessionId, StationId, Timer, UniqueNumber,
 };
 
 use super::Watch;
-use super::rules::{HOME, Machine, POST, Rules, pose};
-use super::street::{Guard, Sensed, Sign, TICK};
+use super::rules::{FOLLOWING, HOMES, LEADING, Machine, POSTS, Rules, pose};
+use super::street::{Cut, Guard, Sensed, Sign, TICK};
 
+/// The place of the leader among members. Followers come after it.
 const LEADER: usize = 0;
-const FOLLOWER: usize = 1;
-
-const LEADING: StationId = StationId(1);
-
-pub(super) const FOLLOWING: StationId = StationId(2);
 
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 struct Member {
@@ -43,8 +39,10 @@ struct Body {
 
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Team {
-    members: [Member; 2],
-    body: Body,
+    /// The leader, and then its followers.
+    members: Vec<Member>,
+    /// Of followers.
+    bodies: Vec<Body>,
 }
 
 /// What one handling needs besides the state.
@@ -52,53 +50,66 @@ struct Turn<'a> {
     rules: &'a Rules,
     queue: VecDeque<(usize, protocol::Input)>,
     sign: &'a mut Sign,
-    guard: Guard,
-    /// Who hears nothing: a leader that hangs, or a member that no message gets to.
-    deaf: [bool; 2],
+    guards: &'a [Guard],
+    /// Whether the leader hangs, and what is sent to it is lost.
+    is_leader_deaf: bool,
+    cut: Option<Cut>,
 }
 
 impl Turn<'_> {
     /// Whether a member has a crossing machine. What leads a guard that is on its own has none.
     fn has_machine(&self, member: usize) -> bool {
-        member == FOLLOWER || self.rules.watch != Watch::Guard
+        member != LEADER || self.rules.watch != Watch::Guard
+    }
+
+    /// Whether a message between members is lost.
+    fn loses(&self, from: usize, to: usize) -> bool {
+        let is_cut = |it: Cut| {
+            let to_leader = it.to_leader && (from, to) == (it.follower + 1, LEADER);
+            to_leader || it.to_follower && (from, to) == (LEADER, it.follower + 1)
+        };
+        self.is_leader_deaf && to == LEADER || self.cut.is_some_and(is_cut)
     }
 }
 
 impl Team {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(followers: usize) -> Self {
         let member = |station| Member {
             robot: Robot::new(station, 1),
             crossing: Machine::default(),
         };
+        let body = |at| Body {
+            at,
+            ..Body::default()
+        };
+        let stations = core::iter::once(LEADING).chain(FOLLOWING);
         Self {
-            members: [LEADING, FOLLOWING].map(member),
-            body: Body {
-                at: HOME,
-                ..Body::default()
-            },
+            members: stations.take(1 + followers).map(member).collect(),
+            bodies: HOMES.into_iter().take(followers).map(body).collect(),
         }
     }
 
-    pub(super) const fn begins(&self) -> bool {
-        self.body.begins
+    pub(super) fn begins(&self, follower: usize) -> bool {
+        self.bodies[follower].begins
     }
 
-    /// The body goes where it is to be, unless it waits, which takes a tick. Whether it steps on the road.
-    pub(super) fn walk(&mut self) -> bool {
-        self.body.begins = false;
-        let from = self.body.at;
-        if let Some(to) = self.body.to.filter(|_| !self.body.waits) {
-            self.body.at = to;
+    /// A body goes where it is to be, unless it waits, which takes a tick. Whether it steps on the road.
+    pub(super) fn walk(&mut self, follower: usize) -> bool {
+        let body = &mut self.bodies[follower];
+        body.begins = false;
+        let from = body.at;
+        if let Some(to) = body.to.filter(|_| !body.waits) {
+            body.at = to;
         }
-        from == HOME && self.body.at == POST
+        (from, body.at) == (HOMES[follower], POSTS[follower])
     }
 
-    /// A tick of both, or of the follower alone while the leader hangs. Once the leader is idle and nobody is on the road, a
-    /// person says so to a follower that waits for that word, for it has no sensors.
+    /// A tick of all, or of the followers alone while the leader hangs. Once the leader is idle and nobody is on the road, a
+    /// person says so to followers that wait for that word, for they have no sensors.
     pub(super) fn tick(
         &mut self,
         rules: &Rules,
-        guard: Guard,
+        guards: &[Guard],
         sensed: &Sensed<'_>,
         is_road_empty: bool,
         sign: &mut Sign,
@@ -107,22 +118,25 @@ impl Team {
             rules,
             queue: VecDeque::new(),
             sign,
-            guard,
-            deaf: sensed.deaf,
+            guards,
+            is_leader_deaf: sensed.passed == 0,
+            cut: sensed.cut,
         };
         // A guard that is on its own sees people before it hears of an end that came at the same time.
         if rules.watch == Watch::Guard {
-            self.follow(sensed, &mut turn);
+            self.follow(LEADER + 1, sensed, &mut turn);
             self.lead(sensed, &mut turn);
             return;
         }
         self.lead(sensed, &mut turn);
-        let is_leader_idle = matches!(self.members[LEADER].robot.phase(), Phase::Idle);
-        let is_told = rules.watch == Watch::Leader && is_leader_idle;
-        if is_told && is_road_empty && !turn.sign.lets_go() {
-            self.tell(FOLLOWER, Input::SaidClear, &mut turn);
+        for follower in LEADER + 1..self.members.len() {
+            let is_leader_idle = matches!(self.members[LEADER].robot.phase(), Phase::Idle);
+            let is_told = rules.watch == Watch::Leader && is_leader_idle;
+            if is_told && is_road_empty && !turn.sign.lets_go() {
+                self.tell(follower, Input::SaidClear, &mut turn);
+            }
+            self.follow(follower, sensed, &mut turn);
         }
-        self.follow(sensed, &mut turn);
     }
 
     fn lead(&mut self, sensed: &Sensed<'_>, turn: &mut Turn<'_>) {
@@ -137,24 +151,27 @@ impl Team {
         self.settle(turn);
     }
 
-    fn follow(&mut self, sensed: &Sensed<'_>, turn: &mut Turn<'_>) {
-        self.pass(FOLLOWER, TICK, turn);
+    fn follow(&mut self, member: usize, sensed: &Sensed<'_>, turn: &mut Turn<'_>) {
+        self.pass(member, TICK, turn);
         if turn.rules.watch != Watch::Leader {
-            sensed.now(|input| self.tell(FOLLOWER, input, turn));
+            sensed.now(|input| self.tell(member, input, turn));
         }
-        sensed.vehicle(|input| self.tell(FOLLOWER, input, turn));
-        if let Some(pose) = pose(turn.guard, self.body.at) {
-            self.tell(FOLLOWER, Input::Pose(Some(pose), Millis::ZERO), turn);
+        sensed.vehicle(|input| self.tell(member, input, turn));
+        if let Some(pose) = self.pose(member, turn) {
+            self.tell(member, Input::Pose(Some(pose), Millis::ZERO), turn);
         }
-        if let Some(id) = self
-            .body
-            .task
-            .filter(|_| self.body.to == Some(self.body.at))
-        {
-            self.body.has_guarded = true;
-            self.tell(FOLLOWER, Input::Body(BodyReport::InPosition(id)), turn);
+        let body = &mut self.bodies[member - 1];
+        if let Some(id) = body.task.filter(|_| body.to == Some(body.at)) {
+            body.has_guarded = true;
+            self.tell(member, Input::Body(BodyReport::InPosition(id)), turn);
         }
         self.settle(turn);
+    }
+
+    /// Where a follower says that it is.
+    fn pose(&self, member: usize, turn: &Turn<'_>) -> Option<Pose> {
+        let follower = member - 1;
+        pose(turn.guards[follower], follower, self.bodies[follower].at)
     }
 
     fn pass(&mut self, member: usize, time: Millis, turn: &mut Turn<'_>) {
@@ -188,11 +205,14 @@ impl Team {
                 Output::Go(left) => turn.sign.left = left.0,
                 Output::Stop => turn.sign.left = 0,
                 Output::Ask(..) => turn.sign.asks = true,
-                _ if member != FOLLOWER => {}
-                Output::Release => self.body.holds = false,
-                Output::Wait => self.body.waits = true,
-                Output::GoOn => self.body.waits = false,
-                Output::WalkTo(to) => (self.body.to, self.body.waits) = (Some(to), false),
+                _ if member == LEADER => {}
+                Output::Release => self.bodies[member - 1].holds = false,
+                Output::Wait => self.bodies[member - 1].waits = true,
+                Output::GoOn => self.bodies[member - 1].waits = false,
+                Output::WalkTo(to) => {
+                    let body = &mut self.bodies[member - 1];
+                    (body.to, body.waits) = (Some(to), false);
+                }
                 _ => {}
             }
         }
@@ -210,28 +230,25 @@ impl Team {
         for said in out.iter().copied() {
             match said {
                 Said::SendRam => self.send_ram(member, turn),
-                Said::SendRmcm(_) if turn.deaf[1 - member] => {}
-                Said::SendRmcm(rmcm) => {
-                    let rmcm = protocol::Input::Rmcm(rmcm);
-                    turn.queue.push_back((1 - member, rmcm));
-                }
+                Said::SendRmcm(rmcm) => self.send(member, protocol::Input::Rmcm(rmcm), turn),
                 Said::StartManeuver(maneuver) => {
-                    self.body = Body {
+                    let (body, post) = (&mut self.bodies[member - 1], POSTS[member - 1]);
+                    *body = Body {
                         task: Some(maneuver.id),
-                        to: Some(POST),
+                        to: Some(post),
                         holds: false,
                         waits: false,
                         begins: true,
-                        ..self.body
+                        ..*body
                     };
-                    self.tell(member, Input::Started(maneuver, Some(POST)), turn);
+                    self.tell(member, Input::Started(maneuver, Some(post)), turn);
                 }
                 Said::StopManeuver(..) => {
-                    self.body.leave_task(false);
+                    self.bodies[member - 1].leave_task(false);
                     self.tell(member, Input::Stopped, turn);
                 }
                 Said::FallBack(maneuver, policy) => {
-                    self.body.leave_task(true);
+                    self.bodies[member - 1].leave_task(true);
                     self.tell(member, Input::FellBack(maneuver, policy), turn);
                 }
                 // Without a machine, the sign shows what the protocol says.
@@ -262,39 +279,47 @@ impl Team {
     }
 
     fn send_ram(&mut self, from: usize, turn: &mut Turn<'_>) {
-        if turn.deaf[1 - from] {
-            return;
-        }
         let ram = self.members[from].robot.ram();
-        if from == FOLLOWER
-            && let Some(pose) = pose(turn.guard, self.body.at)
+        if from != LEADER
+            && !turn.loses(from, LEADER)
+            && let Some(pose) = self.pose(from, turn)
         {
             let at = Input::FollowerAt(ram.station, Some(pose), Millis::ZERO);
             self.tell(LEADER, at, turn);
         }
         let distance = Decimetres(50);
-        let ram = protocol::Input::Ram { ram, distance };
-        turn.queue.push_back((1 - from, ram));
+        self.send(from, protocol::Input::Ram { ram, distance }, turn);
     }
 
-    /// Whether the follower's body has not come to the place of its maneuver yet.
-    pub(super) fn is_sent(&self) -> bool {
-        self.body.to == Some(POST) && self.body.at == HOME
+    /// Sends a message to everybody else.
+    fn send(&self, from: usize, message: protocol::Input, turn: &mut Turn<'_>) {
+        for to in 0..self.members.len() {
+            if to != from && !turn.loses(from, to) {
+                turn.queue.push_back((to, message));
+            }
+        }
     }
 
-    /// Whether the follower's body is where its maneuver leads.
-    pub(super) fn is_posted(&self) -> bool {
-        self.body.at == POST
+    /// Whether a follower's body has not come to the place of its maneuver yet.
+    pub(super) fn is_sent(&self, follower: usize) -> bool {
+        let body = &self.bodies[follower];
+        body.to == Some(POSTS[follower]) && body.at == HOMES[follower]
     }
 
-    pub(super) const fn guards(&self) -> bool {
-        let follows = matches!(self.members[FOLLOWER].robot.phase(), Phase::Following(_));
-        self.body.holds || follows && self.body.task.is_some()
+    /// Whether a follower's body is where its maneuver leads.
+    pub(super) fn is_posted(&self, follower: usize) -> bool {
+        self.bodies[follower].at == POSTS[follower]
     }
 
-    /// Whether the follower has guarded, and does not any more.
-    pub(super) const fn has_left(&self) -> bool {
-        self.body.has_guarded && !self.guards()
+    pub(super) fn guards(&self, follower: usize) -> bool {
+        let (body, robot) = (&self.bodies[follower], &self.members[follower + 1].robot);
+        let follows = matches!(robot.phase(), Phase::Following(_));
+        body.holds || follows && body.task.is_some()
+    }
+
+    /// Whether a follower has guarded, and does not any more.
+    pub(super) fn has_left(&self, follower: usize) -> bool {
+        self.bodies[follower].has_guarded && !self.guards(follower)
     }
 
     pub(super) fn is_idle(&self) -> bool {
@@ -389,26 +414,23 @@ impl Renaming for Renamed<'_> {
 
 impl fmt::Display for Team {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [leader, follower] = &self.members;
-        let corridor = match leader.robot.phase() {
-            Phase::Leading(leading) => Some(leading.corridor),
-            _ => None,
+        let leader = &self.members[LEADER].robot;
+        let corridor = match leader.phase() {
+            Phase::Leading(leading) => format!(" ({})", leading.corridor),
+            _ => String::new(),
         };
-        let corridor = corridor.map_or_else(String::new, |it| format!(" ({it})"));
-        write!(
-            f,
-            "leader {}{corridor}, follower {}",
-            leader.robot.role(),
-            follower.robot.role()
-        )?;
-        let duty = follower.robot.duty().is_some();
-        let told = [
-            (self.body.task.is_some(), ", commanded"),
-            (duty, ", on duty"),
-            (self.body.holds, ", holds"),
-        ];
-        told.iter()
-            .filter(|(is, _)| *is)
-            .try_for_each(|(_, what)| f.write_str(what))
+        write!(f, "leader {}{corridor}", leader.role())?;
+        for (Member { robot, .. }, body) in self.members[1..].iter().zip(&self.bodies) {
+            write!(f, ", follower {}", robot.role())?;
+            let told = [
+                (body.task.is_some(), ", commanded"),
+                (robot.duty().is_some(), ", on duty"),
+                (body.holds, ", holds"),
+            ];
+            let told = told.iter().filter(|(is, _)| *is);
+            told.into_iter()
+                .try_for_each(|(_, what)| f.write_str(what))?;
+        }
+        Ok(())
     }
 }

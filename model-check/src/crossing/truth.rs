@@ -63,8 +63,8 @@ macro_rules! rules {
 rules! {
     P1: "while somebody is on the carriageway, no guard that can stay leaves, and no word frees it",
         where "somebody is on the carriageway beside the crossing, at a sign that shows stop, and the sensor has missed them as often as it may";
-    P2: "go is shown only while the guard guards at its place, or did at most 1 s ago",
-        where "the guard has left its place while go is shown";
+    P2: "go is shown only while each guard guards at its place, or did at most 1 s ago",
+        where "a guard has left its place while go is shown";
     P3: "go does not begin while a vehicle that is heard can no longer stop comfortably",
         where "a vehicle can no longer stop, somebody waits, and the guard is at its place";
     P5: "a person who waits in front of an idle team is detected within 6 frames",
@@ -79,33 +79,40 @@ rules! {
 
 impl Rule {
     pub(super) fn holds(self, state: &State) -> bool {
+        let mut guards = state.guards.iter();
         match self {
-            Self::P1 => !(is_on_road(state) && state.guard.has_left),
-            Self::P2 => !state.sign.shows_go() || state.guard.away <= AWAY_MAX,
+            Self::P1 => !(is_on_road(state) && guards.any(|it| it.has_left)),
+            Self::P2 => !state.sign.shows_go() || guards.all(|it| it.away <= AWAY_MAX),
             Self::P3 => !(state.sign.has_begun && cannot_stop(state)),
             Self::P5 => state.undetected <= DETECT_MAX,
             Self::P6 => state.off_road <= END_MAX,
-            Self::P9 => !state.guard.stepped_out,
+            Self::P9 => !guards.any(|it| it.stepped_out),
             Self::P10 => !state.began_unpromised,
         }
     }
 
     pub(super) fn is_premise_met(self, state: &State) -> bool {
-        let mut people = state.people.iter();
+        let (mut people, mut guards) = (state.people.iter(), state.guards.iter());
         match self {
             Self::P1 => {
                 let is_missed =
                     |it: &Cell, missed| *it == Cell::Beside && missed >= state.left.misses;
                 !state.sign.shows_go() && people.any(|it| is_missed(&it.at, it.missed))
             }
-            Self::P2 => state.sign.shows_go() && state.guard.away > 0,
-            Self::P3 => cannot_stop(state) && state.guards && people.any(|it| it.at == Cell::Near),
+            Self::P2 => state.sign.shows_go() && guards.any(|it| it.away > 0),
+            Self::P3 => {
+                let are_guarding = guards.all(|it| it.is_guarding);
+                cannot_stop(state) && are_guarding && people.any(|it| it.at == Cell::Near)
+            }
             Self::P5 => state.undetected > 0 && people.any(|it| it.missed > 0),
             Self::P6 => state.is_free && people.any(|it| it.at == Cell::Far),
-            Self::P9 => state.guard.ought_to_wait && state.team.is_sent(),
+            Self::P9 => guards
+                .enumerate()
+                .any(|(follower, it)| it.ought_to_wait && state.team.is_sent(follower)),
             Self::P10 => {
                 let may_stop = state.is_heard() && !cannot_stop(state) && !state.promised;
-                may_stop && state.guards && people.any(|it| it.at == Cell::Near)
+                let are_guarding = guards.all(|it| it.is_guarding);
+                may_stop && are_guarding && people.any(|it| it.at == Cell::Near)
             }
         }
     }
