@@ -223,3 +223,94 @@ fn nobody_who_steps_on_the_road_before_the_sensor_fails_is_across() {
     team.pass_until("the end", has_completed(0));
     assert_eq!(team.alone, 0);
 }
+
+/// Hazard H: an escort waits for its person, and is not done before the person is off the road.
+#[test]
+fn an_escort_stays_with_its_person() {
+    let mut team = escorting(OVER_THERE, true);
+    team.robots[1].body.at = Point::new(0, -100);
+    team.pass_until("go", Team::shows_go);
+    team.people[0] = walking(team.people[0], 0, 40);
+    team.pass(5_000);
+    team.people[0] = walking(team.people[0], 0, 0);
+    team.pass(10_000);
+    let ahead = team.robots[1].body.at.north_cm() - team.people[0].at.north_cm();
+    assert!((0..=250).contains(&ahead), "{ahead} cm");
+    assert_eq!(
+        team.told(1, |it| matches!(it, Event::ManeuverCompleted(_))),
+        0
+    );
+    team.people[0] = walking(team.people[0], 0, 60);
+    team.pass_until("idle", Team::is_idle);
+    assert!(team.people[0].at.north_cm() > 700);
+    assert_eq!(team.alone, 0);
+}
+
+/// The body of an escort has reached the other side, and somebody stands on the road close behind it.
+#[test]
+fn an_escort_is_not_done_under_the_eyes_of_people() {
+    let completed = |team: &Team| team.told(1, |it| matches!(it, Event::ManeuverCompleted(_)));
+    let mut team = escorting(OVER_THERE, true);
+    team.robots[1].body.at = Point::new(0, -100);
+    team.pass_until("go", Team::shows_go);
+    team.people[0] = walking(team.people[0], 0, 100);
+    team.pass_until("the last metre", |it| it.people[0].at.north_cm() > 620);
+    team.people[0] = walking(team.people[0], 0, 0);
+    team.pass(10_000);
+    assert!(team.robots[1].body.at.distance_cm(Point::new(100, 800)) < 10);
+    assert_eq!(completed(&team), 0);
+    team.people[0] = walking(team.people[0], 0, 60);
+    team.pass_until("idle", Team::is_idle);
+    assert!(completed(&team) > 0);
+    assert_eq!(team.alone, 0);
+}
+
+/// Go is over by then: an escort that waited for the next one would stand on the road until its leader gives up.
+#[test]
+fn an_escort_does_not_wait_on_the_road_for_people_who_come_late() {
+    let mut team = escorting(OVER_THERE, true);
+    team.robots[1].setup.ground.waiting = street().ground.waiting;
+    team.robots[1].body.at = Point::new(0, -100);
+    team.pass_until("go", Team::shows_go);
+    // Faster than the escort.
+    team.people[0] = walking(team.people[0], 0, 140);
+    team.pass(5_000);
+    assert!(team.robots[1].body.at.north_cm() < 600);
+    team.people.push(person(2, 100, -100));
+    team.pass_until("done", |it| {
+        it.told(1, |event| matches!(event, Event::ManeuverCompleted(_))) > 0
+    });
+    assert_eq!(calls(&team), 1, "not on its second way");
+    team.pass_until("a second call", |it| calls(it) == 2);
+    assert_eq!(team.told(0, |it| *it == Event::LeaveRequested), 0);
+    assert_eq!(team.alone, 0);
+}
+
+/// An escort that waits for everybody who guards, the leader too.
+#[test]
+fn a_stage_that_takes_people_on_the_road_waits_for_the_leader() {
+    let mut plan = plan(&[leg(TaskType::MOVE, Point::new(100, 800))]);
+    plan.own_place = Some(Point::new(0, -1_500));
+    let mut team = team(plan, true);
+    team.people = vec![person(1, 100, -100)];
+    team.pass_until("a session", |it| it.told(0, |_| true) > 0 && !it.is_idle());
+    team.pass(5_000);
+    assert_eq!(team.first(0, |it| matches!(it, Output::Order(..))), None);
+    team.pass_until("an order", |it| {
+        it.first(0, |it| matches!(it, Output::Order(..))).is_some()
+    });
+    assert!(team.robots[0].body.at.distance_cm(Point::new(0, -1_500)) <= 200);
+}
+
+/// The protocol is told once.
+#[test]
+fn a_follower_says_once_that_it_has_completed() {
+    let mut team = escorting(OVER_THERE, false);
+    team.pass_until("done", |it| {
+        it.told(1, |event| matches!(event, Event::ManeuverCompleted(_))) > 0
+    });
+    team.pass(400);
+    let told = team.told(1, |event| matches!(event, Event::ManeuverCompleted(_)));
+    let reported = team.told(1, |event| matches!(event, Event::InPosition(_)));
+    assert_eq!((told, reported), (1, 1));
+}

@@ -138,3 +138,56 @@ fn an_escort_begins_at_the_kerb_where_people_wait() {
         assert_eq!(orders(&team), expected, "{who:?}, people at {north}");
     }
 }
+
+#[test]
+fn a_call_ends_when_the_person_leaves() {
+    for helpers in [0, 1] {
+        let mut team = alone(helpers);
+        team.people = vec![person(1, 460, -100)];
+        team.pass(1_300);
+        assert_eq!(calls(&team), 1);
+        // Somebody else called a second time.
+        team.hear(0, Input::CallIgnored);
+        team.people[0] = walking(team.people[0], 140, 0);
+        team.pass_until("idle", Team::is_idle);
+        // A guard that is on its way to the road goes there first.
+        let left = team.told(0, |it| *it == Event::LeaveRequested);
+        assert_eq!(left > 0, helpers == 0);
+        assert!(!team.shows_go());
+        assert_eq!(team.first(0, |it| matches!(it, Output::Go(_))), None);
+        team.pass(5_000);
+        assert_eq!(calls(&team), 1);
+    }
+}
+
+#[test]
+fn a_call_is_repeated_while_the_person_waits_and_nobody_helps() {
+    let mut team = alone(0);
+    team.people = vec![person(1, 100, -100)];
+    team.pass(30_000);
+    assert!((2..=4).contains(&calls(&team)), "{} calls", calls(&team));
+}
+
+#[test]
+fn nobody_is_called_for_people_who_pass_vehicles_and_stale_sensors() {
+    let passer_by = walking(person(1, -800, -80), 140, 0);
+    let car = Sighting {
+        what: RoadUser::Vehicle,
+        ..person(1, 100, -80)
+    };
+    let rider = Sighting {
+        what: RoadUser::Bicyclist,
+        ..walking(person(1, -2_000, -80), 400, 0)
+    };
+    for who in [passer_by, car, rider] {
+        let mut team = alone(1);
+        team.people = vec![who];
+        team.pass(10_000);
+        assert_eq!(calls(&team), 0, "{who:?}");
+    }
+    let mut team = alone(1);
+    team.people = vec![person(1, 100, -100)];
+    team.sensor = |now, people| (now < 200).then(|| people.to_vec());
+    team.pass(10_000);
+    assert_eq!(calls(&team), 0, "a frame, and silence");
+}
