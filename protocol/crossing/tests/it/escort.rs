@@ -26,7 +26,7 @@ fn look(scene: &mut Scene, frames: u32, people: &[Sighting]) {
     }
 }
 
-/// Whether the body was told to wait, and not yet to go on.
+/// The body was told to wait, and not yet to go on.
 fn waits(scene: &Scene) -> bool {
     let is_said = |it: &&Output| matches!(it, Output::Wait | Output::GoOn);
     scene.out.iter().rfind(is_said) == Some(&Output::Wait)

@@ -73,7 +73,7 @@ fn a_session_is_left_that_nobody_wants_any_more_unless_guards_are_on_their_way_t
     }
 }
 
-/// Nobody crosses under a plan without guards.
+/// A plan without guards lets no person on the road.
 #[test]
 fn a_plan_that_lets_nobody_cross_is_over_when_it_is_done() {
     let stage = leg(TaskType::INITIAL_POS, Point::new(-200, -150));

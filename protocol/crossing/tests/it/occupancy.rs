@@ -265,7 +265,7 @@ fn a_source_that_looks_away_sees_nobody_leave() {
     assert!(scene.crossing.occupancy().sees_nobody(&scene.setup));
 }
 
-/// Somebody is seen by a source that does not say what it covers, or covers a part alone.
+/// The source covers a part alone, or does not say what it covers, as it sees a person.
 #[test]
 fn a_source_sees_nobody_once_what_it_covered_is_empty() {
     for (before, after, expected) in [
