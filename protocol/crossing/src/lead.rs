@@ -492,6 +492,8 @@ impl Lead {
         let is_over_there = is_last && self.is_over_there(view);
         let may_try = self.tried == Millis::ZERO;
         let goes_with_escort = plan.is_escort(self.stage, view.setup.escorts());
+        // Nobody goes along with people who come now: they wait for its next way.
+        let is_escort_gone = is_over_there && goes_with_escort;
         if !view.has_opened {
             self.opened = if goes_with_escort {
                 STEP_ON_ESCORTED
@@ -504,8 +506,7 @@ impl Lead {
         }
         match view.corridor {
             Corridor::Open => {
-                // People who come when the escort is over there wait for its next way.
-                if self.is_full() || is_over_there && (goes_with_escort || !view.is_wanted) {
+                if self.is_full() || is_escort_gone || is_over_there && !view.is_wanted {
                     out.tell(Event::CloseCorridor);
                 }
             }
@@ -530,7 +531,11 @@ impl Lead {
                     // The escort is over there, and nobody came along.
                     self.tried = OPENING_PERIOD;
                     self.begin_stage(view, 0, out);
-                } else if may_try && !is_through && !(is_escorted && view.was_seen) {
+                } else if may_try
+                    && !is_through
+                    && !is_escort_gone
+                    && !(is_escorted && view.was_seen)
+                {
                     self.open(view, out);
                 }
             }
