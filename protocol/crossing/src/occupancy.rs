@@ -203,8 +203,11 @@ impl Occupancy {
     #[must_use]
     pub fn sees_nobody(&self, setup: &Setup) -> bool {
         let sensors = &setup.sensors;
-        let mut known = self.sources.iter().filter(|source| source.age.is_some());
-        known.all(|it| it.is_fresh(sensors) && it.clear(sensors).has(it.covers.union(it.owed)))
+        let known = || self.sources.iter().filter(|source| source.age.is_some());
+        let looked = |it: &Source| it.covers.union(it.owed);
+        // Who looks nowhere sees nobody come and go.
+        known().any(|it| looked(it) != Coverage::NONE)
+            && known().all(|it| it.is_fresh(sensors) && it.clear(sensors).has(looked(it)))
     }
 
     /// Whether the robot's own sensors had somebody on the road, and have not had nobody there since.

@@ -98,3 +98,41 @@ fn an_escort_stays_with_its_person_however_many_others_are_reported() {
         assert!((0..=250).contains(&ahead), "crowd {crowd}: {ahead} cm");
     }
 }
+
+/// A camera that covers no part of the road knows no more of it than none.
+#[test]
+fn a_source_that_covers_nothing_takes_nobody_off_the_road() {
+    for looks in [false, true] {
+        let mut team = team(plan(&[leg(TaskType::MOVE, Point::new(100, 800))]), false);
+        team.people = vec![person(1, 100, -100)];
+        team.robots[1].body.at = Point::new(0, -100);
+        let pass = |team: &mut Team, ms: u32, is_reported: bool| {
+            for _ in 0..ms / 100 {
+                let who = team.people[0];
+                if is_reported {
+                    team.hear(1, Input::Heard(who, Millis(0)));
+                }
+                if looks {
+                    let frame = Frame {
+                        source: 0,
+                        age: Millis(0),
+                        covers: Coverage::NONE,
+                        sightings: &[],
+                    };
+                    team.hear(1, Input::Frame(frame));
+                }
+                team.pass(100);
+            }
+        };
+        while !team.shows_go() {
+            assert!(team.now < 30_000);
+            pass(&mut team, 100, true);
+        }
+        team.people[0] = walking(team.people[0], 0, 40);
+        pass(&mut team, 6_000, true);
+        team.people[0] = walking(team.people[0], 0, 0);
+        pass(&mut team, 10_000, false);
+        let ahead = team.robots[1].body.at.north_cm() - team.people[0].at.north_cm();
+        assert!((0..=250).contains(&ahead), "looks: {looks}, {ahead} cm");
+    }
+}
