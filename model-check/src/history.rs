@@ -1,4 +1,5 @@
-//! What has happened, as far as a property needs it and no robot's state holds it.
+//! What has happened, as far as a property needs it and no robot's state holds it. The model without time forgets
+//! facts that nothing can read any more: see `model/forget.rs`.
 
 use crossguard_protocol::{
     Answer, Command, Confirmation, Coordination, Event, Heartbeat, Input, ManeuverId, Notice,
@@ -104,10 +105,23 @@ impl History {
             .any(|&(crashed, _)| crashed == station)
     }
 
-    /// Whether any follower has fallen back.
-    #[must_use]
-    pub fn has_fallback(&self) -> bool {
-        self.commands.iter().any(|command| command.fell_back)
+    /// The history with other records of the same commands, and some of the confirmations; `None` where it stays the same.
+    pub(crate) fn forgetting(
+        &self,
+        forgetful: impl Fn(&CommandRecord) -> CommandRecord,
+        is_known: impl Fn(SessionId, Confirmation) -> bool,
+    ) -> Option<Self> {
+        let is_known = |&(session, follower): &_| is_known(session, follower);
+        let commands: Vec<_> = self.commands.iter().map(forgetful).collect();
+        if commands == self.commands && self.confirmed.iter().all(is_known) {
+            return None;
+        }
+        let confirmed = self.confirmed.iter().copied();
+        Some(Self {
+            commands,
+            confirmed: confirmed.filter(is_known).collect(),
+            ..self.clone()
+        })
     }
 
     pub(crate) fn record_step(

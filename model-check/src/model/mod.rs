@@ -6,6 +6,7 @@
 
 mod actions;
 mod canonical;
+mod forget;
 mod lies;
 mod parts;
 pub mod portable;

@@ -132,6 +132,7 @@ impl Model {
             }
         };
         self.forget_bodies(&mut next.state);
+        self.forget(&mut next);
         Some((self.ranked(next), step))
     }
 

@@ -8,7 +8,7 @@ property! {
     "I5", Authentication::NAMES;
     untimed T "the started requestID only grows within a session",
         Some("a follower starts a second maneuver in the same session"),
-        Rule::Step(StepRule { holds, premise: |step| newest_before(step).is_some(), looks_back: true, of_two: false }),
+        Rule::Step(StepRule { holds, premise: starts_another, looks_back: true, of_two: false }),
         "StartsOlderCommands";
 }
 
@@ -23,4 +23,10 @@ fn holds(step: &StepView) -> bool {
         (Some(maneuver), Some(newest)) => request_is_newer(maneuver.id.request, newest),
         _ => true,
     }
+}
+
+fn starts_another(step: &StepView) -> bool {
+    let started = step.started().map(|maneuver| maneuver.id.session);
+    let before = step.before.actuation.body.maneuver();
+    started.is_some() && before.map(|id| id.session) == started
 }

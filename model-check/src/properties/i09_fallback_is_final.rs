@@ -6,7 +6,7 @@ property! {
     "I9", Authentication::NAMES;
     untimed S "after its fallback a command is never executed again",
         Some("a follower has fallen back"),
-        Rule::State(StateRule { holds, premise: |view| view.history().has_fallback(), of_two: false }),
+        Rule::State(StateRule { holds, premise: falls_back, of_two: false }),
         "StartsRepeatedCommands";
 }
 
@@ -17,4 +17,9 @@ fn holds(view: &View) -> bool {
             command.is_none_or(|command| !command.fell_back)
         })
     })
+}
+
+fn falls_back(view: &View) -> bool {
+    view.nodes()
+        .any(|node| matches!(node.actuation.body, Body::FallingBack(..)))
 }

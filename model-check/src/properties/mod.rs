@@ -98,7 +98,7 @@ use serde::Serialize;
 pub use authentication::{Authentication, Insider};
 pub use property::{Claim, Kind, Property};
 pub(crate) use property::{LivenessRule, Rule, StateRule, StepRule, TimedPremise, TimedRule};
-pub(crate) use view::{StepView, Surroundings, View};
+pub(crate) use view::{StepView, Surroundings, View, following_of, leading_of};
 
 /// Declares the ids from the list of properties, and what needs all of them at compile time.
 macro_rules! properties {
