@@ -522,6 +522,7 @@ impl Lead {
                 // For people who wait by then it calls anew.
                 let is_through =
                     (is_escorted && view.has_crossed || self.is_full()) && view.nobody_is_lost;
+                let has_gone = is_through || is_escort_gone || is_escorted && view.was_seen;
                 if is_done && !lets_cross || may_end && (view.everybody_is_across || is_through) {
                     out.tell(Event::TaskCompleted);
                 } else if self.patience == Millis::ZERO {
@@ -531,11 +532,7 @@ impl Lead {
                     // The escort is over there, and nobody came along.
                     self.tried = OPENING_PERIOD;
                     self.begin_stage(view, 0, out);
-                } else if may_try
-                    && !is_through
-                    && !is_escort_gone
-                    && !(is_escorted && view.was_seen)
-                {
+                } else if may_try && !has_gone {
                     self.open(view, out);
                 }
             }
