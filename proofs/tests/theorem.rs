@@ -18,8 +18,8 @@ const README: &str = include_str!("../README.md");
 /// The laws of each harness of this pair.
 fn laws_of(stage: Role, kind: Kind) -> Vec<Laws> {
     let all = leader::PROVED.iter().chain(follower::PROVED);
-    let of_pair = |it: &&Proved| (it.stage, it.kind) == (stage, kind);
-    all.filter(of_pair).map(|it| it.laws).collect()
+    let of_pair = |it: &&Proved| (it.0, it.1) == (stage, kind);
+    all.filter(of_pair).map(|it| it.2).collect()
 }
 
 /// The valid ones among so many random states of this stage.

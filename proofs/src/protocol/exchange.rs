@@ -1,7 +1,7 @@
 //! The theorem: one step of a robot keeps what holds of any exchange, whatever part it has in it, and breaks no property of it.
 //!
-//! Each harness has a robot in any valid state of a stage, any exchange, any history that agrees with both, and any input
-//! of a kind that such a history allows. The robot may be the leader of the exchange, its follower or neither.
+//! Each harness has any settings, a robot in any valid state of a stage, any exchange, any history that agrees with both, and
+//! any input of a kind that such a history allows. The robot may be the leader of the exchange, its follower or neither.
 //!
 //! [`leader`] and [`follower`] have a harness for each stage and each kind of input by which something comes about. All other
 //! pairs are ignored, which [`frame`] proves of whatever these two do not name: no pair is left out.
@@ -17,7 +17,6 @@ use crossguard_protocol::{
 
 use super::stage::{self, any_valid};
 use super::timers::any_within_a_step;
-use crate::harness::harnesses;
 use crate::{Symbolic, kani};
 
 /// A robot, an exchange and a history that agree.
@@ -37,8 +36,18 @@ struct Kept {
     after: Robot,
 }
 
+/// The settings of a step. To a proof they are any; at random they are most often the default ones, with which states are valid
+/// more often.
+fn config() -> Config {
+    if cfg!(kani) {
+        stage::any_config()
+    } else {
+        stage::config()
+    }
+}
+
 fn any_watched(stage: Role) -> Watched {
-    let config = stage::config();
+    let config = config();
     let robot = any_valid(&config, stage, stage::peers(stage));
     of(config, robot)
 }
@@ -78,7 +87,7 @@ fn any_step(stage: Role, kind: Kind, laws: Laws) -> Kept {
 
 /// A due timer, in any state that can occur within a step.
 fn any_firing(stage: Role, countdown: TimerKind, laws: Laws) -> Kept {
-    let config = stage::config();
+    let config = config();
     let timer = Timer::any_of(countdown, &mut Symbolic);
     let robot = timers::with_due(any_within_a_step(&config, stage), timer);
     kani::assume(timers::is_due(&robot, timer) && timers::is_consistent(&robot, &config));
@@ -127,17 +136,72 @@ impl Kept {
     }
 }
 
-/// The pair of stage and kind that a harness proves.
-#[derive(Clone, Copy, Debug)]
-pub struct Proved {
-    /// The stage.
-    pub stage: Role,
-    /// The kind of input.
-    pub kind: Kind,
-    /// Which laws.
-    pub laws: Laws,
-    /// The harness.
-    pub name: &'static str,
+/// What a harness proves: any input of this kind in this stage keeps these laws.
+pub type Proved = (Role, Kind, Laws);
+
+/// The age of a heartbeat, with any time in the place of its periods: a proof that multiplies by any `ram_period` takes six times
+/// as long. As many periods have the same time, and more have no shorter one.
+///
+/// Protocol and law write the age differently: `n * p + (p - min(p, r))`, as far as 32 bits go, and `(n + 1) * p - min(p, r)`. Here
+/// one function stands for both. No lease is as long as 32 bits go.
+#[cfg(all(kani, not(feature = "stand-in")))]
+pub mod any_age {
+    use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+    use crossguard_protocol::{Config, Heartbeat, Millis};
+
+    const NONE: u32 = u32::MAX;
+
+    /// The numbers of periods that were asked for, and their times. One that finds no place here has any time.
+    static TIMES: [[AtomicU32; 2]; 4] = [const { [AtomicU32::new(NONE), AtomicU32::new(0)] }; 4];
+
+    fn time_of(periods: u32) -> Millis {
+        let any: u32 = kani::any();
+        let mut i = 0;
+        while i < TIMES.len() {
+            let [of, time] = &TIMES[i];
+            let (known, ms) = (of.load(Relaxed), time.load(Relaxed));
+            if known == periods {
+                return Millis(ms);
+            }
+            if known == NONE {
+                of.store(periods, Relaxed);
+                time.store(any, Relaxed);
+                break;
+            }
+            kani::assume(if periods < known {
+                any <= ms
+            } else {
+                any >= ms
+            });
+            i += 1;
+        }
+        Millis(any)
+    }
+
+    /// In place of the protocol's.
+    pub fn age_of(config: &Config, newest: Heartbeat, heard: Heartbeat, next: Millis) -> Millis {
+        let in_this_period = config.settings().ram_period.saturating_sub(next);
+        time_of(newest.distance_from(heard).into()).saturating_add(in_this_period)
+    }
+
+    /// In place of the law's.
+    pub fn age_ms(config: &Config, newest: Heartbeat, heard: Heartbeat, next: Millis) -> u64 {
+        age_of(config, newest, heard, next).0.into()
+    }
+}
+
+/// Declares harnesses of a step with any settings.
+macro_rules! with_any_age {
+    ($($(#[doc = $doc:expr])* fn $name:ident() $body:block)+) => {
+        $crate::harness::harnesses! { $(
+            $(#[doc = $doc])*
+            #[unwind(6)]
+            #[stub(crossguard_protocol::roles::age_of, crate::protocol::exchange::any_age::age_of)]
+            #[stub(crossguard_protocol::laws::arithmetic::age_ms, crate::protocol::exchange::any_age::age_ms)]
+            fn $name() $body
+        )+ }
+    };
 }
 
 /// Declares harnesses: stage, kind of input, which laws if not all, and what must be able to come of it. Those of which any
@@ -150,10 +214,9 @@ macro_rules! steps {
             $name:ident($stage:ident, $kind:expr $(, $laws:ident)?) |$kept:ident| $marks:tt
         )+
     ) => {
-        harnesses! {
+        with_any_age! {
             $(
                 #[doc = concat!("Stage *", stringify!($from), "*, any input of `", stringify!($any), "`.")]
-                #[unwind(6)]
                 fn $each() {
                     let kept = &any_step(Role::$from, $any, stage::laws_of!(Laws::All $(, Laws::$of)?));
                     stage::marks!({
@@ -165,7 +228,6 @@ macro_rules! steps {
             )+
             $(
                 $(#[doc = $doc])*
-                #[unwind(6)]
                 fn $name() {
                     let $kept = &any_step(Role::$stage, $kind, stage::laws_of!(Laws::All $(, Laws::$laws)?));
                     stage::marks!($marks);
@@ -173,20 +235,10 @@ macro_rules! steps {
             )+
         }
 
-        /// The pair of each harness of this module.
+        /// What each harness of this module proves.
         pub const PROVED: &[super::Proved] = &[
-            $(super::Proved {
-                stage: Role::$from,
-                kind: $any,
-                laws: stage::laws_of!(Laws::All $(, Laws::$of)?),
-                name: stringify!($each),
-            },)+
-            $(super::Proved {
-                stage: Role::$stage,
-                kind: $kind,
-                laws: stage::laws_of!(Laws::All $(, Laws::$laws)?),
-                name: stringify!($name),
-            },)+
+            $((Role::$from, $any, stage::laws_of!(Laws::All $(, Laws::$of)?)),)+
+            $((Role::$stage, $kind, stage::laws_of!(Laws::All $(, Laws::$laws)?)),)+
         ];
     };
 }

@@ -1,6 +1,6 @@
 //! A robot that helps or follows, or has no part in a session yet.
 
-use super::{EventKind, Kind, Laws, Part, Phase, Role, TimerKind, any_step, harnesses, stage};
+use super::{EventKind, Kind, Laws, Part, Phase, Role, TimerKind, any_step, stage};
 
 steps! {
     @each {

@@ -1,9 +1,9 @@
 //! What is needed besides the steps.
 
 use super::{
-    EventKind, Kind, Laws, Part, Proved, Role, Source, StationId, Symbolic, TimerKind, any_valid,
-    any_watched, any_within_a_step, arbitrary, follower, kani, leader, messages, of, stage, steps,
-    timers,
+    Config, EventKind, Kind, Laws, Part, Proved, Role, Source, StationId, Symbolic, TimerKind,
+    any_valid, any_watched, any_within_a_step, arbitrary, config, follower, kani, leader, messages,
+    of, stage, steps, timers,
 };
 use crossguard_protocol::laws::steps::ignores_without_effect;
 use crossguard_protocol::laws::taken::Taken;
@@ -58,8 +58,9 @@ const fn is_one_of(proved: &[Proved], stage: Role, kind: Kind) -> bool {
     let (group, number) = number_of(kind);
     let mut i = 0;
     while i < proved.len() {
-        let (of_group, of_number) = number_of(proved[i].kind);
-        if proved[i].stage as u8 == stage as u8 && of_group == group && of_number == number {
+        let (of_stage, of_kind, _) = proved[i];
+        let (of_group, of_number) = number_of(of_kind);
+        if of_stage as u8 == stage as u8 && of_group == group && of_number == number {
             return true;
         }
         i += 1;
@@ -76,7 +77,7 @@ pub const fn is_proved(stage: Role, kind: Kind) -> bool {
 /// Each input of a kind that no harness proves in this stage is ignored; so is a timer that the stage does not have.
 macro_rules! ignores_all_else {
     ($stage:ident $($kind:expr,)+) => {{
-        let config = stage::config();
+        let config = config();
         let robot = any_valid(&config, Role::$stage, stage::peers(Role::$stage));
         $(
             if const { !is_proved(Role::$stage, $kind) } {
@@ -122,11 +123,10 @@ fn keeps_what_it_ignores(stage: Role, ignored: u64) {
 }
 
 /// When no timer is due any more, the step settles: all that is left to do where the input is ignored.
-fn settles(stage: Role, ignored: Kind) {
-    let config = stage::config();
+fn settles(config: Config, stage: Role, ignored: Kind, laws: Laws) {
     let robot = any_within_a_step(&config, stage);
     kani::assume(timers::is_consistent(&robot, &config) && robot.next_due() != Some(Millis::ZERO));
-    let kept = of(config, robot).step(ignored, Laws::All);
+    let kept = of(config, robot).step(ignored, laws);
     kani::cover!(kept.before != kept.after, "settles");
 }
 
@@ -192,11 +192,16 @@ lemmas! {
     }
 
     "A step settles after the last timer." {
-        an_idle_robot_settles => settles(Role::None, Kind::Local(EventKind::AllAnswered));
-        a_requester_settles => settles(Role::Requester, Kind::Local(EventKind::PedestrianDetected));
-        a_helper_settles => settles(Role::Helper, Kind::Local(EventKind::AllAnswered));
-        a_follower_settles => settles(Role::Follower, Kind::Local(EventKind::AllAnswered));
-        a_leader_settles => settles(Role::Leader, Kind::Local(EventKind::AllAnswered));
+        an_idle_robot_settles => settles(config(), Role::None, Kind::Local(EventKind::AllAnswered), Laws::All);
+        a_requester_settles => settles(config(), Role::Requester, Kind::Local(EventKind::PedestrianDetected), Laws::All);
+        a_helper_settles => settles(config(), Role::Helper, Kind::Local(EventKind::AllAnswered), Laws::All);
+        a_follower_settles => settles(config(), Role::Follower, Kind::Local(EventKind::AllAnswered), Laws::All);
+        a_leader_settles => settles(config(), Role::Leader, Kind::Local(EventKind::AllAnswered), Laws::Facts);
+    }
+
+    "Heartbeats and leases, to a proof with the default settings: to multiply by any `ram_period` took more than 150 s." {
+        a_leader_settles_within_leases =>
+            settles(stage::config(), Role::Leader, Kind::Local(EventKind::AllAnswered), Laws::Heartbeats);
     }
 
     "What others do leaves the robot as it is." {

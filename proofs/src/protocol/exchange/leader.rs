@@ -1,6 +1,6 @@
 //! A robot that asks for help or leads.
 
-use super::{EventKind, Kind, Laws, Part, Phase, Role, TimerKind, any_step, harnesses, stage};
+use super::{EventKind, Kind, Laws, Part, Phase, Role, TimerKind, any_step, stage};
 
 steps! {
     @each {
