@@ -256,12 +256,6 @@ impl Coverage {
     pub const fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
-
-    /// The parts of both.
-    #[must_use]
-    pub const fn intersection(self, other: Self) -> Self {
-        Self(self.0 & other.0)
-    }
 }
 
 /// The ground of a crossing. What is not known is nowhere.
