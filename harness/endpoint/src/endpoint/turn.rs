@@ -166,12 +166,8 @@ impl Host for Turn<'_> {
                 surroundings.hear_ended(now_ms, from, ended);
                 return;
             }
-            // Its team goes by what it announces: with a part in a session it leaves people to its leader alone.
-            let may_leave = match me.phase() {
-                Phase::Idle | Phase::Offering(_) => true,
-                Phase::Following(_) => me.session().is_some_and(|it| it.leader == heard.from),
-                Phase::Requesting(_) | Phase::Leading(_) => false,
-            };
+            // Its team goes by what it announces: a leader leaves people to nobody.
+            let may_leave = !matches!(me.phase(), Phase::Leading(_));
             let cluster = cluster.filter(|_| may_leave);
             let cluster = cluster.and_then(|it| containers::on_plane(it, &state.position, plane));
             surroundings.hear(now_ms, me.station().0, from, cluster.as_ref());
