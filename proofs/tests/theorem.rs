@@ -18,8 +18,8 @@ const README: &str = include_str!("../README.md");
 /// The laws of each harness of this pair.
 fn laws_of(stage: Role, kind: Kind) -> Vec<Laws> {
     let all = leader::PROVED.iter().chain(follower::PROVED);
-    let of_pair = |it: &&Proved| (it.0, it.1) == (stage, kind);
-    all.filter(of_pair).map(|it| it.2).collect()
+    let of_pair = |&&(of_stage, of_kind, _): &&Proved| (of_stage, of_kind) == (stage, kind);
+    all.filter(of_pair).map(|&(_, _, laws)| laws).collect()
 }
 
 /// The valid ones among so many random states of this stage.

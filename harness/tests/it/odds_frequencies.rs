@@ -17,9 +17,8 @@ const LOSS: f64 = 0.4;
 /// What packets and clocks do.
 #[derive(Clone, Copy)]
 struct Air {
+    /// The shortest time of a packet, too; the longest is that of the model.
     tick_ms: u64,
-    /// The shortest time of a packet; the longest is that of the model.
-    shortest_ms: u64,
     /// How much faster the clock of each robot runs, in millionths. The first two are as far off as the settings allow.
     drift_ppm: [i64; 3],
 }
@@ -29,14 +28,12 @@ const DELAY_MS: u64 = 50;
 /// As the model assumes.
 const EXACT: Air = Air {
     tick_ms: DELAY_MS,
-    shortest_ms: DELAY_MS,
     drift_ppm: [0; 3],
 };
 
 /// Jitter that reorders packets, and clocks that drift apart.
 const ROUGH: Air = Air {
     tick_ms: 10,
-    shortest_ms: 10,
     drift_ppm: [1_000, -1_000, 0],
 };
 
@@ -86,8 +83,7 @@ impl Street {
                 Effect::Transmit { packet, .. } => {
                     for to in (0..self.robots.len()).filter(|to| *to != me) {
                         if !self.dice.random_bool(LOSS) {
-                            let shortest = self.air.shortest_ms / self.air.tick_ms;
-                            let ticks = shortest..=DELAY_MS / self.air.tick_ms;
+                            let ticks = 1..=DELAY_MS / self.air.tick_ms;
                             let delay_ms = self.dice.random_range(ticks) * self.air.tick_ms;
                             let (at_ms, packet) = (self.now_ms + delay_ms, packet.clone());
                             self.flying.push(Flying { at_ms, to, packet });

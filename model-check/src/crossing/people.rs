@@ -73,7 +73,7 @@ pub(super) struct Person {
     pub(super) on_road: u8,
 }
 
-/// Who was where, and was seen as whom, at one time.
+/// The cell and the id of each person in a frame; `None` for one that is not in it.
 pub(super) type Seen = [Option<(Cell, u8)>; PEOPLE_MAX];
 
 /// Calls `tell` with a frame that is so many ticks old.

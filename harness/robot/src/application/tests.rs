@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use crossguard_codec::{Identity, Kind, Position, RobotState, TaskParameters};
+use crossguard_codec::{Identity, Kind, Position, RoadUser, RobotState, TaskParameters};
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_endpoint::station::LocalDynamicMap;
 use crossguard_protocol::{Robot, StationId, StopReason, TaskType};
@@ -209,22 +209,30 @@ fn a_late_frame_is_no_sight_of_now() {
     }
     application.advance(12.0);
     assert_eq!(application.next_sight().unwrap().people.len(), 256);
-    let user = crossguard_codec::RoadUser {
+    application.advance(13.0);
+    hears_of(&mut application, vehicle(30.0, (8.0, 270.0)), 13_000);
+    assert_eq!(application.next_sight().unwrap().vehicles.len(), 1);
+}
+
+/// A vehicle so many metres to the east, with its speed in m/s and its heading in degrees.
+fn vehicle(east: f64, (speed, heading): (f64, f64)) -> RoadUser {
+    RoadUser {
         identity: Identity::Station(9),
         kind: Kind::Vehicle,
         station_type: None,
-        position: Site::default().position(Place::new(30.0, 2.0)),
-        speed: Some(8.0),
-        heading: Some(270.0),
+        position: Site::default().position(Place::new(east, 2.0)),
+        speed: Some(speed),
+        heading: Some(heading),
         cardinality: 1,
         signals: None,
         measured_its: 0,
-    };
+    }
+}
+
+fn hears_of(application: &mut Application, user: RoadUser, now_ms: u64) {
     let mut map = LocalDynamicMap::default();
-    map.observe(user, 13_000);
-    application.advance(13.0);
-    application.listen(&map, &Robot::new(StationId(1), 1), 13_000);
-    assert_eq!(application.next_sight().unwrap().vehicles.len(), 1);
+    map.observe(user, now_ms);
+    application.listen(&map, &Robot::new(StationId(1), 1), now_ms);
 }
 
 /// A robot that watches the simulated street, and has seen it empty once.
@@ -272,22 +280,15 @@ fn whoever_is_as_fast_as_a_vehicle_hinders_like_one() {
     ] {
         let mut application = watching();
         assert_eq!(application.crossing.hindered(&application.setup), None);
-        let user = crossguard_codec::RoadUser {
-            identity: Identity::Station(9),
+        let user = RoadUser {
             kind,
             station_type,
-            position: Site::default().position(Place::new(-12.0, 2.0)),
-            speed: Some(mps),
-            heading: Some(90.0),
-            cardinality: 1,
-            signals: None,
-            measured_its: 0,
+            ..vehicle(-12.0, (mps, 90.0))
         };
-        let mut map = LocalDynamicMap::default();
-        map.observe(user, 10_000);
-        application.listen(&map, &Robot::new(StationId(1), 1), 10_000);
+        let what = format!("{user:?}");
+        hears_of(&mut application, user, 10_000);
         let hindered = application.crossing.hindered(&application.setup);
-        assert_eq!(hindered.is_some(), expected, "{user:?}: {hindered:?}");
+        assert_eq!(hindered.is_some(), expected, "{what}: {hindered:?}");
     }
 }
 
