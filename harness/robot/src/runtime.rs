@@ -354,7 +354,9 @@ impl Loop {
             Order::Finish { well } => event(self.machine.finish(well)),
             Order::Perceived(vru) => {
                 let place = self.machine.application().body().place();
-                self.machine.application_mut().perceive(&vru);
+                let station = self.machine.endpoint().robot().station();
+                let application = self.machine.application_mut();
+                application.perceive(station, &vru);
                 seen = vec![seen_from(place, vru)];
                 Stimulus::Perceived(&seen)
             }

@@ -13,7 +13,7 @@ use crate::lead::{Lead, View};
 use crate::occupancy::Occupancy;
 use crate::position::Presence;
 use crate::setup::Setup;
-use crate::tracks::{OTHERS, Tracks};
+use crate::tracks::{Origin, Tracks};
 use crate::traffic::Traffic;
 
 /// How long a robot waits after a call before it calls again.
@@ -152,7 +152,7 @@ impl<const N: usize> Crossing<N> {
                 self.occupancy.start_anew();
                 out.put(Output::Dropped(FrameDrop::Malformed));
             }
-            Input::Heard(sighting, age) => self.heard(setup, sighting, age),
+            Input::Heard(station, sighting, age) => self.heard(setup, station, sighting, age),
             Input::Vehicle(vehicle, age) => {
                 self.traffic.hear(setup, vehicle, age);
                 self.guard_corridor(setup, &mut out);
@@ -327,10 +327,15 @@ impl<const N: usize> Crossing<N> {
             return out.put(Output::Dropped(why));
         }
         let mut is_occupied = false;
-        self.tracks
-            .observe(setup, frame.source, frame.age, frame.sightings, |person| {
+        self.tracks.observe(
+            setup,
+            Origin::Sensor(frame.source),
+            frame.age,
+            frame.sightings,
+            |person| {
                 is_occupied |= may_be_on_road(setup, person);
-            });
+            },
+        );
         if is_occupied {
             self.occupancy.owe(setup, frame);
             // The word of a person was said before this.
@@ -368,7 +373,7 @@ impl<const N: usize> Crossing<N> {
     /// Another station reports somebody. It adds people, and takes none away. Where the robot has sensors of its own, somebody
     /// whom others report beside the road does not count as on it because their place is inexact: people who wait at the kerb
     /// would keep the road occupied for as long as they wait.
-    fn heard(&mut self, setup: &Setup, sighting: Sighting, age: Millis) {
+    fn heard(&mut self, setup: &Setup, station: StationId, sighting: Sighting, age: Millis) {
         if age > setup.sensors.age_max.max(crate::tracks::FRESH)
             || sighting.what == RoadUser::Vehicle
         {
@@ -376,14 +381,19 @@ impl<const N: usize> Crossing<N> {
         }
         let has_sources = self.occupancy.has_sources();
         let mut is_occupied = false;
-        self.tracks
-            .observe(setup, OTHERS, age, &[sighting], |person| {
+        self.tracks.observe(
+            setup,
+            Origin::Station(station),
+            age,
+            &[sighting],
+            |person| {
                 is_occupied |= if has_sources {
                     setup.ground.is_road(person.at)
                 } else {
                     may_be_on_road(setup, person)
                 };
-            });
+            },
+        );
         if is_occupied {
             self.occupancy.occupy(setup);
         }

@@ -100,8 +100,8 @@ pub enum Input<'a> {
     Frame(Frame<'a>),
     /// A source delivered something that is no frame, which may have been of any source.
     BadFrame,
-    /// Another station reports somebody who is no vehicle. It may add people, and takes none away.
-    Heard(Sighting, Millis),
+    /// A station reports somebody who is no vehicle, seen so long ago. It may add people, and takes none away but its own.
+    Heard(StationId, Sighting, Millis),
     /// A vehicle was heard or seen, so long ago.
     Vehicle(Vehicle, Millis),
     /// A vehicle answers that it will stop before the crossing, as it was asked the last time; `false`: that it will not.

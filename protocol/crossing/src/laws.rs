@@ -203,7 +203,11 @@ fn observation(source: &mut impl Source) -> Told {
             return Told::Frame(look, source.flag().then(|| sighting(source)));
         }
         5 => Input::BadFrame,
-        6 => Input::Heard(sighting(source), millis(source, 100)),
+        6 => Input::Heard(
+            StationId(source.number(1, 0)),
+            sighting(source),
+            millis(source, 100),
+        ),
         7 => {
             let key = source.number(u32::MAX, 1);
             if source.likely(Some(true)) {
@@ -406,7 +410,7 @@ pub fn more_against(source: &mut impl Source) {
     let against = match source.number(3, 0) {
         0 => Told::Frame(look(source), Some(on_road)),
         1 => Told::Input(Input::BadFrame),
-        2 => Told::Input(Input::Heard(on_road, millis(source, 100))),
+        2 => Told::Input(Input::Heard(StationId(0), on_road, millis(source, 100))),
         _ => {
             let age = setup.sensors.age_max.saturating_add(Millis(1));
             if age == setup.sensors.age_max {

@@ -26,7 +26,7 @@
 //! | Or, on foot or in a wheelchair, heads for the road for `dwell`, and would be on it within `approach`. | 3 s | A person who walks up to the road is going to cross it. |
 //! | Did not come from the road within [`ACROSS`]. | 20 s | A person who has crossed is no new call. |
 
-use crossguard_protocol::{Millis, Urgency};
+use crossguard_protocol::{Millis, StationId, Urgency};
 
 use crate::ground::{Point, Way};
 use crate::input::{RoadUser, Sighting};
@@ -44,8 +44,22 @@ const CROSSED_MIN_CM: u32 = 200;
 /// Step at which the straight way to the road is sampled.
 const APPROACH_STEP_MS: u32 = 250;
 
-/// The source of people whom other stations report.
-pub(crate) const OTHERS: u8 = u8::MAX;
+/// From where an observation is.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(crate) enum Origin {
+    /// A source of the robot's own.
+    Sensor(u8),
+    /// Another station.
+    Station(StationId),
+}
+
+impl Origin {
+    /// Whether an observation from `other` may continue a track of this one. Other stations say nothing of people whom the robot sees
+    /// itself, and nothing of people of whom another station told.
+    fn may_continue(self, other: Self) -> bool {
+        matches!((self, other), (Self::Sensor(_), Self::Sensor(_))) || self == other
+    }
+}
 
 /// What somebody does at a crossing.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -70,7 +84,7 @@ pub struct Track {
     at: Point,
     error_cm: u16,
     what: RoadUser,
-    source: u8,
+    origin: Origin,
     id: Option<u32>,
     /// Time since the newest observation was made.
     unseen: Millis,
@@ -86,12 +100,12 @@ pub struct Track {
 }
 
 impl Track {
-    fn new(source: u8, sighting: &Sighting, age: Millis) -> Self {
+    fn new(origin: Origin, sighting: &Sighting, age: Millis) -> Self {
         Self {
             at: sighting.at,
             error_cm: sighting.error_cm,
             what: sighting.what,
-            source,
+            origin,
             id: sighting.id,
             unseen: age,
             stood: sighting.at,
@@ -164,13 +178,13 @@ impl Track {
     }
 
     /// Whether the same source calls them something else than a sighting.
-    fn has_another_id(&self, source: u8, sighting: &Sighting) -> bool {
+    fn has_another_id(&self, origin: Origin, sighting: &Sighting) -> bool {
         let is_known = self.id.is_some() && sighting.id.is_some();
-        is_known && self.source == source && self.id != sighting.id
+        is_known && self.origin == origin && self.id != sighting.id
     }
 
     /// Takes in one more observation, made `age` ago.
-    fn update(&mut self, setup: &Setup, source: u8, sighting: &Sighting, age: Millis) {
+    fn update(&mut self, setup: &Setup, origin: Origin, sighting: &Sighting, age: Millis) {
         // A source that lags says nothing new of somebody whom another has seen since.
         if age > self.unseen {
             return;
@@ -184,7 +198,7 @@ impl Track {
             self.what = sighting.what;
         }
         (self.at, self.error_cm) = (sighting.at, sighting.error_cm);
-        (self.source, self.id, self.unseen) = (source, sighting.id, age);
+        (self.origin, self.id, self.unseen) = (origin, sighting.id, age);
         self.walk(setup);
         self.intend(setup, sighting);
     }
@@ -299,11 +313,11 @@ impl<const N: usize> Tracks<N> {
         }
     }
 
-    /// Takes in what a source saw `age` ago. Calls `person` for each who is no vehicle.
+    /// Takes in what was seen `age` ago. Calls `person` for each who is no vehicle.
     pub(crate) fn observe(
         &mut self,
         setup: &Setup,
-        source: u8,
+        origin: Origin,
         age: Millis,
         sightings: &[Sighting],
         mut person: impl FnMut(&Sighting),
@@ -312,17 +326,17 @@ impl<const N: usize> Tracks<N> {
         // Who keeps an id goes first; the others continue the nearest track that is left.
         for by_id in [true, false] {
             for sighting in sightings {
-                let own = self.with_id(setup, source, age, sighting);
+                let own = self.with_id(setup, origin, age, sighting);
                 if own.is_some() != by_id {
                     continue;
                 }
                 let found = match own.filter(|place| !taken[*place]) {
                     Some(place) => Some(place),
-                    None => self.nearest(setup, source, age, sighting, &taken),
+                    None => self.nearest(setup, origin, age, sighting, &taken),
                 };
                 let free = || self.tracks.iter().position(Option::is_none);
                 let place = found.or_else(free);
-                let place = place.or_else(|| self.spare(setup, source, sighting.at));
+                let place = place.or_else(|| self.spare(setup, origin, sighting.at));
                 let mut is_person = sighting.what != RoadUser::Vehicle;
                 if let Some(place) = place {
                     taken[place] = true;
@@ -330,9 +344,9 @@ impl<const N: usize> Tracks<N> {
                         self.tracks[place] = None;
                     }
                     let track =
-                        self.tracks[place].get_or_insert_with(|| Track::new(source, sighting, age));
+                        self.tracks[place].get_or_insert_with(|| Track::new(origin, sighting, age));
                     is_person |= track.what != RoadUser::Vehicle;
-                    track.update(setup, source, sighting, age);
+                    track.update(setup, origin, sighting, age);
                 } else if is_person && setup.ground.is_zone(sighting.at) {
                     self.crowd = FRESH;
                 }
@@ -347,13 +361,13 @@ impl<const N: usize> Tracks<N> {
     fn with_id(
         &self,
         setup: &Setup,
-        source: u8,
+        origin: Origin,
         age: Millis,
         sighting: &Sighting,
     ) -> Option<usize> {
         let is_same = |track: &Track| {
             sighting.id.is_some()
-                && (track.source, track.id) == (source, sighting.id)
+                && (track.origin, track.id) == (origin, sighting.id)
                 && track.at.distance_cm(sighting.at) <= track.reach_cm(setup, sighting, age)
         };
         let places = self.tracks.iter().enumerate();
@@ -366,16 +380,17 @@ impl<const N: usize> Tracks<N> {
 
     /// Whose track goes where there are too many: of somebody who was lost on the road, for occupancy decides whether it is clear; of
     /// somebody elsewhere; and, for somebody in the zone whom the robot sees itself, of those whom others report.
-    fn spare(&self, setup: &Setup, source: u8, at: Point) -> Option<usize> {
-        let takes_hearsay = source != OTHERS && setup.ground.is_zone(at);
+    fn spare(&self, setup: &Setup, origin: Origin, at: Point) -> Option<usize> {
+        let is_hearsay = |it: Origin| matches!(it, Origin::Station(_));
+        let takes_hearsay = !is_hearsay(origin) && setup.ground.is_zone(at);
         let rank = |track: &Track| {
             if track.is_on_road() && !track.is_fresh() {
                 Some(0)
             } else if !track.is_on_road() && !setup.ground.is_zone(track.at) {
                 Some(1)
             } else {
-                let is_hearsay = takes_hearsay && track.source == OTHERS;
-                is_hearsay.then(|| 2 + u8::from(track.is_on_road()))
+                let gives_way = takes_hearsay && is_hearsay(track.origin);
+                gives_way.then(|| 2 + u8::from(track.is_on_road()))
             }
         };
         let places = self.tracks.iter().enumerate();
@@ -387,7 +402,7 @@ impl<const N: usize> Tracks<N> {
     fn nearest(
         &self,
         setup: &Setup,
-        source: u8,
+        origin: Origin,
         age: Millis,
         sighting: &Sighting,
         taken: &[bool; N],
@@ -398,11 +413,10 @@ impl<const N: usize> Tracks<N> {
         // A vehicle beside a person who is out of sight is not that person.
         let is_vehicle = |what| what == RoadUser::Vehicle;
         let free = free.filter(|(_, track)| !is_vehicle(sighting.what) || is_vehicle(track.what));
-        // Other stations say nothing of people whom the robot sees itself.
-        let free = free.filter(|(_, track)| (track.source == OTHERS) == (source == OTHERS));
+        let free = free.filter(|(_, track)| track.origin.may_continue(origin));
         let near = free.filter_map(|(place, track)| {
             let distance = track.at.distance_cm(sighting.at);
-            let is_renamed = track.has_another_id(source, sighting);
+            let is_renamed = track.has_another_id(origin, sighting);
             let sway = if is_renamed { sway_cm(setup) } else { u32::MAX };
             let reach = track.reach_cm(setup, sighting, age).min(sway);
             (distance <= reach).then_some((distance, place))

@@ -4,6 +4,9 @@
 //! `v * reaction + v² / (2 * deceleration)`. An older report counts as if the vehicle had gone on since. A vehicle that
 //! falls silent counts for `keep`. Vehicles that are neither heard nor seen are the road authority's concern.
 //!
+//! A vehicle passes aside if its line does, and if no bend leads it to the crossing: drivers take one with a radius of
+//! `v² / deceleration` at least, for they put up with no more to the side than before them.
+//!
 //! Where vehicles are asked to stop, one that is soon at the crossing hinders *go* until it has said that it will. Its word makes
 //! nothing safer than what it can do: it may lie, and then it hinders as soon as it could not stop any more.
 
@@ -33,6 +36,8 @@ struct Motion {
     left_cm: u32,
     error_cm: u16,
     speed_cmps: u32,
+    /// Whether it need not bend.
+    is_in_line: bool,
 }
 
 /// A vehicle as it was heard or seen last.
@@ -119,7 +124,7 @@ impl Traffic {
         }
         self.vehicles.iter().flatten().find_map(|it| {
             let vehicle = &it.vehicle;
-            let motion = ahead(setup, crossing, vehicle)?;
+            let motion = ahead(setup, crossing, vehicle).filter(|it| it.is_in_line)?;
             let is_soon_there = motion.comes_within(rules.asks, it.age);
             let station = vehicle
                 .station
@@ -133,11 +138,12 @@ impl Traffic {
     /// The first vehicle that could no longer stop comfortably before the crossing.
     #[must_use]
     pub fn hindrance(&self, setup: &Setup) -> Option<u64> {
-        self.first(setup, crossing(setup)?, &setup.traffic, |_| true)
+        self.first(setup, crossing(setup)?, &setup.traffic, |_, _| true)
     }
 
     /// Whether a body that goes from one place to another would step in front of a vehicle that could no longer stop: comfortably,
-    /// or by hard braking where it is urgent. On the road, vehicles whose line it stands on already do not count.
+    /// or by hard braking where it is urgent. Vehicles that would have to bend do not count, nor, on the road, those whose line it
+    /// stands on already.
     pub(crate) fn comes_at(&self, setup: &Setup, [from, to]: [Point; 2], is_urgent: bool) -> bool {
         let Some(way) = Shape::new(&[from, to, to]) else {
             return false;
@@ -148,7 +154,9 @@ impl Traffic {
             setup.traffic
         };
         let is_on_road = setup.ground.is_road(from);
-        let counts = |vehicle: &Vehicle| !is_on_road || aside_cm(vehicle, from) >= BESIDE_CM;
+        let counts = |vehicle: &Vehicle, motion: &Motion| {
+            motion.is_in_line && (!is_on_road || aside_cm(vehicle, from) >= BESIDE_CM)
+        };
         self.first(setup, &way, &rules, counts).is_some()
     }
 
@@ -158,10 +166,11 @@ impl Traffic {
         setup: &Setup,
         place: &Shape,
         rules: &TrafficRules,
-        counts: impl Fn(&Vehicle) -> bool,
+        counts: impl Fn(&Vehicle, &Motion) -> bool,
     ) -> Option<u64> {
         let hinders = |it: &&Known| {
-            let ahead = ahead(setup, place, &it.vehicle).filter(|_| counts(&it.vehicle));
+            let ahead =
+                ahead(setup, place, &it.vehicle).filter(|motion| counts(&it.vehicle, motion));
             ahead.is_some_and(|motion| !motion.can_stop(rules, it.age))
         };
         let key = self.vehicles.iter().flatten().find(hinders);
@@ -178,21 +187,20 @@ fn crossing(setup: &Setup) -> Option<&Shape> {
         .or(setup.ground.road.as_ref())
 }
 
-/// Whether a vehicle moves on a line that leads over the crossing.
+/// Whether a vehicle moves on a line or a bend that leads over the crossing.
 fn may_hinder(setup: &Setup, vehicle: &Vehicle) -> bool {
     crossing(setup).is_some_and(|crossing| ahead(setup, crossing, vehicle).is_some())
 }
 
-/// How a vehicle comes to a place, if it moves on a line that comes near it, and has not passed it with its whole length.
+/// How a vehicle comes to a place, if it moves on a line or a bend that comes near it, and has not passed it with its whole length.
 fn ahead(setup: &Setup, place: &Shape, vehicle: &Vehicle) -> Option<Motion> {
     let rules = &setup.traffic;
     let speed_cmps = vehicle.velocity.length_cm();
     let middle: Point = place.middle();
-    let half = place.corners().map(|corner| corner.distance_cm(middle));
-    let near = u64::from(half.max().unwrap_or(0)) + u64::from(rules.aside_cm);
-    if speed_cmps <= u32::from(rules.standing_cmps) || aside_cm(vehicle, middle) > near {
-        return None;
-    }
+    let corners = place.corners().map(|corner| corner.distance_cm(middle));
+    let half = corners.max().unwrap_or(0);
+    let aside = aside_cm(vehicle, middle).saturating_sub(half.into());
+    let is_in_line = aside <= rules.aside_cm.into();
     let distance_cm = place.distance_cm(vehicle.at);
     let left_cm = if vehicle.velocity.dot(vehicle.at.to(middle)) > 0 {
         distance_cm
@@ -201,11 +209,15 @@ fn ahead(setup: &Setup, place: &Shape, vehicle: &Vehicle) -> Option<Motion> {
     } else {
         return None;
     };
-    Some(Motion {
+    let motion = Motion {
         left_cm,
         error_cm: vehicle.error_cm,
         speed_cmps,
-    })
+        is_in_line,
+    };
+    let farthest_cm = vehicle.at.distance_cm(middle).saturating_add(half);
+    let may_come = is_in_line || aside <= motion.bend_cm(rules, farthest_cm);
+    (may_come && speed_cmps > rules.standing_cmps.into()).then_some(motion)
 }
 
 /// How far the line of a vehicle passes from a place.
@@ -217,10 +229,22 @@ fn aside_cm(vehicle: &Vehicle, place: Point) -> u64 {
 impl Motion {
     /// Whether it can stop comfortably, if it was like this `age` ago and has gone on.
     fn can_stop(self, rules: &TrafficRules, age: Millis) -> bool {
+        self.left_cm(age) > self.way_cm(rules.reaction) + self.radius_cm(rules) / 2
+    }
+
+    /// The least radius of a bend that it takes; half of it is the way on which it brakes.
+    fn radius_cm(self, rules: &TrafficRules) -> u64 {
         let speed = u64::from(self.speed_cmps);
-        let braking =
-            speed.saturating_mul(speed) / (2 * u64::from(rules.deceleration_cmps2.max(1)));
-        self.left_cm(age) > self.way_cm(rules.reaction).saturating_add(braking)
+        speed.saturating_mul(speed) / u64::from(rules.deceleration_cmps2.max(1))
+    }
+
+    /// How far from its line a bend leads it to a place that is so far off. A place that it comes to later than reports of it are
+    /// kept is as good as none.
+    fn bend_cm(self, rules: &TrafficRules, off_cm: u32) -> u64 {
+        let radius = self.radius_cm(rules);
+        let soon = self.way_cm(rules.reaction.saturating_add(rules.keep)) + radius / 2;
+        let off = u64::from(off_cm).min(soon);
+        off.saturating_mul(off) / radius.saturating_mul(2).max(1)
     }
 
     /// Whether it is at the place within a time, if it goes on.

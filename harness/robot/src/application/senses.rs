@@ -83,15 +83,16 @@ pub(super) struct Said {
 }
 
 impl Application {
-    /// The sensors have somebody, at a place on the site, now: that adds them, and takes nobody away.
-    pub fn perceive(&mut self, vru: &PerceivedVru) {
+    /// The sensors of the robot with this station id have somebody, at a place on the site, now: that adds them, and takes away
+    /// nobody but whom they told of before.
+    pub fn perceive(&mut self, station: StationId, vru: &PerceivedVru) {
         // In a simulation there is nobody else.
         if matches!(self.road, Road::Known(_)) {
             return;
         }
         let seen = sighting(vru, 0.0);
         self.observe_one(ONE_BY_ONE, seen);
-        self.step(Input::Heard(seen, Millis::ZERO));
+        self.step(Input::Heard(station, seen, Millis::ZERO));
     }
 
     /// Takes in a road user who comes alone, in place of what was known of the same.
@@ -319,7 +320,8 @@ impl Application {
             return;
         };
         let seen = heard(known, at, RoadUser::Pedestrian, None);
-        self.step(Input::Heard(seen, Millis::ZERO));
+        let (Identity::Station(by) | Identity::Object { by, .. }) = known.user.identity;
+        self.step(Input::Heard(StationId(by), seen, Millis::ZERO));
     }
 
     /// The road users that the robot senses or hears now, if they have changed since the last sight. A sight is due after a

@@ -205,7 +205,7 @@ fn a_late_frame_is_no_sight_of_now() {
     application.advance(11.5);
     assert_eq!(application.next_sight(), Some(Sight::default()));
     for id in 0..1_000 {
-        application.perceive(&PerceivedVru::pedestrian(id, [1.0, 3.0]));
+        application.perceive(StationId(1), &PerceivedVru::pedestrian(id, [1.0, 3.0]));
     }
     application.advance(12.0);
     assert_eq!(application.next_sight().unwrap().people.len(), 256);

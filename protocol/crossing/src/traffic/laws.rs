@@ -21,6 +21,7 @@ pub fn worse_stops_no_vehicle(source: &mut impl Source) -> bool {
         left_cm: source.number(u32::MAX, 6_500),
         error_cm: source.u16(10),
         speed_cmps: source.number(u32::MAX, 1_389),
+        is_in_line: source.flag(),
     };
     let worse = Motion {
         left_cm: better.left_cm.saturating_sub(source.number(u32::MAX, 50)),

@@ -110,7 +110,7 @@ fn an_escort_is_done_once_it_sees_nobody_on_the_road_and_nobody_was_seen_or_repo
             "others have them",
             |it, who| {
                 look(it, 6, &[]);
-                it.tell(Input::Heard(who, Millis(0)));
+                it.tell(Input::Heard(WITNESS, who, Millis(0)));
             },
             0,
         ),
@@ -146,7 +146,7 @@ fn has_completed(robot: usize) -> impl Fn(&Team) -> bool {
 fn an_escort_without_sensors_is_not_done_once_it_has_heard_of_somebody_on_the_road() {
     let mut team = escorting(OVER_THERE, false);
     team.pass_until("a maneuver", |it| it.robots[1].body.to.is_some());
-    team.hear(1, Input::Heard(person(2, 100, 690), Millis(0)));
+    team.hear(1, Input::Heard(WITNESS, person(2, 100, 690), Millis(0)));
     team.pass(20_000);
     assert_eq!(team.robots[1].body.at, OVER_THERE);
     assert!(!has_completed(1)(&team));
@@ -168,7 +168,7 @@ fn go_ends_when_an_escort_is_over_there_that_hears_of_somebody_on_the_road() {
     let mut team = escorting(Point::new(100, 500), false);
     team.robots[1].body.at = Point::new(100, 400);
     team.pass_until("go", Team::shows_go);
-    team.hear(1, Input::Heard(person(2, 100, 450), Millis(0)));
+    team.hear(1, Input::Heard(WITNESS, person(2, 100, 450), Millis(0)));
     team.pass(3_000);
     // Nobody goes with the person who waits here yet.
     for _ in 0..200 {

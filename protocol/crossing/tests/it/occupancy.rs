@@ -189,18 +189,21 @@ fn what_others_report_counts_against_a_clear_road_and_never_for_it() {
     (0..NEEDED).for_each(|_| drop(scene.look(100, &[])));
     assert!(scene.is_clear());
     scene.tell(Input::Heard(
+        WITNESS,
         person(5, 0, -100),
         crossguard_protocol::Millis(100),
     ));
     assert!(scene.is_clear());
     for (age, is_clear) in [(1_001, true), (1_000, false)] {
         scene.tell(Input::Heard(
+            WITNESS,
             person(5, 0, 100),
             crossguard_protocol::Millis(age),
         ));
         assert_eq!(scene.is_clear(), is_clear, "{age} ms old");
     }
     scene.tell(Input::Heard(
+        WITNESS,
         person(5, 0, -100),
         crossguard_protocol::Millis(0),
     ));
@@ -217,7 +220,11 @@ fn who_waits_at_the_kerb_by_an_inexact_report_does_not_keep_the_road_of_who_sees
     let mut scene = watch();
     for _ in 0..NEEDED {
         scene.look(100, &[]);
-        scene.tell(Input::Heard(at_kerb, crossguard_protocol::Millis(0)));
+        scene.tell(Input::Heard(
+            WITNESS,
+            at_kerb,
+            crossguard_protocol::Millis(0),
+        ));
     }
     assert!(scene.is_clear());
     scene.look(100, &[at_kerb]);

@@ -1,7 +1,7 @@
 //! What one station, or one odd frame, takes away.
 
 use crossguard_crossing::*;
-use crossguard_protocol::{Millis, TaskType};
+use crossguard_protocol::{Millis, StationId, TaskType};
 
 use crate::scene::*;
 use crate::team::Team;
@@ -64,7 +64,7 @@ fn crowd_elsewhere(team: &mut Team, robot: usize) {
             100_000 + 2_000 * i32::try_from(number).unwrap(),
             0,
         );
-        team.hear(robot, Input::Heard(far, Millis(0)));
+        team.hear(robot, Input::Heard(WITNESS, far, Millis(0)));
     }
 }
 
@@ -110,7 +110,7 @@ fn a_source_that_covers_nothing_takes_nobody_off_the_road() {
             for _ in 0..ms / 100 {
                 let who = team.people[0];
                 if is_reported {
-                    team.hear(1, Input::Heard(who, Millis(0)));
+                    team.hear(1, Input::Heard(WITNESS, who, Millis(0)));
                 }
                 if looks {
                     let frame = Frame {
@@ -134,5 +134,48 @@ fn a_source_that_covers_nothing_takes_nobody_off_the_road() {
         pass(&mut team, 10_000, false);
         let ahead = team.robots[1].body.at.north_cm() - team.people[0].at.north_cm();
         assert!((0..=250).contains(&ahead), "looks: {looks}, {ahead} cm");
+    }
+}
+
+#[test]
+fn nobody_on_the_road_is_taken_off_it_by_another_station() {
+    for liar in [false, true] {
+        let mut team = team(plan(&[leg(TaskType::MOVE, Point::new(100, 800))]), false);
+        team.people = vec![person(1, 100, -100)];
+        team.robots[1].body.at = Point::new(0, -100);
+        let pass = |team: &mut Team, ms: u32| {
+            for step in 0..ms / 100 {
+                // The leader's RAM have the person, once a second.
+                if step % 10 == 0 {
+                    let mut who = team.people[0];
+                    who.id = Some(77);
+                    team.hear(1, Input::Heard(WITNESS, who, Millis(0)));
+                }
+                if liar {
+                    for at in [team.people[0].at, Point::new(100, -100)] {
+                        let number = 1_000 + team.now;
+                        let lie = Sighting {
+                            at,
+                            error_cm: 4_000,
+                            ..person(number, 0, 0)
+                        };
+                        team.hear(1, Input::Heard(StationId(66), lie, Millis(0)));
+                    }
+                }
+                team.pass(100);
+            }
+        };
+        for _ in 0..200 {
+            if !team.shows_go() {
+                pass(&mut team, 100);
+            }
+        }
+        assert!(team.shows_go());
+        team.people[0] = walking(team.people[0], 0, 40);
+        pass(&mut team, 6_000);
+        team.people[0] = walking(team.people[0], 0, 0);
+        pass(&mut team, 10_000);
+        let ahead = team.robots[1].body.at.north_cm() - team.people[0].at.north_cm();
+        assert!((0..=250).contains(&ahead), "liar {liar}: {ahead} cm");
     }
 }

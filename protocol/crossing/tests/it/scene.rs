@@ -6,6 +6,9 @@ use crossguard_protocol::{
     UniqueNumber, Urgency,
 };
 
+/// A station that reports people.
+pub(crate) const WITNESS: StationId = StationId(9);
+
 /// A rectangle, in centimetres.
 pub(crate) fn rectangle(west: i32, south: i32, east: i32, north: i32) -> Option<Shape> {
     let corners = [(west, south), (east, south), (east, north), (west, north)];

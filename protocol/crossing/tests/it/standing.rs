@@ -67,7 +67,7 @@ fn a_robot_without_a_part_goes_home_once_it_hears_of_nobody_on_the_road() {
         ..street()
     };
     let mut scene = Scene::new(setup);
-    scene.tell(Input::Heard(person(1, 100, 300), Millis(0)));
+    scene.tell(Input::Heard(WITNESS, person(1, 100, 300), Millis(0)));
     for (ms, goes) in [(1_000, false), (100, true)] {
         scene.is_at(0, 100, 0);
         scene.pass(ms - 1);

@@ -421,7 +421,7 @@ fn nobody_ceases_to_wait_because_of_what_others_report() {
         },
         walking(person(1, 100, -20), 300, 0),
     ] {
-        scene.tell(Input::Heard(reported, Millis(0)));
+        scene.tell(Input::Heard(WITNESS, reported, Millis(0)));
         let own = scene.crossing.tracks().iter().next().unwrap();
         assert_eq!(own.conduct(&scene.setup), Conduct::Waiting, "{reported:?}");
     }
@@ -429,7 +429,7 @@ fn nobody_ceases_to_wait_because_of_what_others_report() {
     let mut scene = watch();
     for _ in 0..12 {
         scene.pass(100);
-        scene.tell(Input::Heard(person(9, 100, -50), Millis(50)));
+        scene.tell(Input::Heard(WITNESS, person(9, 100, -50), Millis(50)));
     }
     assert_eq!(scene.conducts(), [Conduct::Waiting]);
 }

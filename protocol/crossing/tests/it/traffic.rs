@@ -62,6 +62,37 @@ fn a_vehicle_hinders_that_can_no_longer_stop_comfortably() {
     }
 }
 
+/// Arcs of 90° at most that end on the crossing in any direction, with 3 m/s² to the side at most.
+#[test]
+fn a_vehicle_in_a_bend_hinders_from_where_it_can_no_longer_stop() {
+    #[expect(clippy::cast_possible_truncation, reason = "a few hundred metres")]
+    let cm = |metres: f64| (metres * 100.0).round() as i32;
+    for case in 0..18 * 24 * 6 * 3 * 20 {
+        let speed = f64::from(3 + case % 18);
+        let turned = f64::from(case / 18 % 24 * 15).to_radians();
+        // To the left where it is positive.
+        let wide = [1.0, 1.5, 3.0, -1.0, -1.5, -3.0][case as usize / (18 * 24) % 6];
+        let radius = wide * f64::max(speed * speed / 3.0, 5.0);
+        let [east, north] =
+            [[-3.0, 0.0], [-3.0, 7.0], [5.0, 4.0]][case as usize / (18 * 24 * 6) % 3];
+        let part = f64::from(case / (18 * 24 * 6 * 3)) / 20.0;
+        let stops = 2.0 * speed + speed * speed / 6.0;
+        let way = part * stops.min(radius.abs() * std::f64::consts::FRAC_PI_2);
+        let (sin, cos) = turned.sin_cos();
+        let (sin_before, cos_before) = (turned - way / radius).sin_cos();
+        let comes = vehicle(
+            cm(east - radius * (sin - sin_before)),
+            cm(north - radius * (cos_before - cos)),
+            cm(speed * cos_before),
+            cm(speed * sin_before),
+        );
+        assert!(
+            hinders(comes, 0, 0),
+            "{speed} m/s, {radius} m, {way} m before it: {comes:?}"
+        );
+    }
+}
+
 #[test]
 fn an_older_report_counts_as_if_the_vehicle_had_gone_on() {
     let far = vehicle(-6_500, 200, 1_389, 0);

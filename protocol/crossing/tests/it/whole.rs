@@ -370,7 +370,7 @@ fn a_robot_without_sensors_leaves_the_road_when_nobody_reports_the_person_any_mo
     let mut team = blocking();
     team.robots[1].sees = false;
     team.pass_until("go", Team::shows_go);
-    team.hear(1, Input::Heard(person(2, 300, 300), Millis(0)));
+    team.hear(1, Input::Heard(WITNESS, person(2, 300, 300), Millis(0)));
     walk_across(&mut team);
     let is_released = |team: &Team| team.is_idle() && is_on_road(&team.robots[1].body);
     team.pass_until("idle", is_released);
