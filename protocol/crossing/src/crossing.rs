@@ -322,7 +322,7 @@ impl<const N: usize> Crossing<N> {
             if matches!(why, FrameDrop::OutOfOrder | FrameDrop::Stale)
                 && people.any(|it| is_person(it) && may_be_on_road(setup, it))
             {
-                self.occupancy.occupy(setup);
+                self.occupy(setup);
             }
             return out.put(Output::Dropped(why));
         }
@@ -338,10 +338,7 @@ impl<const N: usize> Crossing<N> {
         );
         if is_occupied {
             self.occupancy.owe(setup, frame);
-            // The word of a person was said before this.
-            if let Some(obligation) = &mut self.obligation {
-                obligation.is_said_clear = false;
-            }
+            self.occupy(setup);
         } else if frame.age.saturating_add(setup.waiting.step_off) < self.quiet {
             self.occupancy.count(setup, frame);
             if self.occupancy.settle(setup) {
@@ -395,7 +392,15 @@ impl<const N: usize> Crossing<N> {
             },
         );
         if is_occupied {
-            self.occupancy.occupy(setup);
+            self.occupy(setup);
+        }
+    }
+
+    /// Somebody is on the road. The word of a person that it is clear was said before this.
+    fn occupy(&mut self, setup: &Setup) {
+        self.occupancy.occupy(setup);
+        if let Some(obligation) = &mut self.obligation {
+            obligation.is_said_clear = false;
         }
     }
 

@@ -142,7 +142,6 @@ impl Occupancy {
         if let Some(source) = self.sources.get_mut(usize::from(frame.source)) {
             source.owe(setup.ground.parts);
         }
-        self.occupy(setup);
     }
 
     /// Whether its own sensors have had nobody on the road for more than `miss_max` frames; what they covered before

@@ -548,18 +548,22 @@ fn a_guard_that_knows_nothing_of_the_road_waits_for_a_person() {
     }
 }
 
-/// A person says that the road is clear, and the guard sees somebody step on it before its body is free.
+/// A person says that the road is clear, and the guard sees somebody step on it, or hears of that, before its body is free.
 #[test]
 fn a_word_that_somebody_is_seen_after_frees_no_guard() {
-    let mut team = left_alone(TaskType::BLOCK, true);
-    team.pass_until("a duty", |it| it.robots[1].robot.duty().is_some());
-    team.hear(1, Input::BodyIsFree(false));
-    team.hear(1, Input::SaidClear);
-    team.people = vec![person(1, 100, 300)];
-    team.pass(1_000);
-    team.hear(1, Input::BodyIsFree(true));
-    team.pass(30_000);
-    assert!(team.robots[1].robot.duty().is_some());
+    for sees in [true, false] {
+        let mut team = left_alone(TaskType::BLOCK, sees);
+        team.pass_until("a duty", |it| it.robots[1].robot.duty().is_some());
+        team.hear(1, Input::BodyIsFree(false));
+        team.hear(1, Input::SaidClear);
+        let who = person(1, 100, 300);
+        team.people = vec![who];
+        team.hear(1, Input::Heard(WITNESS, who, Millis(0)));
+        team.pass(1_000);
+        team.hear(1, Input::BodyIsFree(true));
+        team.pass(30_000);
+        assert!(team.robots[1].robot.duty().is_some(), "sees: {sees}");
+    }
 }
 
 #[test]
