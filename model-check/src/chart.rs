@@ -53,7 +53,7 @@ pub(crate) fn said(names: &Names, message: &Input) -> String {
     }
 }
 
-/// What a person does who has crossed.
+/// Text of the step in which the pedestrian gets across the road.
 pub(crate) const ACROSS: &str = "who stepped on the road there is across";
 
 pub(crate) fn placed(model: &Model, action: Action) -> (ChartPlace, String) {

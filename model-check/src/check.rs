@@ -79,7 +79,7 @@ pub fn check(
     }
 }
 
-/// What the properties of a scenario are read off.
+/// Part of the state graph that the scenario's properties are judged on.
 fn keep(scenario: &Scenario, options: &Options) -> Keep {
     let claims = scenario.properties.iter().filter_map(|id| id.untimed());
     let keep = claims.map(|claim| match claim.rule {
@@ -91,7 +91,7 @@ fn keep(scenario: &Scenario, options: &Options) -> Keep {
     wanted.unwrap_or(Keep::States)
 }
 
-/// What stateright's exploration found.
+/// Result of stateright's exploration.
 struct SecondOpinion {
     unique_states: usize,
     cut_off: Option<CutOff>,
@@ -146,8 +146,8 @@ impl SecondOpinion {
         }
     }
 
-    /// Where the kit's own exploration found something else. What one of the two has not found counts only
-    /// where that one has visited everything.
+    /// Difference from the kit's own exploration. A counterexample that only one of the two has found counts only where
+    /// the other one has visited every state.
     ///
     /// Premises are not compared: what a liar can say to a robot is worked out once for both explorations, and that
     /// a premise is met is noted then.
@@ -237,7 +237,7 @@ impl Findings<'_> {
             let to = |number| {
                 let state = self.graph.state(number);
                 let is_reached = |view: &View| rule.is_reached(view, subject);
-                // What comes after a broken step property was not explored.
+                // States behind a broken step property were not explored.
                 self.model.look(&state, is_reached) || state.is_broken()
             };
             match leads_to(self.graph, fairness, from, to) {
@@ -284,7 +284,7 @@ fn assumed(scenario: &Scenario, options: &Options, states: usize) -> Vec<String>
     assumed
 }
 
-/// What the verdicts on a scenario assume; `compared` tells how states are compared.
+/// Assumptions of the verdicts on a scenario; `compared` tells how states are compared.
 #[must_use]
 pub fn assumptions(scenario: &Scenario, compared: String) -> Vec<String> {
     let channel = scenario.channel;

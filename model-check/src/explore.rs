@@ -20,13 +20,13 @@ const BATCH: usize = 16_384;
 /// How many of them a thread takes at a time.
 const CHUNK: usize = 256;
 
-/// What can be explored: states, and what may happen in each.
+/// A system of states, and of actions that may happen in each.
 pub(crate) trait TransitionSystem: Sync {
     type State: PartialEq + Send;
     type Action: Copy;
     /// Where the states are kept.
     type States: Store<Self::State>;
-    /// What is noted of the states that are expanded, besides what they break.
+    /// Notes on the states that are expanded, besides the properties that they break.
     type Notes: Clone + Send + Sync;
 
     /// Whether two actions that lead from one state to another one are counted as two transitions.
@@ -75,16 +75,16 @@ pub(crate) trait TransitionSystem: Sync {
     }
 }
 
-/// What is kept of a transition besides its ends.
+/// The label of a transition, besides its ends.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(crate) struct Label {
-    /// What the model marks: an arrival by chance on a monotone channel, or that no time passes.
+    /// The model's mark: an arrival by chance on a monotone channel, or a step that takes no time.
     pub(crate) is_marked: bool,
     /// The classes of the transition, where classes are kept.
     pub(crate) taken: Classes,
 }
 
-/// What a state is found to be.
+/// Broken properties and enabled classes of a state.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Judged {
     /// One bit per property that it breaks.
@@ -93,7 +93,7 @@ pub(crate) struct Judged {
     pub(crate) enabled: Classes,
 }
 
-/// What is kept of an exploration.
+/// The part of the state graph that an exploration keeps.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) enum Keep {
     /// States alone, which is enough to judge states and steps.
@@ -296,7 +296,7 @@ fn add_transition(row: &mut Vec<(u32, Label)>, to: u32, label: Label) -> bool {
     is_first
 }
 
-/// What some states are found to be, and where their transitions lead.
+/// Findings on some states, with their transitions.
 struct Expansion<S: TransitionSystem> {
     notes: S::Notes,
     /// Each with how many transitions it has.

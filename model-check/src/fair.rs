@@ -96,7 +96,7 @@ pub struct Lasso {
     pub cycle: Vec<Edge>,
 }
 
-/// What came of a leads-to check.
+/// Outcome of a leads-to check.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum LeadsTo {
     /// No state meets the premise, so nothing was said.

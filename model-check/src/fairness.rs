@@ -2,9 +2,9 @@
 //!
 //! A robot's timer is treated *weakly* fair: an armed timer expires at some time, unless it is
 //! stopped or restarted again and again. A timer that a step restarts counts as taken in that step, so
-//! that a safety timer which heartbeats keep restarting need never expire. What becomes of a message
+//! that a safety timer which heartbeats keep restarting need never expire. The fate of a message
 //! on air is decided at some time. A robot that hangs goes on at some time. These hold of every robot that
-//! keeps its own time. That a message of a monotone channel arrives is never assumed.
+//! keeps its own time. The arrival of a message of a monotone channel is never assumed.
 //!
 //! In a cooperative scenario there is more: delivery is *strongly* fair for each way and kind of
 //! message, so that of what is sent again and again something arrives; and applications do at some
@@ -193,7 +193,7 @@ impl Classifier<'_> {
         }
     }
 
-    /// What is enabled in a state but for messages on air, whose fate is decided first. A timer goes on
+    /// Classes that are enabled in a state, apart from messages on air, whose fate is decided first. A timer goes on
     /// running while they are on their way.
     pub(crate) fn enabled_off_air(self, state: &ModelState) -> Classes {
         let mut actions = Vec::new();

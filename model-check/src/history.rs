@@ -1,4 +1,4 @@
-//! What has happened, as far as a property needs it and no robot's state holds it. The model without time forgets
+//! Past events that a property needs and no robot's state holds. The model without time forgets
 //! facts that nothing can read any more: see `model/forget.rs`.
 
 use crossguard_protocol::{
@@ -24,7 +24,7 @@ pub struct History {
     pub pedestrian: Pedestrian,
 }
 
-/// What became of one command.
+/// Progress of one command.
 #[expect(clippy::struct_excessive_bools, reason = "each is an independent fact")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
@@ -33,7 +33,7 @@ pub struct CommandRecord {
     pub to: StationId,
     /// Session and request number.
     pub id: ManeuverId,
-    /// What was commanded.
+    /// The commanded task.
     pub task: TaskType,
     /// The follower has acknowledged it.
     pub accepted: bool,
@@ -139,7 +139,7 @@ impl History {
             Input::Local(Event::InPosition(id)) => {
                 self.update(station, id, |record| {
                     record.in_position = true;
-                    // What the leader knew of another time says nothing of this one.
+                    // Once the body is back, an earlier report of its absence is out of date.
                     record.told &= !record.out_of_position;
                     record.out_of_position = false;
                 });
@@ -287,7 +287,7 @@ pub(crate) fn told_on_its_way(leader: &Robot, input: Input) -> Option<(StationId
     (progress == Progress::Executing && is_newest).then_some((follower, id))
 }
 
-/// What a message of a follower in a session of this leader reports, and what it echoes.
+/// The report and the echoed heartbeat in a message of a follower in a session of this leader.
 fn report_to(
     leader: StationId,
     input: Input,

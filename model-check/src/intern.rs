@@ -15,7 +15,7 @@ use crate::memo::Memo;
 pub(crate) struct Interner<T> {
     values: Memo<T, u32>,
     renamings: Arc<Renamings>,
-    /// What renamings have made of values.
+    /// Numbers of renamed values, by value and renaming.
     renamed: Memo<(u32, u32), u32>,
 }
 

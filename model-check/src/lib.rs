@@ -11,7 +11,7 @@
 //!                                     check ──► report
 //! ```
 //!
-//! The model calls the protocol's transition function and has no rule of its own. What surrounds the
+//! The model calls the protocol's transition function and has no rule of its own. The environment of the
 //! robots is in the model: a channel that loses, delays, repeats and reorders, applications that do
 //! anything they may, timers that expire at any moment, crashes. Scenarios bound how often some of
 //! this happens, and each verdict says under which bounds it was found.

@@ -1,4 +1,4 @@
-//! What was computed once.
+//! Results that are computed once.
 
 use std::hash::{BuildHasher, Hash};
 use std::sync::OnceLock;
@@ -37,7 +37,7 @@ impl<K: Eq + Hash, V> Memo<K, V> {
         known.unwrap_or_else(|| locked.add(self.results.push((of, result))))
     }
 
-    /// What was kept under a number that was given out, and of what it is the result.
+    /// The key and the result that have a number.
     pub(crate) fn at(&self, number: u32) -> &(K, V) {
         &self.results[number as usize]
     }

@@ -2,10 +2,10 @@
 //! step on what a simulation does or a log records.
 //!
 //! A rule that the model checker tries on every state of a scenario is tried here on the states that
-//! one run passes through. What holds of every run in the model, whatever the order of what happens
-//! apart from each other, must hold of this one.
+//! one run passes through. A property of every run in the model, whatever the order of independent
+//! events, must hold of this one.
 //!
-//! Liveness is left out: that something comes to pass is only seen when a run is over. See
+//! Liveness is left out, because it can be judged only when a run is over. See
 //! [`Limits`](crate::timed::Limits) for the times by which it must.
 
 use crossguard_protocol::{Config, Input, Maneuver, Outputs, Robot, SessionId, StationId, Timer};
@@ -36,7 +36,7 @@ struct Seats {
     liars: Vec<StationId>,
 }
 
-/// Whose steps are not recorded.
+/// Kinds of stations whose steps are not recorded.
 #[derive(Clone, Copy)]
 struct Unrecorded {
     strangers: bool,

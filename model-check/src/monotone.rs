@@ -3,8 +3,8 @@
 //!
 //! The channel is the *set* of all messages ever sent, one per receiver. To send is to add to the set; to
 //! deliver takes nothing away. So nothing is decided when a message is sent: to be heard at once, late,
-//! again, or never are all deliveries of the set, or the lack of them. What `delayed = k` allows, for any
-//! `k`, this channel allows as well, as far as the bounds below go.
+//! again, or never are all deliveries of the set, or the lack of them. For any `k`, this channel allows
+//! everything that `delayed = k` allows, as far as the bounds below go.
 //!
 //! # Why it is finite
 //!
@@ -41,7 +41,7 @@ type Set = Box<[PackedTransmission]>;
 /// All sets of messages that have occurred.
 pub(crate) struct Sets {
     known: Interner<Set>,
-    /// What a set and one more message make.
+    /// Numbers of sets with one more message.
     with: Memo<(u32, PackedTransmission), u32>,
 }
 

@@ -34,7 +34,7 @@ impl Names {
         }
     }
 
-    /// Those of the robots of a scenario.
+    /// The names of the robots of a scenario.
     #[must_use]
     pub fn of(scenario: &Scenario) -> Self {
         let stations = scenario.robots.iter().map(|robot| robot.station);
@@ -72,7 +72,7 @@ impl Names {
         told
     }
 
-    /// What `1#1.0` and `1#1.0/0` are called.
+    /// The name of a session, such as `1#1.0`, or of a command, such as `1#1.0/0`.
     fn session_or_command(&self, word: &str) -> Option<String> {
         let (leader, numbers) = word.split_once('#')?;
         let (session, command) = match numbers.split_once('/') {

@@ -5,7 +5,7 @@
 //! moment, after any message that was sent later, as often as the channel likes, or never. A
 //! scenario bounds how many messages are delayed at a time, not for how long.
 //!
-//! Messages that were just sent are *on air*. What becomes of them is decided one after the other
+//! Messages that were just sent are *on air*. Their fates are decided one after the other
 //! before anything else happens; that leaves out nothing, because whatever might happen in between
 //! can as well happen before or after to a delayed message. Broadcasts go off air in the order in which
 //! they were sent. The receivers of one hear it in the order in which the scenario lists them or, where
@@ -50,7 +50,7 @@ pub enum Message {
 }
 
 impl Message {
-    /// What a robot that is in this state after a step sends for an output of the step, if anything.
+    /// The message that a robot in this state after a step sends for an output of the step, if any.
     pub(crate) fn sent(after: &Robot, output: &Output) -> Option<Self> {
         match *output {
             Output::SendRam => Some(Self::Ram(after.ram())),
@@ -59,7 +59,7 @@ impl Message {
         }
     }
 
-    /// What the receiver's transition function takes in. All robots are equally far apart.
+    /// Input of the receiver's transition function. All robots are equally far apart.
     #[must_use]
     pub fn input(&self) -> Input {
         match *self {

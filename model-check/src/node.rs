@@ -43,11 +43,11 @@ pub struct Node {
     pub robot: Option<Robot>,
     /// The station id that it had when it went down, and its boot counter, which it has persisted.
     pub persisted: Persisted,
-    /// What the outputs so far have made the body do.
+    /// State of the body and the application by the outputs so far.
     pub actuation: Actuation,
 }
 
-/// What survives a crash: the boot counter by the protocol's own rule, the station id because the
+/// State that survives a crash: the boot counter by the protocol's own rule, the station id because the
 /// model's robots keep theirs.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 pub struct Persisted {
@@ -57,7 +57,7 @@ pub struct Persisted {
     pub boot: u16,
 }
 
-/// What the body and the application of a robot do and know by its outputs alone. The properties compare it with the protocol state.
+/// State of a robot's body and application by its outputs alone. The properties compare it with the protocol state.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Actuation {
@@ -65,9 +65,9 @@ pub struct Actuation {
     pub corridor_open: bool,
     /// Whether the pseudonym is held.
     pub identity_locked: bool,
-    /// What the body does, also by itself.
+    /// Activity of the body, also of its own accord.
     pub body: Body,
-    /// What it has received, as a leader, of a leader that goes before it at its place.
+    /// Messages that it has received, as a leader, of a leader that goes before it at its place.
     pub heard: Heard,
     /// Whether its sign has shown go, and its application has not said since then that the road is clear.
     pub road_unsure: bool,
@@ -262,7 +262,7 @@ impl Renamable for Node {
     }
 }
 
-/// What an armed timer has left in a node without durations.
+/// Time left of an armed timer in a node without durations.
 const FORGOTTEN: Millis = Millis(1);
 
 struct ForgetDurations;

@@ -44,7 +44,7 @@ pub fn in_parallel<R>(
     });
 }
 
-/// What `work` makes of each run of `size` items, in order. Which thread does what shows nowhere.
+/// Results of `work` on each run of `size` items, in order, whichever thread computes them.
 /// Panics when `work` panics, or `size` is 0.
 pub(crate) fn map_chunks<T: Sync, R: Send>(
     threads: NonZeroUsize,

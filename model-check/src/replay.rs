@@ -20,7 +20,7 @@ pub struct Replay {
     pub text: Option<String>,
     /// The property that it broke; empty where it breaks none in particular.
     pub property: String,
-    /// What happens, in order.
+    /// Its steps, in order.
     pub steps: Vec<ChartStep>,
     /// How many steps come before the steps that are repeated for ever, where the run is without end.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -1,4 +1,4 @@
-//! What a check found, for people and for machines.
+//! Results of a check, for people and for machines.
 
 use serde::{Deserialize, Serialize};
 
@@ -20,7 +20,7 @@ pub(crate) const STATERIGHT: &str = "stateright";
 pub struct ScenarioReport {
     /// The scenario's name.
     pub name: String,
-    /// What it is about.
+    /// Its subject.
     pub summary: String,
     /// The robots' names, as charts have them.
     pub robots: Vec<String>,
@@ -44,16 +44,16 @@ pub struct ScenarioReport {
     /// Whether the state space has the size that the scenario's file expects, where it says one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size_as_expected: Option<bool>,
-    /// What was found about each property and each premise.
+    /// Reports on each property and each premise.
     pub properties: Vec<PropertyReport>,
     /// The longest times found, where the scenario is a timed one.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub figures: Vec<Figure>,
-    /// What the verdicts assume.
+    /// Assumptions of the verdicts.
     pub assumptions: Vec<String>,
 }
 
-/// What cut an exploration off.
+/// Cause that cut an exploration off.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CutOff {
@@ -71,7 +71,7 @@ pub enum CutOff {
     VerdictsDiffer,
 }
 
-/// What was found about one property, or about its premise.
+/// Result on one property, or on its premise.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct PropertyReport {
@@ -79,11 +79,11 @@ pub struct PropertyReport {
     pub id: String,
     /// `S`, `T`, `L`, or `premise`.
     pub kind: String,
-    /// What was found.
+    /// The verdict.
     pub verdict: CheckVerdict,
-    /// What it says.
+    /// Its statement.
     pub statement: String,
-    /// What it assumes of senders; of a property of the kit.
+    /// Its assumptions on senders; of a property of the kit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub authentication: Option<String>,
     /// A run that breaks the property.
@@ -96,7 +96,7 @@ pub struct PropertyReport {
 }
 
 impl PropertyReport {
-    /// What was found about a property or a premise, without a run.
+    /// Report on a property or a premise, without a run.
     #[must_use]
     pub fn plain(id: &str, kind: &str, verdict: CheckVerdict, statement: &str) -> Self {
         Self {
@@ -110,7 +110,7 @@ impl PropertyReport {
         }
     }
 
-    /// What was found about a property, and about its premise unless the property speaks about every state: a run that breaks
+    /// Reports on a property, and on its premise unless the property speaks about every state: a run that breaks
     /// it, if it is broken, and how many of its steps come before its cycle, if it has one.
     pub fn judged(
         (id, claim): (PropertyId, &Claim),
@@ -134,7 +134,7 @@ impl PropertyReport {
     }
 }
 
-/// What was found.
+/// Verdict on a property or a premise.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CheckVerdict {

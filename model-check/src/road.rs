@@ -1,4 +1,4 @@
-//! What is true on the road, whatever the robots believe: bodies, signs and a pedestrian. The properties W1 to W8
+//! Ground truth on the road, whatever the robots believe: bodies, signs and a pedestrian. The properties W1 to W8
 //! are about them.
 //!
 //! Nothing here asks a robot's state what is so. A body observes the outputs of its robot and moves by its
@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::serial::beat_is_newer;
 
-/// What a robot's body does.
+/// Activity of a robot's body.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
 pub enum Body {
     /// Nothing.
@@ -192,7 +192,7 @@ impl fmt::Display for Body {
     }
 }
 
-/// What a leader has received of leaders that go before it at its place, in this session.
+/// Messages that a leader has received of leaders that go before it at its place, in this session.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
 pub enum Heard {
     /// Nothing.

@@ -10,7 +10,7 @@ use crate::intern::Interner;
 use crate::network::Message;
 use crate::node::{Node, Rules};
 
-/// What a robot of a model with time takes in.
+/// Input of a robot in a model with time.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum TimedCause {
     /// The time that its clock has shown since it last took in the time.

@@ -24,7 +24,7 @@ impl Graph<'_, Model> {
     }
 
     /// A state from which the robots cannot all get idle any more, as near as possible; on a monotone channel they have to
-    /// without the help of any message. What comes after a broken step property was not explored, so such a state counts as
+    /// without the help of any message. States behind a broken step property were not explored, so such a state counts as
     /// one in which all are idle.
     pub(crate) fn stuck(&self) -> Option<u32> {
         if self.cut_off().is_some() {

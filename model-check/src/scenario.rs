@@ -29,20 +29,20 @@ const MAX_COOPERATIVE_ROBOTS: usize = 3;
 pub struct Scenario {
     /// Its name.
     pub name: String,
-    /// What it is about, in one line.
+    /// Its subject, in one line.
     pub summary: String,
     /// The robots, in the order of the file.
     pub robots: Vec<RobotSetup>,
     /// The station ids of the robots of which it does not matter which is which: states that differ in
     /// that alone count as one.
     pub symmetric: Vec<StationId>,
-    /// What a robot that detects a pedestrian asks for, where its setup says nothing else.
+    /// Request of a robot that detects a pedestrian, where its setup says nothing else.
     pub request: HelpRequest,
     /// How often what may happen in one run.
     pub bounds: Bounds,
     /// Whether a leader's application opens and closes the corridor, as often as it likes.
     pub corridor: bool,
-    /// What the radio channel does.
+    /// Behaviour of the radio channel.
     pub channel: ChannelSetup,
     /// Whether everything around the robots does its part, which L3 assumes: an RMCM arrives, of the
     /// RAM that are sent again and again some arrive, no timer that guards against silence runs out,
@@ -53,9 +53,9 @@ pub struct Scenario {
     pub config: Config,
     /// The properties to check; none where the scenario is timed.
     pub properties: Vec<PropertyId>,
-    /// What makes it a timed scenario, with the properties to check then.
+    /// The timed part, with the properties to check then; `None` where the scenario is untimed.
     pub timed: Option<Timed>,
-    /// What an exploration must find, where the file says so.
+    /// Size that an exploration must find, where the file says one.
     pub expected: Option<Size>,
 }
 
@@ -67,7 +67,7 @@ pub enum ScenarioError {
         "no scenario '{name}': the shipped ones are {shipped}, anything else is read as a file"
     )]
     Unknown {
-        /// What was asked for.
+        /// The name that was asked for.
         name: String,
         /// The names of the shipped ones.
         shipped: String,
@@ -85,7 +85,7 @@ pub enum ScenarioError {
     Syntax {
         /// The file or shipped scenario.
         file: String,
-        /// What and where.
+        /// The error and its place in the text.
         cause: toml::de::Error,
     },
     /// The text is a scenario that makes no sense.
@@ -95,7 +95,7 @@ pub enum ScenarioError {
         file: String,
         /// The line, counted from 1.
         line: usize,
-        /// What is wrong.
+        /// The mistake.
         cause: String,
     },
 }
@@ -106,7 +106,7 @@ struct Shipped {
     effort: Effort,
 }
 
-/// What a check takes.
+/// Time that a check takes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Effort {
     /// Seconds.
@@ -180,7 +180,7 @@ impl Scenario {
         Self::parse(name, shipped.text)
     }
 
-    /// What the robot at this place asks for when it detects a pedestrian.
+    /// Request of the robot at this place when it detects a pedestrian.
     #[must_use]
     pub fn request_of(&self, place: usize) -> HelpRequest {
         HelpRequest {

@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 pub struct ChartStep {
     /// Where in the chart it stands.
     pub place: ChartPlace,
-    /// What happened.
+    /// The action, in words.
     pub action: String,
-    /// What the robot that took the step put out.
+    /// Outputs of the robot that took the step.
     pub outputs: Vec<String>,
 }
 
@@ -27,12 +27,12 @@ pub enum ChartPlace {
         from: usize,
         /// The receiver.
         to: usize,
-        /// What becomes of the message.
+        /// Fate of the message.
         fate: Fate,
     },
 }
 
-/// What becomes of a message.
+/// Fate of a message.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Fate {
@@ -76,18 +76,18 @@ impl Fate {
 /// A run, to be drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct Chart<'a> {
-    /// What it shows.
+    /// Its title.
     pub title: &'a str,
     /// The robots' names.
     pub robots: &'a [String],
-    /// What happens, in order.
+    /// Its steps, in order.
     pub steps: &'a [ChartStep],
     /// How many steps come before the steps that are repeated for ever, where the run is without end.
     pub repeats_after: Option<usize>,
 }
 
 impl ChartStep {
-    /// What happened, in one line.
+    /// The step in one line.
     #[must_use]
     pub fn line(&self, robots: &[String]) -> String {
         match self.place {
@@ -112,7 +112,7 @@ const FOR_EVER: &str = "from here on for ever";
 const NOTHING_MORE: &str = "and then nothing happens any more";
 
 impl Chart<'_> {
-    /// What stands before the step of this number, if the run without end turns there.
+    /// The words before the step of this number, if the run without end turns there.
     fn turn(&self, step: usize) -> Option<&'static str> {
         (self.repeats_after == Some(step)).then_some(if step == self.steps.len() {
             NOTHING_MORE

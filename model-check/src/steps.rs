@@ -1,6 +1,6 @@
 //! The steps of single robots, each computed once.
 //!
-//! What a robot does depends on its own state and input alone, and few such pairs occur over a whole
+//! A robot's step depends on its own state and input alone, and few such pairs occur over a whole
 //! exploration. So each pair is put through the transition function once, judged once, and looked up
 //! from then on.
 
@@ -16,7 +16,7 @@ use crate::node::Rules;
 use crate::properties::{PropertyId, StepView};
 use crate::robots::Robots;
 
-/// What a robot takes in, by number where it is a message.
+/// Input of a robot, by number where it is a message.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Cause {
     Message(u16),
@@ -27,7 +27,7 @@ pub(crate) enum Cause {
 /// The effect of a robot's step, whatever has happened elsewhere.
 pub(crate) struct ComputedStep {
     pub(crate) input: Input,
-    /// What it put out. Many steps put out the same.
+    /// Its outputs. Many steps have the same ones.
     pub(crate) outputs: Arc<Outputs>,
     /// The node after the step, without durations.
     pub(crate) after: u32,

@@ -1,4 +1,4 @@
-//! What can be checked by name: scenarios, untimed and timed, streets, and the paper's text.
+//! Subjects that can be checked by name: scenarios, untimed and timed, streets, and the paper's text.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use crate::report::ScenarioReport;
 use crate::scenario::{Scenario, ScenarioError};
 use crate::timed;
 
-/// What can be checked.
+/// Subject of a check.
 #[derive(Clone, Debug)]
 pub enum Subject {
     /// A scenario.

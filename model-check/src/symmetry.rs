@@ -15,13 +15,13 @@
 //! * The transition function asks for the order of two station ids in two places. Of two requesters the
 //!   lower one goes before: symmetric robots never request. Of two equal offers the lower one is the
 //!   better: the number of followers is that of all other robots, nobody changes its pseudonym and so
-//!   offers under two station ids, and a requester that selects at all selects them all. What is left of
-//!   the order is that in which offers and members stand in their lists, and it is put right by
+//!   offers under two station ids, and a requester that selects at all selects them all. The order of
+//!   offers and members in their lists is left, and it is put right by
 //!   [`Renaming`].
 //!   The rules that a test puts in the protocol's place must not ask for more.
 //! * The receivers of one broadcast hear it in any order. If those listed first heard it first, the
 //!   scenario's order would tell symmetric robots apart.
-//! * The properties speak about all robots, or about any one robot's step. Those of runs under fairness
+//! * The properties speak about all robots, or about any one robot's step. Properties of runs under fairness
 //!   are refused: each robot's timers are fair on their own, and where robots change places along a run,
 //!   one of them could wait for ever unseen.
 //!

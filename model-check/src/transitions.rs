@@ -6,7 +6,7 @@ use crossguard_protocol::{Coordination, Event, Farewell, Input, Progress, Rmcm, 
 
 use crate::node::Node;
 
-/// What a robot is doing: its role and the state of the paper's model.
+/// A robot's role and its state in the paper's model.
 pub type Mode = (Role, State);
 
 /// Which inputs have led from one mode to another.
@@ -33,7 +33,7 @@ pub fn mode_name((role, state): Mode) -> String {
     }
 }
 
-/// What a robot is doing; one that is down does nothing.
+/// A robot's mode; one that is down has no role and is idle.
 pub(crate) fn mode(node: &Node) -> Mode {
     node.robot
         .as_ref()

@@ -31,7 +31,7 @@ const STRANGER: StationId = StationId(9);
 /// An offer that nobody remembers.
 const OLD_OFFER: OfferNumber = OfferNumber(number(0, 5));
 
-/// What was found out about one robot among any others.
+/// Findings on one robot among any others.
 #[derive(Clone, Debug, Default)]
 pub struct Universe {
     /// Distinct states.
@@ -171,7 +171,7 @@ impl Universe {
             .robot
             .as_ref()
             .is_some_and(|robot| robot.is_valid(config));
-        // What it has heard all the same is not its own.
+        // The record of messages that it heard may change: it is no state of the robot.
         let mut own = after.clone();
         own.actuation.heard = before.actuation.heard;
         if !valid || !after.actuation_agrees() || (ignored && *before != own) {

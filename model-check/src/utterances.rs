@@ -1,4 +1,4 @@
-//! What a certified insider says to a robot: anything, in its own name, of a finite universe.
+//! Messages of a certified insider to a robot: anything, in its own name, of a finite universe.
 //!
 //! | field | values |
 //! |---|---|
@@ -23,14 +23,14 @@ use crossguard_protocol::{
 
 use crate::network::Message;
 
-/// What an insider may say to one robot.
+/// Messages that an insider may send to one robot.
 #[derive(Clone, Debug)]
 pub struct Utterances<'a> {
-    /// Who speaks.
+    /// The sender.
     pub liar: StationId,
-    /// Who hears it.
+    /// The receiver.
     pub hearer: &'a Robot,
-    /// What the insider asks for, and where it leads.
+    /// The insider's request, also for the place where it leads.
     pub request: HelpRequest,
     /// The safety timer that it claims as a helper.
     pub t_safety: Millis,

@@ -28,19 +28,19 @@ pub use by_itself::{Chances, next_step};
 pub struct Walk {
     /// The scenario's name.
     pub scenario: String,
-    /// What the scenario is about, in one line.
+    /// The scenario's subject, in one line.
     pub summary: String,
     /// The robots' names, in the order of their places.
     pub robots: Vec<String>,
-    /// What is so at the start, and after each step.
+    /// Frames at the start, and after each step.
     pub frames: Vec<WalkFrame>,
-    /// What may happen next; empty also where the last step broke a property of steps.
+    /// The steps that may follow; empty also where the last step broke a property of steps.
     pub possible: Vec<ChartStep>,
     /// Where the walk left the scenario, if it did. The frames end before that step.
     pub stray: Option<Stray>,
 }
 
-/// What is so in one state.
+/// The scenario in one state.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct WalkFrame {
@@ -78,13 +78,13 @@ pub struct RobotFrame {
     pub words: String,
     /// The timers that run.
     pub timers: Vec<String>,
-    /// What its body does.
+    /// Activity of its body.
     pub body: BodyFrame,
     /// Whether its body guards who is on the road, or would: in its place, beside a person, or in a fallback that stays.
     pub guards: bool,
     /// Whether it guards by going with people: on its way, or back to the kerb.
     pub escorts: bool,
-    /// What its body does, with the maneuver.
+    /// Activity of its body with the maneuver, in words.
     pub body_words: String,
     /// Whether its sign shows go.
     pub shows_go: bool,
@@ -100,7 +100,7 @@ pub struct RobotFrame {
     pub lost_contact: bool,
 }
 
-/// What a body does.
+/// Activity of a body.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 #[allow(missing_docs, reason = "as in Body")]
@@ -141,7 +141,7 @@ pub struct OnItsWay {
 pub struct Stray {
     /// The step, counted from 0.
     pub step: usize,
-    /// What the robot puts out in this step now; `None` where the step cannot happen at all.
+    /// The robot's outputs in this step now; `None` where the step cannot happen at all.
     pub puts_out: Option<Vec<String>>,
 }
 
@@ -256,7 +256,7 @@ fn possible(model: &Model, state: &ModelState) -> Vec<ChartStep> {
     actions.into_iter().filter_map(step).collect()
 }
 
-/// What is looked for in a scenario.
+/// Goal of a search in a scenario.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub enum Goal {
@@ -277,7 +277,7 @@ pub enum Goal {
     FallsBack,
 }
 
-/// What a search has come to.
+/// Result of a search.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Search {

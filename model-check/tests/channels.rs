@@ -71,7 +71,7 @@ macro_rules! finds_as_much {
         fn $name() {
             let with_delay = violated(pair(false), $rules, &[]);
             assert!(!with_delay.is_empty());
-            // What the whole graph alone can tell is found in the whole graph.
+            // A liveness property needs the whole graph.
             let is_liveness = with_delay.iter().any(|id| id.starts_with('L'));
             let ids = PropertyId::ALL.into_iter();
             let broken = ids.filter(|id| with_delay.contains(&id.to_string()));

@@ -293,7 +293,7 @@ fn leads_on(honest: &mut Honest) {
     honest.hears(leads(heartbeat, offer, number(0), Urgency::High));
 }
 
-/// What the liar can, as the page says it; the robot that it harms; when that is over; and what the liar says at each tick.
+/// The liar's means, as the page says them; the robot that it harms; the end of the harm; and the liar's step at each tick.
 type Lie = (
     &'static str,
     fn() -> Honest,

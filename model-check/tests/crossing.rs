@@ -68,7 +68,7 @@ fn trusts_drivers(setup: &mut Setup) {
     setup.traffic.deceleration_cmps2 = 60_000;
 }
 
-/// Nobody is ever known to be across, and the leader has patience.
+/// No person is ever known to be across, and the leader has patience.
 fn never_ends(setup: &mut Setup) {
     setup.sensors.linger = Millis(60_000);
     if let Some(plan) = &mut setup.plan {

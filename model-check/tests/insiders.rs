@@ -1,4 +1,4 @@
-//! Who can break which property by a lie in its own name: what the values of the properties say is what is found.
+//! Lies of insiders in their own names: each property names the insiders that can break it, and the checker finds the same.
 
 use crossguard_model_check::check::{Options, check};
 use crossguard_model_check::model::Model;
@@ -46,11 +46,11 @@ insiders! {
     a_follower_that_lies_breaks_nothing_that_assumes_no_truth_of_it("lying-follower", [Follower, Stranger]);
     a_helper_that_lies_breaks_nothing_that_assumes_no_truth_of_it("lying-helper", [Stranger]);
     a_leader_that_lies_breaks_nothing_that_assumes_no_truth_of_it("lying-leader", [Leader, Stranger]);
-    // Who joins it is led by it.
+    // A robot that joins it is led by it.
     a_bystander_that_lies_breaks_nothing_that_assumes_no_truth_of_it("lying-bystander", [Stranger, Leader]);
 }
 
-/// What an insider is said to break it does break.
+/// An insider breaks the properties that are said to assume its truth.
 #[test]
 fn what_assumes_the_truth_of_an_insider_is_broken_by_its_lies() {
     let broken = [

@@ -247,7 +247,7 @@ fn with_what_is_found(page: &str) -> String {
     format!("{before}{head}{rows}{others}{between}{on_road}")
 }
 
-/// What stands before a text and from it on.
+/// The page before a text, and the page from the text on.
 fn parts<'a>(page: &'a str, text: &str) -> [&'a str; 2] {
     page.split_at(page.find(text).expect(text)).into()
 }

@@ -7,7 +7,7 @@ use crossguard_model_check::subject::Subject;
 
 const PAIR: &str = include_str!("../scenarios/pair.toml");
 
-/// What is replaced by what in a scenario's text, where that makes it wrong, and why; at the replacement where nothing is said.
+/// A text of a scenario, a wrong text in its place, the place of the mistake (empty for that text), and the message.
 pub(crate) type Mistake<'a> = (&'a str, &'a str, &'a str, &'a str);
 
 /// Asserts that each of these mistakes in a valid scenario is refused with its line.

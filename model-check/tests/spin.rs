@@ -24,7 +24,7 @@ use crossguard_protocol::{
 /// Distinct states of the Promela model; a change of it is to be looked at, like that of a scenario.
 const STATES: usize = 1_543_163;
 
-/// What the Promela model speaks about. It has no totality (I13), as it has no inputs but the ones that its
+/// Properties of the Promela model. It has no totality (I13), as it has no inputs but the ones that its
 /// channel carries, and no liveness under fairness.
 const EXPRESSED: [PropertyId; 17] = [
     I1, I2, I3, I4, I5, I6, I7, I8, I9, I11, I12, I14, I16, L7, W1, W2, W4,
@@ -87,7 +87,7 @@ impl Verification {
         self
     }
 
-    /// What the verifier prints.
+    /// The verifier's output.
     fn run(&self, optimize: &str) -> String {
         let _ = std::fs::remove_dir_all(&self.folder);
         std::fs::create_dir_all(&self.folder).unwrap();
@@ -266,7 +266,7 @@ fn assert_same_sights(printed: &str, scenario: Scenario) -> usize {
     in_kit.len()
 }
 
-/// What is to be seen in all states of the kit's model.
+/// Sights in all states of the kit's model.
 fn sights(model: &Model) -> BTreeSet<u32> {
     let mut sights = BTreeSet::new();
     for state in model.reachable() {
@@ -278,7 +278,7 @@ fn sights(model: &Model) -> BTreeSet<u32> {
     sights
 }
 
-/// What is to be seen, packed as in `sight.pml`.
+/// The visible part of a state, packed as in `sight.pml`.
 #[derive(Default)]
 struct Sight(u32);
 

@@ -1,4 +1,4 @@
-//! What a check finds depends on no number of threads: sizes, verdicts, figures, and counterexamples step by step.
+//! The result of a check depends on no number of threads: sizes, verdicts, figures, and counterexamples step by step.
 
 use std::num::NonZeroUsize;
 
@@ -10,7 +10,7 @@ use crossguard_model_check::timed;
 use crossguard_testkit::rules::FollowersWaitForEver;
 use serde_json::Value;
 
-/// What a report says, but for what it cost.
+/// A report without its cost.
 fn found(report: &ScenarioReport) -> Value {
     let mut found = serde_json::to_value(report).unwrap();
     let report = found.as_object_mut().unwrap();

@@ -1,5 +1,5 @@
-//! What the properties of the timed model are good for: a robot whose timers do not suit its team, or a
-//! transition function without a rule, breaks the property that the timer or rule is there to keep.
+//! Each property of the timed model is broken by a robot whose timers do not suit its team, or by a
+//! transition function without the rule that is there to keep it.
 
 use crate::timing::*;
 use crossguard_model_check::node::Rules;

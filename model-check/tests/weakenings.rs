@@ -1,4 +1,4 @@
-//! What each rule is good for: a transition function without it breaks the property that the rule is
+//! Each rule is needed: a transition function without it breaks the property that the rule is
 //! there to keep.
 
 use crossguard_model_check::check::{Options, Stop, check};
@@ -59,7 +59,7 @@ fn assert_breaks_alone_in(
     let expected: Vec<_> = properties.iter().map(ToString::to_string).collect();
     assert_eq!(violated, expected);
     for property in &report.properties {
-        // What breaks without the rule is a run that the protocol does not have.
+        // The protocol does not have the run that breaks the property without the rule.
         if let Some(replay) = Replay::of(&report, property) {
             let protocol = Model::new(model.scenario().clone());
             assert!(replay.is_broken_in(&model), "{replay:#?}");
@@ -101,10 +101,10 @@ weakenings! {
     fn without_request_numbers_a_late_acknowledgement_counts_for_a_newer_command("pair", TakesAnyAcknowledgement, [I6, I7]);
     #[test]
     fn without_request_numbers_in_ram_a_stale_one_completes_a_newer_command("pair", TakesAnyProgress, [I8]);
-    // Who steps on the road then does so unguarded, or sees the guards leave.
+    // A person who steps on the road then does so unguarded, or sees the guards leave.
     #[test]
     fn a_corridor_that_is_not_closed_stays_open_over_nobody("pair", NEVER_CLOSES_THE_CORRIDOR, [I11, W1, W2] alone);
-    // What runs then was accepted for another session, if at all.
+    // A maneuver that runs then was accepted for another session, if at all.
     #[test]
     fn a_released_robot_that_is_not_stopped_goes_on("pair", NEVER_STOPS, [I6, I14] alone);
     #[test]
@@ -115,7 +115,7 @@ weakenings! {
     fn a_follower_that_goes_must_not_touch_the_others("trio", LosesTwoForOne, [I17] alone);
     #[test]
     fn without_timers_a_follower_of_a_crashed_leader_is_stuck("leader-crash", FollowersWaitForEver, [I12, L4, L5, L7] alone);
-    // What is sent again and again is no progress.
+    // Endless repetition is no progress.
     #[test]
     fn without_a_limit_a_request_that_nobody_hears_never_ends("pair", ASKS_FOR_EVER, [I12, L1] alone);
     #[test]

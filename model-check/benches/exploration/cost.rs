@@ -35,12 +35,12 @@ fn memory(key: &str) -> Option<usize> {
     Some(kilobytes * 1024)
 }
 
-/// Whose processor time.
+/// Processes whose processor time is counted.
 #[derive(Clone, Copy)]
 pub(crate) enum Of {
-    /// That of this process.
+    /// This process.
     Itself,
-    /// That of processes that it started and that have ended.
+    /// Processes that it started and that have ended.
     Children,
 }
 

@@ -42,7 +42,7 @@ Not comparable:
   `team-of-four` says what a state takes.
 - SPIN's model is of `pair`, in its own words, with its properties, compiled by gcc -O2.";
 
-/// What one exploration took.
+/// Cost of one exploration.
 struct Measured {
     states: f64,
     /// By the clock.

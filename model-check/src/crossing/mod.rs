@@ -12,9 +12,9 @@
 //! carriageway under go, or soon after it where a [`Street`] says so, and are then on it for as long as they like, also
 //! beside the crossing. A vehicle, changes of ids, hangs, blindness, drifts and the number of outages are bounded for a run, and
 //! no run is as long as `T_lock` or `T_exec`; nothing else is bounded. In an outage messages between the leader and one guard are
-//! lost, one way or both, for any time. In [`Watch::Guard`] the follower's machine is alone: what leads has none, and its application says anything at
-//! any time, as often as the [`Street`] allows. `truth` judges, and shares nothing with the machine. P4, about escorts, needs
-//! finer geometry and is not here.
+//! lost, one way or both, for any time. In [`Watch::Guard`] the follower's machine is alone: the leader has none, and its application
+//! says anything at any time, as often as the [`Street`] allows. `truth` judges, and shares nothing with the machine. P4, about
+//! escorts, needs finer geometry and is not here.
 
 mod people;
 mod rules;
@@ -43,21 +43,21 @@ pub const MISS_MAX: u8 = 1;
 /// How many guards there are at most.
 pub(crate) const GUARDS_MAX: usize = 2;
 
-/// Whose crossing machine sees people.
+/// Crossing machines that see people.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Watch {
     /// The leader's. A person tells the follower that the road is clear.
     Leader,
     /// Both, by the same frames.
     Both,
-    /// The follower's alone. What leads has no crossing machine: its application says anything at any time.
+    /// The follower's alone. The leader has no crossing machine: its application says anything at any time.
     Guard,
 }
 
-/// What may happen in a run, and how often.
+/// Bounds of a run: possible events, and how often each may happen.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Street {
-    /// Who sees people.
+    /// Crossing machines that see people.
     pub watch: Watch,
     /// How often an application that leads without a machine says anything.
     pub words: u8,
@@ -109,9 +109,9 @@ impl Street {
 pub struct Shipped {
     /// Its name.
     pub name: &'static str,
-    /// What it is about, in one line.
+    /// Its subject, in one line.
     pub summary: &'static str,
-    /// What may happen.
+    /// Its bounds.
     pub street: Street,
     /// The rules whose premises are met in it.
     pub rules: &'static [Rule],
@@ -229,7 +229,7 @@ impl Shipped {
     }
 }
 
-/// What the verdicts assume.
+/// Assumptions of the verdicts on every street.
 const ASSUMPTIONS: [&str; 5] = [
     "sees: the sensor, which covers the whole road, misses nobody in more than 1 frame in a row; nobody walks faster than 9 m/s, or crosses within a second",
     "people step on the road under go, in street-late also within 2 s after it, and stay on it for as long as they like",
@@ -239,7 +239,7 @@ const ASSUMPTIONS: [&str; 5] = [
 ];
 
 impl Street {
-    /// What a verdict assumes of messages.
+    /// A verdict's assumption on messages.
     const fn delivery(&self) -> &'static str {
         if self.outages > 0 {
             "messages arrive at once, and are lost in outages, between the leader and one guard, one way or both"
@@ -252,7 +252,7 @@ impl Street {
 }
 
 impl Watch {
-    /// What a verdict assumes of who sees people.
+    /// A verdict's assumption on sensors.
     const fn assumption(self) -> &'static str {
         match self {
             Self::Leader => {
@@ -275,7 +275,7 @@ fn in_words(state: &str) -> ChartStep {
     }
 }
 
-/// What an exploration found.
+/// Result of an exploration.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// Its states, and how far they are.

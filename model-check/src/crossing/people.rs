@@ -64,7 +64,7 @@ pub(super) struct Person {
     pub(super) at: Cell,
     /// In how many frames the sensor has missed them in a row.
     pub(super) missed: u8,
-    /// What the sensor calls them.
+    /// Their id by the sensor.
     pub(super) id: u8,
     pub(super) has_walked: bool,
     /// Whether a frame that was taken in at once, by a guard that is on its own while it guarded, had them there.

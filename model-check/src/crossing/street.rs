@@ -87,7 +87,7 @@ impl Sign {
     }
 }
 
-/// What the leader takes in at a tick.
+/// Inputs of the leader at a tick.
 pub(super) struct Sensed<'a> {
     /// How many ticks have passed since it ran last; none while it hangs.
     pub(super) passed: u8,
@@ -98,7 +98,7 @@ pub(super) struct Sensed<'a> {
     answer: Option<bool>,
     /// The frame of this tick, for a follower that sees.
     now: Option<Seen>,
-    /// What the leader's application says, if that may say anything.
+    /// Event of the leader's application, if that may say anything.
     pub(super) word: Option<Event>,
 }
 
@@ -159,13 +159,13 @@ pub(super) struct Tick {
     moves: [Option<Cell>; PEOPLE_MAX],
     missed: [bool; PEOPLE_MAX],
     fault: Fault,
-    /// What a vehicle that was asked answers, if it does.
+    /// Answer of a vehicle that was asked, if it gives one.
     answer: Option<bool>,
-    /// What the leader's application says, if that may say anything.
+    /// Event of the leader's application, if that may say anything.
     word: Option<Event>,
 }
 
-/// What goes wrong, or comes along: one thing in a tick.
+/// A fault, its end, or a vehicle that comes along; one at most in a tick.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Fault {
     None,
@@ -221,7 +221,7 @@ impl World {
     fn faults(state: &State) -> Vec<Fault> {
         let left = &state.left;
         let may_cut = left.outages > 0 && state.cut.is_none();
-        // What leads without a machine is silent for as long as it can be.
+        // Once a leader without a machine hangs, it hangs for as long as it may.
         let is_silent = left.watch == Watch::Guard && state.hangs > 0 && left.hang > 0;
         let possible = [
             (Fault::None, !is_silent),
@@ -414,7 +414,7 @@ impl State {
     }
 }
 
-/// What an application may say that leads, and need not be true.
+/// Events that the application of a leader without a machine may report, true or not.
 const WORDS: [Option<Event>; 8] = [
     None,
     Some(Event::PedestrianDetected(HelpRequest {

@@ -45,7 +45,7 @@ pub(super) struct Team {
     bodies: Vec<Body>,
 }
 
-/// What one handling needs besides the state.
+/// Context of one handling, besides the state.
 struct Turn<'a> {
     rules: &'a Rules,
     queue: VecDeque<(usize, protocol::Input)>,
@@ -57,7 +57,7 @@ struct Turn<'a> {
 }
 
 impl Turn<'_> {
-    /// Whether a member has a crossing machine. What leads a guard that is on its own has none.
+    /// Whether a member has a crossing machine. The leader of a guard that is on its own has none.
     fn has_machine(&self, member: usize) -> bool {
         member != LEADER || self.rules.watch != Watch::Guard
     }

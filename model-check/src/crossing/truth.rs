@@ -1,4 +1,4 @@
-//! What must hold of people, bodies and signs: from the ground truth alone, without a look into any machine.
+//! Rules on people, bodies and signs, judged from the ground truth alone, without a look into any machine.
 
 use serde::Deserialize;
 
@@ -19,16 +19,16 @@ pub(super) const AWAY_MAX: u8 = 2;
 /// At 50 km/h a driver goes 27.8 m within the 2 s of reaction, and then 32.2 m to stop at 3 m/s².
 pub(super) const STOP_M: u8 = 60;
 
-/// What a rule says.
+/// Statement and premise of a rule.
 #[derive(Clone, Copy, Debug)]
 pub struct RuleClaim {
     /// Its id.
     pub id: &'static str,
     /// The id of its premise.
     pub premise_id: &'static str,
-    /// What must hold.
+    /// The condition that must hold.
     pub statement: &'static str,
-    /// What must come about, or the rule says nothing.
+    /// The situation without which the rule says nothing.
     pub premise: &'static str,
 }
 
@@ -44,7 +44,7 @@ macro_rules! rules {
             /// All of them.
             pub const ALL: &'static [Self] = &[$(Self::$id),*];
 
-            /// What it says.
+            /// Its statement and premise.
             #[must_use]
             pub const fn claim(self) -> RuleClaim {
                 match self {

@@ -1,4 +1,4 @@
-//! What is read off a graph.
+//! Queries on a graph.
 
 use super::{Graph, RunOf, TransitionSystem};
 use crate::fair::{Classes, Edge};

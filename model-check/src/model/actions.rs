@@ -1,4 +1,4 @@
-//! What may happen in a state.
+//! Actions that are possible in a state.
 
 use crossguard_protocol::{
     Availability, Event, Member, Phase, Robot, StationId, Timer, Unavailability,
@@ -103,7 +103,7 @@ impl Model {
         }
     }
 
-    /// What may become of a message on air.
+    /// Possible fates of a message on air.
     fn fates(&self, state: &ModelState, transmission: Transmission, actions: &mut Vec<Action>) {
         let channel = self.0.scenario.channel;
         if self.is_deaf(state, transmission.to.into()) {

@@ -103,7 +103,7 @@ impl Model {
         images.collect()
     }
 
-    /// What an exchange makes of a state that has these nodes after it.
+    /// Image of a state under an exchange, after which its nodes are these.
     pub(super) fn image(&self, draft: &Draft, nodes: [u32; MAX_ROBOTS], exchange: usize) -> Draft {
         let Shared {
             steps,
@@ -174,7 +174,7 @@ impl Model {
 }
 
 impl Draft {
-    /// What tells two states apart whose robots are in the same states.
+    /// The parts of a state besides its robots, by which states with the same robots differ.
     const fn rest(&self) -> (u32, u8, &Network) {
         (self.state.history, self.state.hung, &self.network)
     }

@@ -130,7 +130,7 @@ impl Model {
                 input,
                 outputs: &outputs,
             };
-            // What is ignored may be what a property is about, and changes nothing that is to be explored.
+            // An ignored lie may meet a premise, and leads to no other state.
             let (premises, broken) = judge(&scenario.properties, &view, view.is_historic());
             self.note_premises(premises);
             broken != 0 || outputs.ignored().is_none() || after.untimed() != *hearer
@@ -153,7 +153,7 @@ impl Model {
     }
 }
 
-/// What an insider that has given out these numbers may say to a robot.
+/// Messages that an insider that has given out these numbers may send to a robot.
 fn utterances<'a>(
     scenario: &Scenario,
     (liar, reach): (StationId, Reach),

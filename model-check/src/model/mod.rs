@@ -70,7 +70,7 @@ impl ModelState {
         self.hung & 1 << place != 0
     }
 
-    /// Whether the step into this state broke a step property. What might come after it is not
+    /// Whether the step into this state broke a step property. States behind it are not
     /// explored.
     #[must_use]
     pub const fn is_broken(&self) -> bool {
@@ -155,13 +155,13 @@ pub struct RobotStep<'a> {
 }
 
 impl RobotStep<'_> {
-    /// What the robot took in.
+    /// The robot's input.
     #[must_use]
     pub const fn input(&self) -> Input {
         self.step.input
     }
 
-    /// What the robot put out.
+    /// The robot's outputs.
     #[must_use]
     pub fn outputs(&self) -> &Outputs {
         &self.step.outputs
@@ -281,7 +281,7 @@ impl Model {
         state.broken & property.bit() == 0 && property.state_rule().is_none_or(keeps_rule)
     }
 
-    /// What a state breaks, as a bit for each property of states or steps. Notes the premises that it meets.
+    /// The broken properties of states or steps, as a bit for each. Notes the premises that the state meets.
     pub(crate) fn broken_in(&self, state: &ModelState) -> u32 {
         let rules = self.scenario().properties.iter();
         let rules = rules.filter_map(|&id| Some((id, id.state_rule()?)));

@@ -3,7 +3,7 @@
 use super::ModelState;
 use crate::scenario::{Bounds, MAX_ROBOTS};
 
-/// What a state is besides its robots, in the order of its fields.
+/// Parts of a state besides its robots, in the order of its fields.
 pub(crate) type Backdrop = (u32, u32, Bounds, u8, u32);
 
 impl ModelState {

@@ -23,12 +23,12 @@ use crate::scenario::MAX_ROBOTS;
 use crate::sequence::ChartStep;
 use crate::symmetry::Symmetry;
 
-/// What a part of a state is.
+/// Kind of a part of a state.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 pub enum PartKind {
     /// A robot with its body.
     Node,
-    /// What has happened.
+    /// Past events.
     History,
     /// A message.
     Message,
@@ -39,11 +39,11 @@ pub enum PartKind {
 /// A part of states, under the sender's number.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 pub struct Part {
-    /// What it is.
+    /// Its kind.
     pub kind: PartKind,
     /// The sender's number of it.
     pub number: u32,
-    /// What it holds, as JSON: each part travels once, and few do.
+    /// Its content as JSON: each part travels once, and few do.
     pub text: String,
 }
 
@@ -211,7 +211,7 @@ impl KnownHashes {
 pub struct Class {
     /// The one with the smallest hashes, which are the same in each process.
     pub state: ModelState,
-    /// What tells the class apart, in each process.
+    /// Fingerprint of the class, the same in each process.
     pub fingerprint: u128,
     /// How many states it has.
     pub size: u16,

@@ -16,7 +16,7 @@ use crate::node::{Protocol, Rules};
 /// A team whose chances are worked out.
 pub struct OddsModel(TeamModel);
 
-/// What is known of a team.
+/// Odds of a team.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct TeamOdds {
     /// The stages that were looked at.
@@ -49,7 +49,7 @@ pub enum OddsError {
     Cut(#[from] FlowCut),
 }
 
-/// What is known at one loss rate between two stages.
+/// Results so far at one loss rate, between two stages.
 struct Interim {
     loss: f64,
     /// The states in which the stage before was completed.
@@ -72,7 +72,7 @@ impl OddsModel {
         Self(TeamModel::new(setup, Box::new(rules)))
     }
 
-    /// What is known of the team at these loss rates. `watch` receives the progress.
+    /// Odds of the team at these loss rates. `watch` receives the progress.
     ///
     /// # Errors
     /// There is no such channel, or it was given up.
@@ -151,7 +151,7 @@ impl OddsModel {
         }
     }
 
-    /// What the figures of a stage are told by, where one of `links` independent links is looked at.
+    /// Parameters of a stage's figures, where one of `links` independent links is looked at.
     fn frame(&self, links: u8) -> Frame {
         Frame {
             grid: self.setup().grid(),
@@ -271,7 +271,7 @@ impl TeamOdds {
 }
 
 impl LossOdds {
-    /// What is known of a milestone.
+    /// Odds of a milestone.
     #[must_use]
     pub fn milestone(&self, milestone: Milestone) -> Option<&MilestoneOdds> {
         self.milestones.iter().find(|it| it.milestone == milestone)

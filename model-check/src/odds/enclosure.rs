@@ -20,7 +20,7 @@ impl Enclosure {
         self.upper - self.lower
     }
 
-    /// What is half way between the bounds.
+    /// The middle between the bounds.
     #[must_use]
     pub fn middle(self) -> f64 {
         f64::midpoint(self.lower, self.upper)

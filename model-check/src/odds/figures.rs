@@ -1,4 +1,4 @@
-//! What came of an analysis, for people and programs.
+//! Results of an analysis, for people and programs.
 
 use crossguard_protocol::Millis;
 use serde::Serialize;
@@ -19,7 +19,7 @@ pub struct StageSize {
     pub transitions: usize,
 }
 
-/// What is known of a team at one loss rate.
+/// Odds of a team at one loss rate.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct LossOdds {
@@ -78,7 +78,7 @@ pub struct ReachedBy {
     pub upper: f64,
 }
 
-/// What the beginning of a stage is known by.
+/// Bounds of the probability that a stage begins.
 #[derive(Clone, Copy)]
 pub(super) struct Beginning {
     /// The probability that the stage begins, as far as it was followed.
@@ -89,7 +89,7 @@ pub(super) struct Beginning {
 
 impl Beginning {
     /// The bounds of the probability of something in the stage, given that it begins: of that `counted` was counted
-    /// and `unknown` not followed in the stage. What was not followed before may begin or not.
+    /// and `unknown` not followed in the stage. A run that was not followed before may begin the stage or not.
     fn given(self, counted: f64, unknown: f64) -> Enclosure {
         let all = self.mass + self.unknown;
         let upper = ((counted + unknown) / self.mass).max((counted + unknown + self.unknown) / all);
@@ -97,7 +97,7 @@ impl Beginning {
     }
 }
 
-/// What all figures of a stage are told by.
+/// Parameters of all figures of a stage.
 #[derive(Clone, Copy)]
 pub(super) struct Frame {
     pub(super) grid: TimeGrid,
@@ -184,8 +184,8 @@ impl MilestoneOdds {
     }
 }
 
-/// Mean and standard deviation, in ms, of when something happens if it does. What was not followed may happen at
-/// once, or at the latest possible time.
+/// Mean and standard deviation of the time of an event, in ms, given that it happens. In a run that was not
+/// followed it may happen at once, or at the latest possible time.
 fn moments(distribution: &[ReachedBy], unknown: f64, latest: Millis) -> Option<(Enclosure, f64)> {
     let total = distribution.last().map(|reached| reached.lower);
     let total = total.filter(|total| *total > 0.0)?;

@@ -29,7 +29,7 @@ pub(super) struct Flow {
 /// When an analysis of a stage is over, in ticks.
 #[derive(Clone, Copy)]
 pub(super) struct FlowLimits {
-    /// Nobody asks for what comes later.
+    /// The last tick that is asked for.
     pub(super) horizon: Option<usize>,
     /// A request that still stands ends then.
     pub(super) help: Option<usize>,
@@ -82,7 +82,7 @@ const STATES_MAX: usize = 12_000_000;
 /// Why an analysis was given up.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum FlowCut {
-    /// Somebody asked to stop.
+    /// The caller asked to stop.
     #[error("it was told to stop before it was done")]
     Stopped,
     /// There are too many states.
@@ -93,7 +93,7 @@ pub enum FlowCut {
     TooLarge(usize),
 }
 
-/// What flows: the probability of each state by its number.
+/// The probability of each state, by its number.
 struct Mass {
     of: Vec<f64>,
     states: Vec<u32>,

@@ -1,4 +1,4 @@
-//! What is asked about: a team, its settings, and a channel.
+//! Subject of an analysis: a team, its settings, and a channel.
 
 use crossguard_protocol::{Config, Millis, TaskType};
 use serde::Serialize;
@@ -151,7 +151,7 @@ impl OddsSetup {
     /// losses come in bursts of this mean length. The maneuver takes `hold`.
     ///
     /// # Errors
-    /// What is wrong with the numbers.
+    /// A number is out of its range, or does not fit the grid.
     pub fn new(
         config: Config,
         followers: u8,

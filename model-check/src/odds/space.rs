@@ -13,7 +13,7 @@ pub(super) struct Arc {
     pub(super) times: u16,
 }
 
-/// The states of a stage. Those are worked out that are asked for.
+/// The states of a stage, worked out when they are asked for.
 pub(super) struct StageSpace<'a> {
     pub(super) stage: Stage,
     pub(super) model: &'a mut TeamModel,

@@ -19,7 +19,7 @@ pub enum Stage {
     Holding,
 }
 
-/// What has happened by the time of a state.
+/// An event that has happened by the time of a state.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Milestone {
@@ -122,7 +122,7 @@ impl Stage {
         }
     }
 
-    /// What can be reached in it.
+    /// The milestones that can be reached in it.
     pub fn milestones(self) -> impl Iterator<Item = Milestone> {
         Milestone::ALL
             .into_iter()

@@ -34,7 +34,7 @@ struct Broadcast {
 pub(super) struct TeamState {
     /// Numbers of the robots' states.
     nodes: [u32; ROBOTS_MAX],
-    /// What is under way, in the order in which it was sent.
+    /// Broadcasts under way, in the order in which they were sent.
     air: SmallVec<[Broadcast; 4]>,
     /// One bit for each follower whose link to the leader is in a burst of losses.
     bad: u8,
@@ -42,7 +42,7 @@ pub(super) struct TeamState {
 }
 
 impl TeamState {
-    /// What stands for all states in which a stage is over, and nobody asks for what comes of it.
+    /// The state that stands for all in which a stage is over and from which no other stage begins.
     fn over(marks: Marks) -> Self {
         Self {
             nodes: [0; ROBOTS_MAX],
@@ -199,7 +199,7 @@ impl TeamModel {
             .is_requesting()
     }
 
-    /// What may follow within a tick, and what happens on the way to it.
+    /// States that may follow within a tick, with the chances on the way to each.
     pub(super) fn ways(&mut self, stage: Stage, from: &TeamState) -> Ways {
         if from.marks.ends(stage) {
             return vec![(Chances::default(), from.clone())];
@@ -287,7 +287,7 @@ impl TeamModel {
         after
     }
 
-    /// What the application does at the end of a tick, and what has been reached by then.
+    /// Ends a tick: the application acts, and the milestones reached are marked.
     fn finished(&mut self, stage: Stage, mut draft: TickDraft) -> (Chances, TeamState) {
         match stage {
             // Helpers are as many as are asked for: once all have offered, no other offer can come.

@@ -14,13 +14,13 @@ use crate::sequence::ChartStep;
 pub struct KitRun {
     /// The scenario that it goes through.
     pub scenario: &'static str,
-    /// What happens, in order.
+    /// Its steps, in order.
     pub steps: Vec<ChartStep>,
     /// How many of these steps are taken at the start, and after each step of the paper's run.
     pub taken: Vec<usize>,
 }
 
-/// What happens during each step of the paper's run, a line for each: how lines of the kit's chart begin.
+/// Steps of the kit during each step of the paper's run, a line for each, as beginnings of lines of the kit's chart.
 const REQUEST: &str = "\
 robot 1: pedestrian detected
 robot 1 -> robot 2: RAM

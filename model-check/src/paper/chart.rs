@@ -66,7 +66,7 @@ impl Counterexample {
     }
 }
 
-/// What a robot takes in that is no message.
+/// Text of an input that is no message.
 const fn said(input: PaperInput) -> &'static str {
     match input {
         PaperInput::Detected => "pedestrian detected",
@@ -94,7 +94,7 @@ fn content(world: &PaperWorld, flight: PaperFlight) -> String {
         .map_or_else(String::new, |content| content.to_string())
 }
 
-/// What a step changes in the robot that takes it.
+/// Changes in the robot that takes a step, in words.
 fn consequences(step: &Transition) -> Vec<String> {
     if is_restarted(step) {
         return vec!["starts the maneuver a second time".to_owned()];
@@ -148,7 +148,7 @@ fn commanded(before: &PaperRobot, after: &PaperRobot) -> Option<String> {
     }
 }
 
-/// What ends a follower's maneuver, or its wait.
+/// End of a follower's maneuver or wait, in words.
 fn stopped(before: &PaperRobot, after: &PaperRobot) -> Option<String> {
     let falls_back =
         after.progression == Progression::SafeIdle && before.progression != Progression::SafeIdle;

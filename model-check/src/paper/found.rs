@@ -1,4 +1,4 @@
-//! What a run of the paper's wording has come to: which hazard is there.
+//! Hazards that a run of the paper's wording has come to.
 
 use crossguard_protocol::State as Stage;
 
@@ -100,7 +100,7 @@ fn waits_forever(
         })
 }
 
-/// What the step of the robot at `place` from `before` to `after` brings about, as bits.
+/// Hazards that the step of the robot at `place` from `before` to `after` brings about, as bits.
 pub(super) fn brought_about(
     before: &PaperWorld,
     place: RobotIndex,

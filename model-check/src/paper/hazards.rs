@@ -1,4 +1,4 @@
-//! What the paper's text lets happen, each with where it comes from and the rule that closes it: P1 to P9 and P11 to P14, and
+//! Hazards that the paper's text allows, each with its source and the rule that closes it: P1 to P9 and P11 to P14, and
 //! on the road W1 to W4 and W7.
 
 use serde::{Deserialize, Serialize};
@@ -21,7 +21,7 @@ macro_rules! hazards {
 
 hazards! { P1 P2 P3 P4 P5 P6 P7 P8 P9 P11 P12 P13 P14 W1 W2 W3 W4 W7 }
 
-/// What the text says about a hazard.
+/// Relation of the text to a hazard.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Deserialize, Serialize)]
 pub enum HazardKind {
     /// The text states the rule from which it follows.

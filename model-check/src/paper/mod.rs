@@ -47,7 +47,7 @@ use world::PaperWorld;
 /// The name of the report.
 pub const NAME: &str = "paper-literal";
 
-/// What it is about, in one line.
+/// Its subject, in one line.
 pub const SUMMARY: &str =
     "the paper's text as it stands; it must fail, and shows why each rule is there";
 
@@ -91,7 +91,7 @@ const TRIO: Cast = Cast {
     ..CURRENT
 };
 
-/// Somebody is escorted across.
+/// A person is escorted across.
 const ESCORTED: Cast = Cast {
     plan: ESCORT,
     ..PAIR
@@ -116,7 +116,7 @@ const TEAMS: Cast = Cast {
 /// A run that brings a hazard about.
 struct Counterexample {
     text: &'static Text,
-    /// Somebody waits for ever: after the last step nothing happens any more.
+    /// A robot or person waits for ever: after the last step nothing happens any more.
     is_without_end: bool,
     cast: Cast,
     steps: Vec<Transition>,
@@ -128,7 +128,7 @@ struct Transition {
     after: PaperWorld,
 }
 
-/// What stateright found in one cast, of everything that can happen.
+/// Result of stateright's full exploration of one cast.
 struct Exploration {
     unique_states: usize,
     transitions: usize,

@@ -5,7 +5,7 @@ use serde::Deserialize;
 /// A reading of the text. Every reading but the first differs from it in one point.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Deserialize)]
 pub enum Reading {
-    /// What the text says, and nothing that it does not say.
+    /// The text as it stands, with nothing added.
     Literal,
     /// The container of a robot that joins names the leader, and only that robot takes it.
     JoinNamesLeader,
@@ -19,13 +19,13 @@ pub enum Reading {
     OlderRamIgnored,
 }
 
-/// What becomes of a hazard in another reading.
+/// A hazard in another reading.
 #[derive(Clone, Debug, Deserialize)]
 pub struct OtherReading {
     /// The reading.
     pub reading: Reading,
     /// Whether the checker finds the hazard in it too.
     pub remains: bool,
-    /// What is read otherwise, and what that means for the hazard.
+    /// The difference in reading, and its effect on the hazard.
     pub says: String,
 }

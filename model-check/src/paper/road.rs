@@ -1,4 +1,4 @@
-//! What the paper's text means on the road: bodies, a sign and a pedestrian around its robots, and the road
+//! The paper's text on the road: bodies, a sign and a pedestrian around its robots, and the road
 //! properties W1 to W4 and W7 of them.
 //!
 //! Nothing here is a rule of a robot. The bodies do as their robots tell them, and applications are truthful: a
@@ -20,7 +20,7 @@ use super::robot::{
 };
 use crate::walk::{BodyFrame, PersonFrame};
 
-/// What a body does, and by which command of which leader.
+/// Activity of a body, with the leader's command behind it.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum PaperBody {
     Parked,
@@ -47,7 +47,7 @@ pub(super) enum PaperPedestrian {
     Across,
 }
 
-/// What happens on the road by itself.
+/// Events on the road that are no robot's step.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Move {
     /// The pedestrian steps on the road at this leader's word.
@@ -94,7 +94,7 @@ impl Road {
         !matches!(self.pedestrian, PaperPedestrian::OnRoad(_))
     }
 
-    /// What may happen on the road by itself, where these robots let people cross.
+    /// Possible events on the road, where these robots let people cross.
     pub(super) fn moves(&self, inviting: impl Iterator<Item = RobotIndex>, moves: &mut Vec<Move>) {
         match self.pedestrian {
             PaperPedestrian::Waiting => {
@@ -123,7 +123,7 @@ impl Road {
         self.bodies.iter().filter_map(leader).collect()
     }
 
-    /// Somebody at the crossing, as pages show them.
+    /// The person at the crossing, as pages show them.
     pub(super) const fn person(&self) -> PersonFrame {
         match self.pedestrian {
             PaperPedestrian::Waiting => PersonFrame::Waiting,
@@ -132,7 +132,7 @@ impl Road {
         }
     }
 
-    /// What a body does, as pages show it.
+    /// Activity of a body, as pages show it.
     pub(super) fn body(&self, place: RobotIndex) -> BodyFrame {
         match self.bodies[place] {
             PaperBody::Parked => BodyFrame::Parked,
@@ -219,7 +219,7 @@ impl Road {
         after != *self
     }
 
-    /// What the step of the robot at `place` means for its body.
+    /// Applies the step of the robot at `place` to its body.
     pub(super) fn observe(
         &mut self,
         before: &PaperRobot,

@@ -20,7 +20,7 @@ use super::readings::Reading;
 /// A robot's place in the cast.
 pub(super) type RobotIndex = usize;
 
-/// What a robot takes part in, as its RAM tells it: `helpStatus` and the leader-follower container.
+/// Status of a robot, as its RAM tells it: `helpStatus` and the leader-follower container.
 ///
 /// The text gives `helpStatus` three values, and says when they are set: `needHelp` by a request, `offerHelp`
 /// by an answer, `None` by the release. In between, it stays what it was.
@@ -100,7 +100,7 @@ pub(super) enum PaperRmcm {
     Acknowledgement(PaperCommand),
 }
 
-/// What a robot takes in.
+/// Input of a robot.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum PaperInput {
     Ram(RobotIndex, PaperRam),

@@ -15,22 +15,22 @@ use crate::walk::{BodyFrame, PersonFrame};
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct PaperRun {
-    /// What there is to say about it.
+    /// Texts on its hazard.
     #[serde(flatten)]
     pub text: &'static Text,
     /// The robots' names.
     pub robots: Vec<&'static str>,
-    /// What happens, in order.
+    /// Its steps, in order.
     pub steps: Vec<ChartStep>,
     /// How many steps come before the steps that are repeated for ever, where the run is without end.
     pub repeats_after: Option<usize>,
-    /// What is so at the start, and after each step.
+    /// Frames at the start, and after each step.
     pub frames: Vec<PaperFrame>,
     /// The kit in the same story; `None` where no run of it is kept.
     pub beside: Option<KitRun>,
 }
 
-/// What is so in one state.
+/// Robots and person in one state.
 #[derive(Clone, Debug, Serialize)]
 pub struct PaperFrame {
     /// The robots, in the order of their places.
@@ -47,9 +47,9 @@ pub struct PaperRobotFrame {
     pub state: String,
     /// Its side in that state; empty where it has none.
     pub role: &'static str,
-    /// What its RAM says.
+    /// Content of its RAM, in words.
     pub words: String,
-    /// What its body does; parked where the run asks nothing about the road.
+    /// Activity of its body; parked where the run asks nothing about the road.
     pub body: BodyFrame,
     /// The same, in words.
     pub body_words: &'static str,

@@ -7,15 +7,15 @@ use serde::{Deserialize, Serialize};
 use super::hazards::{Hazard, HazardKind, Passage};
 use super::readings::OtherReading;
 
-/// What there is to say about a hazard.
+/// Texts on a hazard.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(rename_all(serialize = "camelCase"))]
 pub struct Text {
     /// Its id.
     pub id: String,
-    /// What happens, in a few words.
+    /// Its name, in a few words.
     pub title: String,
-    /// What the text says about it.
+    /// The text's relation to it.
     pub kind: HazardKind,
     /// Where the text says it, or would have to.
     #[serde(flatten)]
@@ -24,7 +24,7 @@ pub struct Text {
     pub statement: String,
     /// How it comes about.
     pub explanation: String,
-    /// What it means for a person on the road or at the kerb.
+    /// Its meaning for a person on the road or at the kerb.
     pub person: String,
     /// The rule of the protocol that closes it, with the ids of the properties that verify it.
     pub closed_by: String,
@@ -44,7 +44,7 @@ static TEXTS: LazyLock<Texts> = LazyLock::new(|| {
 });
 
 impl Hazard {
-    /// What there is to say about it.
+    /// Its texts.
     ///
     /// # Panics
     /// Never: a test reads the table.
@@ -53,7 +53,7 @@ impl Hazard {
         &TEXTS.hazard[self as usize]
     }
 
-    /// What there is to say about a run that brings it about, beside an escort or not.
+    /// Texts on a run that brings it about, beside an escort or not.
     pub(super) fn text_beside(self, is_escorted: bool) -> &'static Text {
         match self {
             Self::W1 if !is_escorted => &TEXTS.hazard[Self::ALL.len()],

@@ -44,7 +44,7 @@ pub(super) struct PaperWorld {
     pub(super) crashes: u8,
 }
 
-/// What the properties remember; sets of commands are bits by serial number.
+/// Memory of the properties; sets of commands are bits by serial number.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub(super) struct Memory {
     pub(super) given: u8,

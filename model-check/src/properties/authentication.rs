@@ -1,4 +1,4 @@
-//! What a property assumes of senders: who could break it by a lie.
+//! A property's assumptions on senders: insiders that could break it by a lie.
 
 use std::fmt;
 
@@ -29,7 +29,7 @@ impl Insider {
     }
 }
 
-/// What a property assumes of senders.
+/// A property's assumptions on senders.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Authentication {
     /// Whether each message has to be of the station that it names.

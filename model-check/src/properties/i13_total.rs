@@ -13,7 +13,7 @@ property! {
 fn holds(step: &StepView) -> bool {
     let robot = step.after.robot.as_ref();
     let valid = robot.is_none_or(|robot| robot.is_valid(step.config));
-    // What it has heard all the same is not its own.
+    // The record of messages that it heard may change: it is no state of the robot.
     let changes = || {
         let mut after = step.after.clone();
         after.actuation.heard = step.before.actuation.heard;

@@ -1,6 +1,6 @@
 //! L3: if the network is reliable and a helper is available, a request leads to a completed task.
 //!
-//! What that means here is said by [`Scenario::cooperative`](crate::scenario::Scenario::cooperative).
+//! [`Scenario::cooperative`](crate::scenario::Scenario::cooperative) defines both conditions.
 
 use crossguard_protocol::Member;
 

@@ -201,19 +201,19 @@ impl PropertyId {
         self.property().id
     }
 
-    /// What it assumes of senders.
+    /// Its assumptions on senders.
     #[must_use]
     pub const fn authentication(self) -> Authentication {
         self.property().authentication
     }
 
-    /// What is claimed of the model without time.
+    /// Its claim about the model without time.
     #[must_use]
     pub const fn untimed(self) -> Option<&'static Claim> {
         self.property().untimed.as_ref()
     }
 
-    /// What is claimed of the timed model.
+    /// Its claim about the timed model.
     #[must_use]
     pub const fn timed(self) -> Option<&'static Claim> {
         self.property().timed.as_ref()
@@ -231,7 +231,7 @@ impl PropertyId {
         Self::ALL.into_iter().filter(is_claimed)
     }
 
-    /// What the property says: of the model without time, or of the timed one where it is claimed of that alone.
+    /// The property's statement on the model without time, or on the timed one where it is claimed of that alone.
     #[must_use]
     pub fn statement(self) -> &'static str {
         let claim = self.untimed().or_else(|| self.timed());

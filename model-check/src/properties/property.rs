@@ -1,4 +1,4 @@
-//! What a property is: a value with an id, what it says, the rule that judges it, and the weakening of the
+//! A property is a value with an id, a statement, the rule that judges it, and the weakening of the
 //! protocol that breaks it.
 
 use crossguard_protocol::SessionId;
@@ -13,11 +13,11 @@ use super::view::{LivenessSubject, LivenessSubjects, StepView, View};
 pub struct Property {
     /// Its id, the same everywhere: `I4`.
     pub id: &'static str,
-    /// What it assumes of senders.
+    /// Its assumptions on senders.
     pub authentication: Authentication,
-    /// What is claimed of the model without time.
+    /// Its claim about the model without time.
     pub untimed: Option<Claim>,
-    /// What is claimed of the timed model.
+    /// Its claim about the timed model.
     pub timed: Option<Claim>,
 }
 
@@ -31,12 +31,12 @@ impl Property {
     };
 }
 
-/// What a property claims of one model.
+/// A property's claim about one model.
 #[derive(Debug)]
 pub struct Claim {
-    /// What it speaks about.
+    /// Its subject.
     pub kind: Kind,
-    /// What it says.
+    /// Its statement.
     pub statement: &'static str,
     /// The situation that it is about; `None` for one that is about every state. Two parts are joined by `; and`.
     pub premise: Option<&'static str>,
@@ -45,7 +45,7 @@ pub struct Claim {
     pub weakening: &'static str,
 }
 
-/// What a property speaks about.
+/// Subject of a claim.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize)]
 pub enum Kind {
     /// Safety: of every reachable state.

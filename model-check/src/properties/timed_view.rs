@@ -1,4 +1,4 @@
-//! What timed rules see: a state of the timed model, and a step of it.
+//! View of timed rules: a state of the timed model, and a step of it.
 
 use crossguard_protocol::Millis;
 
@@ -9,7 +9,7 @@ use crate::timed::teams::{MAX_TEAMS, Teams};
 use crate::timed::told::Told;
 use crate::timed::watch::StopWatch;
 
-/// What stays the same in all states of a timed model.
+/// The parts of a timed model that all its states share.
 #[derive(Clone, Copy)]
 pub(crate) struct TimedSetup<'a> {
     pub(crate) teams: &'a Teams,
@@ -26,13 +26,13 @@ pub(crate) struct TimedView<'a> {
     pub(crate) shows_go: [bool; MAX_TEAMS],
     /// Whether a sign shows go although a follower of its team fell back for lack of contact.
     pub(crate) is_unguarded: bool,
-    /// What the applications of the leaders know of their followers.
+    /// State of the followers, as the leaders' applications know it.
     pub(crate) told: Told,
     /// For how many ticks the pedestrian has waited for go, or the application for a reason; where that is asked.
     pub(crate) waiting: Option<u8>,
 }
 
-/// What the steps of single robots have shown in one step of the timed model.
+/// Findings on single robots' steps in one step of the timed model.
 #[derive(Clone, Copy)]
 pub(crate) struct RobotSteps {
     /// Every follower that gave its leader up had waited for as long as it promised.

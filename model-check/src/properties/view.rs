@@ -1,4 +1,4 @@
-//! What rules without time see: a state, a robot's step, and the robots that a liveness property is about.
+//! View of rules without time: a state, a robot's step, and the robots that a liveness property is about.
 
 use crossguard_protocol::{
     Config, Event, Following, Input, Leading, Maneuver, Notice, Output, Outputs, Phase, Rmcm,
@@ -44,7 +44,7 @@ pub(crate) struct View<'a> {
     pub(crate) world: &'a dyn Surroundings,
 }
 
-/// What the robots of a state are part of.
+/// Environment of the robots of a state.
 pub(crate) trait Surroundings {
     fn config(&self, place: usize) -> &Config;
 

@@ -1,6 +1,6 @@
 //! W7: once messages arrive and enough helpers are there, a request leads to a finished crossing.
 //!
-//! What that means here is said by [`Scenario::cooperative`](crate::scenario::Scenario::cooperative).
+//! [`Scenario::cooperative`](crate::scenario::Scenario::cooperative) defines both conditions.
 
 use super::l3_help_helps::asks;
 use super::prelude::*;

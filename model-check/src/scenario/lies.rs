@@ -7,7 +7,7 @@ use super::location::Wrong;
 use super::setup::RobotSetup;
 use crate::network::Message;
 
-/// Who lies, by its part in a session.
+/// Part of a liar in a session.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LyingPart {

@@ -1,4 +1,4 @@
-//! What is wrong with a scenario file, and where.
+//! Mistakes in a scenario file, with their places.
 
 pub(crate) enum Location {
     Offset(usize),

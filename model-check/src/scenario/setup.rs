@@ -109,7 +109,7 @@ impl Bounds {
     }
 }
 
-/// What the radio channel does.
+/// Behaviour of the radio channel.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ChannelSetup {

@@ -1,4 +1,4 @@
-//! What can happen in a state: which messages may arrive, which endpoints look, which robots fail, and
+//! Actions that are possible in a state: which messages may arrive, which endpoints look, which robots fail, and
 //! whether time may pass.
 
 use crossguard_protocol::{Corridor, Event, Member, Millis, Phase};
@@ -92,7 +92,7 @@ impl TimedModel {
         }
     }
 
-    /// What the application of the leader does at once: it commands a follower as soon as that has
+    /// Event that the application of the leader reports at once: it commands a follower as soon as that has
     /// joined, and opens the corridor as soon as it may.
     fn leader_event(&self, state: &TimedState, leader: u8) -> Option<Event> {
         let robot = self.node(state, leader).robot.as_ref()?;

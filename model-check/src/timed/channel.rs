@@ -63,7 +63,7 @@ impl TimedChannel {
         self.retain(|it| it.transmission.to != to);
     }
 
-    /// One tick passes. What has been under way for `ticks_max` is lost.
+    /// One tick passes. A message that has been under way for `ticks_max` is lost.
     pub(super) fn tick(&mut self, ticks_max: u8) {
         *self = self.each(|it| {
             let ticks = it.ticks + 1;

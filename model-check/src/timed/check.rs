@@ -78,7 +78,7 @@ fn chart(model: &TimedModel, run: RunOf<TimedModel>) -> Vec<ChartStep> {
     steps
 }
 
-/// What an action is in a chart: what each robot takes in, and what it puts out.
+/// Steps of an action in a chart: each robot's input and outputs.
 fn steps_of(
     model: &TimedModel,
     state: &TimedState,

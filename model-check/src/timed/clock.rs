@@ -7,9 +7,9 @@ use crossguard_protocol::{Millis, Settings};
 pub struct Clock {
     /// True time of one tick.
     pub tick: Millis,
-    /// What a clock that is as slow as it may be shows of a tick.
+    /// Time that a clock as slow as it may be shows of a tick.
     pub slow: Millis,
-    /// What a clock that is as fast as it may be shows of a tick.
+    /// Time that a clock as fast as it may be shows of a tick.
     pub fast: Millis,
 }
 
@@ -33,7 +33,7 @@ impl Clock {
         self.slow != self.fast
     }
 
-    /// What the clock of the robot at `place` shows of a tick in which the clocks of the robots in
+    /// Time that the clock of the robot at `place` shows of a tick in which the clocks of the robots in
     /// `fast`, one bit each, are fast.
     pub(super) const fn elapsed(&self, fast: u8, place: u8) -> Millis {
         if fast & 1 << place == 0 {

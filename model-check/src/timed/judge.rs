@@ -60,7 +60,7 @@ impl TimedModel {
 
     /// Whether nothing more is to be learned from a run.
     pub(super) fn is_over(&self, state: &TimedState) -> bool {
-        // What has not come in time might never come.
+        // An event that is late might never come.
         let ends_run = |id: PropertyId| id.timed_rule().is_some_and(|rule| rule.ends_run);
         let mut broken = PropertyId::ALL.into_iter();
         if state.broken != 0 && broken.any(|id| state.broken & id.timed_bit() != 0 && ends_run(id))

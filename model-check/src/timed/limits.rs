@@ -76,7 +76,7 @@ impl Limits {
     }
 }
 
-/// What comes one after the other before a pedestrian sees go, each as late as it may without being given as a
+/// The longest wait for go. Its parts come one after the other, each as late as it may without being given as a
 /// reason: the roles; a follower that joins, without which it is gone after `t_lost`; the acknowledgement of
 /// its command; and its first report, for which the leader's lease on it waits.
 fn waiting(config: &Config) -> Millis {

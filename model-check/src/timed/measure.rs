@@ -1,4 +1,4 @@
-//! What is measured, and the figures that are read off the stop-watches.
+//! Measures, and the figures that are read off the stop-watches.
 
 use crossguard_protocol::Millis;
 use serde::Serialize;
@@ -13,7 +13,7 @@ use crate::properties::{PropertyId, listed};
 pub struct Figure {
     /// The properties that it is about.
     pub id: String,
-    /// What is measured.
+    /// The measured time, in words.
     pub name: String,
     /// The longest time found, in milliseconds of true time; `None` when it was never measured.
     pub ms: Option<u32>,
@@ -35,7 +35,7 @@ pub(super) enum Measure {
     Waiting,
 }
 
-/// What there is to say about a measure.
+/// A measure with its properties, name and bound.
 pub(super) struct MeasureClaim {
     measure: Measure,
     pub(super) properties: &'static [PropertyId],
@@ -89,7 +89,7 @@ pub(super) const MEASURES: [MeasureClaim; 10] = {
 };
 
 impl Measure {
-    /// What is measured of a hang of the leader, or of a follower.
+    /// Measure of a hang of the leader, or of a follower.
     pub(super) const fn of_hang(leader: bool) -> Self {
         if leader {
             Self::LeaderHung

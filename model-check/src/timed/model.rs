@@ -43,10 +43,10 @@ use crate::scenario::{MAX_ROBOTS, Scenario};
 pub(super) struct TimedRobotStep {
     pub(super) after: u32,
     pub(super) sends: SmallVec<[u16; 2]>,
-    /// What the sign shows from then on, if an output was for it.
+    /// State of the sign from then on, if an output was for it.
     pub(super) sign: Option<Sign>,
     pub(super) telling: Telling,
-    /// What it has to do with the contact to a leader.
+    /// Its effect on the contact to a leader.
     pub(super) contact: ContactChange,
     pub(super) is_ignored: bool,
     pub(super) is_valid: bool,

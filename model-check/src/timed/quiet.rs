@@ -5,16 +5,16 @@ use crossguard_protocol::{Coordination, Input, Millis, Notice, Output, Outputs, 
 
 use crate::serial::beat_is_newer;
 
-/// What a follower has promised and how long it has heard nothing.
+/// Promise of a follower, and the time for which it has heard nothing.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Quiet {
     /// The `t_safety` in its offer.
     promised: Millis,
-    /// What its clock has shown since the last news; `None` once it has given its leader up.
+    /// Time that its clock has shown since the last news; `None` once it has given its leader up.
     shown: Option<Millis>,
 }
 
-/// What a step of a robot has to do with its contact to a leader.
+/// Effect of a robot's step on its contact to a leader.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ContactChange {
     NoLeader,

@@ -50,7 +50,7 @@ pub enum Rates {
     Constant,
 }
 
-/// What makes a scenario a timed one.
+/// The part of a scenario that makes it a timed one.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Timed {
     /// Ticks and clocks.

@@ -11,7 +11,7 @@ pub(super) enum Sign {
 }
 
 impl Sign {
-    /// What the sign shows after this output; `None` for one that is not for it. The only place that knows
+    /// State of the sign after this output; `None` for one that is not for it. No other place knows
     /// which outputs these are.
     pub(super) const fn told(output: &Output) -> Option<Self> {
         match output {

@@ -17,7 +17,7 @@ pub struct TimedState {
     pub(super) channel: TimedChannel,
     pub(super) left: Bounds,
     pub(super) watch: StopWatch,
-    /// What each robot's clock has shown since the robot last took in the time.
+    /// Time that each robot's clock has shown since the robot last took in the time.
     pub(super) untold: [Millis; MAX_ROBOTS],
     /// Which clocks are fast, one bit each, where each keeps its rate for a whole run.
     pub(super) rates: Option<u8>,
@@ -28,11 +28,11 @@ pub struct TimedState {
     /// Since when the pedestrian has waited for go, or the application for a reason, in ticks; where that is
     /// asked.
     pub(super) waiting: Option<u8>,
-    /// What the applications of the leaders know of their followers.
+    /// State of the followers, as the leaders' applications know it.
     pub(super) told: Told,
     /// For how long each robot has heard no news of its leader.
     pub(super) quiet: [Option<Quiet>; MAX_ROBOTS],
-    /// What the step into this state broke, one bit per property.
+    /// Properties that the step into this state broke, one bit each.
     pub(super) broken: u32,
 }
 

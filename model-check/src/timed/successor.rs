@@ -82,7 +82,7 @@ impl TimedModel {
         Some(next)
     }
 
-    /// What robots take in when `action` happens, in this order. A robot takes in the time before
+    /// Inputs of robots when `action` happens, in this order. A robot takes in the time before
     /// anything else.
     fn taken_in(
         &self,
@@ -303,7 +303,7 @@ impl TimedModel {
         }
     }
 
-    /// What robots take in and put out when `action` happens in `state`, for a chart.
+    /// Inputs and outputs of robots when `action` happens in `state`, for a chart.
     pub(super) fn outputs(
         &self,
         state: &TimedState,

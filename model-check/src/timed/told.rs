@@ -1,4 +1,4 @@
-//! What the application of a leader knows of its followers, by the notices alone and not by the protocol state.
+//! State of the followers as a leader's application knows it, by the notices alone and not by the protocol state.
 
 use crossguard_protocol::{Notice, Output, Outputs, StationId};
 
@@ -33,7 +33,7 @@ pub(super) enum Reason {
     Final,
 }
 
-/// What one step of a robot reports to its application.
+/// Report of one step of a robot to its application.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Telling {
     keep: Told,
@@ -42,7 +42,7 @@ pub(super) struct Telling {
 }
 
 impl Telling {
-    /// What `outputs` report, where `bit_of` is the bit of a station's place.
+    /// The report in `outputs`, where `bit_of` is the bit of a station's place.
     pub(super) fn of(outputs: &Outputs, bit_of: impl Fn(StationId) -> u8) -> Self {
         let mut telling = Self {
             keep: Told {
@@ -142,7 +142,7 @@ mod tests {
         assert_eq!(reason, Reason::Lease);
         let (again, _) = told(expired, &[granted]);
         assert!(again.counts_on(0));
-        // What fails last counts.
+        // A failure after the lease was granted again counts.
         let (idle, _) = told(expired, &[granted, Notice::FollowerSafeIdle(STATION, id)]);
         assert!(!idle.counts_on(0));
         let ended = Notice::SessionEnded(session, EndReason::NoFollowers);

@@ -1,4 +1,4 @@
-//! What pages ask of the model: scenarios, what happens along a run, and what properties say. Questions and answers are JSON.
+//! Questions of pages to the model: scenarios, steps along a run, and properties. Questions and answers are JSON.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +25,7 @@ struct PropertyText {
     kind: &'static str,
     statement: &'static str,
     premise: Option<&'static str>,
-    /// What it assumes of the stations that send.
+    /// Its assumptions on the stations that send.
     assumes: String,
     /// The weakening of the protocol that breaks it.
     weakening: &'static str,

@@ -1,4 +1,4 @@
-//! What happens next where nobody chooses: a crossing goes on by its plan, and now and then something else happens.
+//! The next step where nobody chooses: a crossing goes on by its plan, and now and then something else happens.
 
 use crossguard_protocol::{
     Availability, Event, Member, Order, Phase, Progress, Robot, State, Timer,
@@ -101,7 +101,7 @@ fn phase_of<'a>(model: &'a Model, state: &'a ModelState, place: u8) -> Option<&'
     node.robot.as_ref().map(Robot::phase)
 }
 
-/// What an action does for a crossing of one person.
+/// Part of an action in a crossing of one person.
 fn part_of(model: &Model, state: &ModelState, has_crossed: bool, action: Action) -> Part {
     let has_offers = |place| match phase_of(model, state, place) {
         Some(Phase::Requesting(it)) => it.offers.iter().count() >= it.request.followers.into(),

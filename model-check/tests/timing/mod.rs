@@ -1,4 +1,4 @@
-//! What the tests of the timed model share: small pairs, and runs of them.
+//! Fixtures for the tests of the timed model: small pairs, and runs of them.
 
 use crossguard_model_check::check::Options;
 use crossguard_model_check::report::ScenarioReport;
@@ -27,7 +27,6 @@ pub(crate) fn pair(changes: &[(&str, &str)]) -> Scenario {
 
 /// Followers do not fail: that is most of the states.
 pub(crate) const NO_FOLLOWER_FAILS: (&str, &str) = ("disturbances = 1\n", "");
-/// Nobody crashes.
 pub(crate) const NOBODY_CRASHES: (&str, &str) = ("crashes = 1\n", "");
 
 pub(crate) fn run(model: Option<TimedModel>) -> ScenarioReport {

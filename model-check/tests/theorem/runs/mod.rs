@@ -12,7 +12,7 @@ use crossguard_protocol::*;
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
-/// What a robot did, or what happened to it.
+/// A robot's step, or its reboot.
 #[expect(clippy::large_enum_variant, reason = "nearly all are steps")]
 #[derive(Clone)]
 pub(crate) enum Entry {
@@ -246,7 +246,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// What others hear of an output.
+/// The message of an output, as others hear it.
 fn message(after: &Robot, output: &Output) -> Option<Input> {
     match *output {
         Output::SendRam => Some(Input::Ram {
@@ -258,7 +258,7 @@ fn message(after: &Robot, output: &Output) -> Option<Input> {
     }
 }
 
-/// What came of an exchange along a run.
+/// Result of an exchange along a run.
 pub(crate) struct Followed {
     pub(crate) history: History,
     /// After how many steps a corridor was open that rests on the watched heartbeat and request.
