@@ -18,13 +18,13 @@ use crate::table::{Fingerprint, Hint, Table};
 /// The states that may lie on a run, by level; the last one is the state that the run leads to.
 pub(crate) type Candidates = Vec<BTreeSet<Fingerprint>>;
 
-/// What all workers have found, and of each judged property that is broken what may lie on the run into it.
+/// Findings of all workers, and candidates for the run into each judged property that is broken.
 pub(crate) struct Outcome {
     pub(crate) told: Vec<Told>,
     pub(crate) ways: Vec<Option<Candidates>>,
 }
 
-/// What one worker does from its start to its end. All workers come to the same outcome.
+/// Work of one worker from its start to its end. All workers come to the same outcome.
 pub(crate) fn work(worker: &mut Worker, common: &Arc<Common>) -> Outcome {
     let explorer = Explorer::new(common, worker.index(), worker.peers());
     let explorer = Rc::new(RefCell::new(explorer));
@@ -93,7 +93,7 @@ fn explore(worker: &mut Worker, explorer: &Rc<RefCell<Explorer>>) {
     }
 }
 
-/// What each worker says, heard by each; in no order.
+/// Gathers the data of all workers at each worker, in no order.
 pub(crate) fn gather<D: ExchangeData + Clone>(worker: &mut Worker, said: D) -> Vec<D> {
     let peers = worker.peers() as u64;
     let heard = Rc::new(RefCell::new(Vec::new()));
@@ -113,7 +113,7 @@ pub(crate) fn gather<D: ExchangeData + Clone>(worker: &mut Worker, said: D) -> V
     heard.take()
 }
 
-/// What may lie on the run into a state: backwards from it, the states at the level before that one of the hints
+/// Candidates for the run into a state: backwards from it, the states at the level before that one of the hints
 /// may mean. The run is among them, and little else is.
 fn way(worker: &mut Worker, table: &Table, (level, last): (u32, Fingerprint)) -> Candidates {
     let own = table.meant(level, &BTreeSet::from([last.hint()]));

@@ -1,4 +1,4 @@
-//! What one worker does: it keeps the states that it owns, and expands them.
+//! One worker: it keeps the states that it owns, and expands them.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
@@ -45,7 +45,7 @@ impl Sighting {
 }
 
 impl Found {
-    /// What decides which worker it goes to.
+    /// The number that decides which worker it goes to.
     pub(crate) const fn share(&self) -> u64 {
         self.sighting.fingerprint.share()
     }

@@ -4,7 +4,7 @@
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Hosts(Vec<String>);
 
-/// What is wrong with a file of hosts, or with the number of a process.
+/// Fault of a file of hosts, or of the number of a process.
 #[derive(Debug, thiserror::Error)]
 pub enum HostsError {
     /// A line is no address.
@@ -14,7 +14,7 @@ pub enum HostsError {
     NoAddress {
         /// The line, counted from 1.
         line: usize,
-        /// What it says.
+        /// Its text.
         text: String,
     },
     /// Two processes would listen at the same address.

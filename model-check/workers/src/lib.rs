@@ -12,8 +12,8 @@
 //!               the shortest run into each ──► report
 //! ```
 //!
-//! What is judged is what states and steps show: invariants, properties of steps, deadlocks, premises. What needs
-//! the graph of all states (L1 to L7) is not, and the report says so by name.
+//! States and steps are judged: invariants, properties of steps, deadlocks, premises. Properties that need
+//! the graph of all states (L1 to L7) are not, and the report says so by name.
 //!
 //! States are compared by 92 bits of a fingerprint, so a verdict holds up to a collision; the report has the
 //! probability of one. A process that ends early ends the check of all others as incomplete.

@@ -35,7 +35,7 @@ const GRACE: Duration = Duration::from_secs(20);
 /// With what the names of threads begin that timely ends early where a peer is gone.
 const OF_TIMELY: &str = "timely:";
 
-/// What the last thread of timely that ended early has said.
+/// Message of the last thread of timely that ended early.
 static LAST_WORDS: Mutex<Option<String>> = Mutex::new(None);
 
 /// Runs the workers to their end. `watch` receives the progress every half second.
@@ -138,7 +138,7 @@ fn set_up(common: &Common, options: &Options) -> Result<Setup, WorkersError> {
     })
 }
 
-/// What has to be the same in all processes: what states and their fingerprints mean, which worker owns them, and the limits.
+/// Digest of the data that must be the same in all processes: scenario, program, numbers of workers, and limits.
 fn digest(common: &Common, options: &Options) -> u128 {
     let processes = options.cluster.as_ref().map_or(1, Cluster::processes);
     let shares = (processes, options.workers.get());

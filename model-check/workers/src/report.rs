@@ -1,4 +1,4 @@
-//! What the workers found, in the form of every other check.
+//! Results of the workers, in the form of every other check.
 
 use std::sync::atomic::Ordering;
 use std::time::Duration;

@@ -20,7 +20,7 @@ const HINT_BITS: u32 = 28;
 const SEGMENT_BITS: u32 = 8;
 /// Bits of a fingerprint that choose a bucket of its segment.
 const HALF_BITS: u32 = (FINGERPRINT_BITS - SEGMENT_BITS) / 2;
-/// What is left of these bits once the bucket is known.
+/// The number of these bits that are left once the bucket is known.
 const REST_BITS: u32 = 33;
 const ENTRY_BITS: u32 = HINT_BITS + LEVEL_BITS + 1 + HALF_BITS + REST_BITS;
 const ENTRY_BYTES: usize = (ENTRY_BITS / 8) as usize;
@@ -56,7 +56,7 @@ impl Fingerprint {
         Self(hash >> (u128::BITS - FINGERPRINT_BITS))
     }
 
-    /// What decides which worker owns the state.
+    /// The number that decides which worker owns the state.
     #[expect(clippy::cast_possible_truncation, reason = "the lowest bits are meant")]
     pub(crate) const fn share(self) -> u64 {
         self.0 as u64
@@ -71,7 +71,7 @@ impl Fingerprint {
         (self.0 >> (2 * HALF_BITS)) as usize
     }
 
-    /// What chooses its bucket on this side.
+    /// The bits that choose its bucket on this side.
     #[expect(clippy::cast_possible_truncation, reason = "42 bits are meant")]
     const fn half(self, side: Side) -> u64 {
         (match side {

@@ -17,7 +17,7 @@ fn untimed(states_max: usize) -> impl Iterator<Item = &'static str> {
     })
 }
 
-/// What a test without patience explores.
+/// The most states that a test without patience explores.
 const SMALL: usize = 120_000;
 
 fn explored(name: &str, number: usize) -> WorkersReport {
@@ -38,8 +38,8 @@ fn verdicts(report: &ScenarioReport) -> Vec<String> {
     properties.map(verdict).collect()
 }
 
-/// That the kit's own exploration and stateright find the size that a file says is tested in
-/// `model-check/tests/scenarios.rs`.
+/// A test in `model-check/tests/scenarios.rs` shows that the kit's own exploration and stateright find the size
+/// that a file says.
 fn assert_size_of_file(report: &WorkersReport) {
     let scenario = &report.scenario;
     let name = &scenario.name;

@@ -27,7 +27,7 @@ pub(crate) fn hosts(number: usize) -> Hosts {
     Hosts::parse(&lines.join("\n")).unwrap()
 }
 
-/// What each of some processes reports, of this number of workers each.
+/// Reports of some processes, with this number of workers each.
 pub(crate) fn by_processes(
     model: &(dyn Fn() -> Model + Sync),
     processes: usize,
