@@ -15,7 +15,7 @@ use crate::exchange::{Exchange, Happening, Message, Player, RamSeen, Seen};
 use crate::station::PlayedStation;
 use crate::subject::{Gone, Local, NotTold, Packet, Subject, Telling};
 
-/// What the tester assumes of the robot under test.
+/// The tester's assumptions on the robot under test.
 #[derive(Clone, Debug)]
 pub struct Terms {
     /// Its settings.
@@ -25,7 +25,7 @@ pub struct Terms {
     pub slack_ms: u64,
     /// How much earlier, in ms: what clocks and time stamps may differ.
     pub early_ms: u64,
-    /// What no standard has assigned.
+    /// Identifiers that no standard has assigned.
     pub identifiers: Identifiers,
     /// The tester's stations, in the order of [`Player::ALL`].
     pub players: [StationId; 2],
@@ -80,7 +80,7 @@ pub(crate) struct Bench<'a, S> {
     sent: Option<(Command, TaskParameters)>,
     /// The newest heartbeat of the robot under test.
     newest: Option<Heartbeat>,
-    /// What could not be told to the robot.
+    /// Why an event could not be told to the robot.
     pub(crate) not_told: Option<NotTold>,
     /// The number of Ada's next command.
     pub(crate) next_request: RequestId,
@@ -255,7 +255,7 @@ impl<'a, S: Subject> Bench<'a, S> {
         packet.map_err(failed)
     }
 
-    /// Tells the robot something; whether it is to be waited for. What cannot be told is kept.
+    /// Tells the robot something; whether it is to be waited for. The cause is kept where it cannot be told.
     pub(crate) fn tell(&mut self, local: Local) -> bool {
         // It may act on it before this comes back.
         let at_ms = self.subject.now_ms();

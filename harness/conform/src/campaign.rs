@@ -13,7 +13,7 @@ use crate::rules::Rule;
 use crate::statements::Statement;
 use crate::subject::{Gone, Subject};
 
-/// What came of a rule.
+/// Verdict on a rule.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Verdict {
@@ -23,7 +23,7 @@ pub enum Verdict {
     Fail,
     /// None of its statements was met.
     NotObserved,
-    /// Nobody can judge it without a look inside.
+    /// Only a look inside can judge it.
     Beyond,
 }
 
@@ -33,13 +33,13 @@ pub enum Verdict {
 pub struct Broken {
     /// The statement.
     pub statement: &'static str,
-    /// What it says.
+    /// Its text.
     pub says: &'static str,
     /// The case, in words.
     pub case: String,
     /// The situation of the robot.
     pub situation: String,
-    /// What it did.
+    /// The breach, in words.
     pub how: String,
     /// The exchange as a chart, in text.
     pub chart: String,
@@ -51,7 +51,7 @@ pub struct Broken {
 pub struct RuleVerdict {
     /// Its id.
     pub rule: &'static str,
-    /// What it says.
+    /// Its text.
     pub says: &'static str,
     /// The verdict.
     pub verdict: Verdict,
@@ -61,11 +61,11 @@ pub struct RuleVerdict {
     pub broken: Vec<Broken>,
     /// Its statements that were never met.
     pub not_observed: Vec<&'static str>,
-    /// What of it cannot be judged from outside.
+    /// The part of it that cannot be judged from outside.
     pub unjudged: Option<&'static str>,
 }
 
-/// What came of a campaign.
+/// Result of a campaign.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Report {
@@ -143,8 +143,8 @@ impl Campaign {
         Case::all().into_iter().filter(is_asked).collect()
     }
 
-    /// Plays a case against a robot that is at rest. What is broken is played once more, with the robot started anew,
-    /// and counts if it is broken again: a machine or a link may be late once.
+    /// Plays a case against a robot that is at rest. After a breach it plays the case once more, with the robot started
+    /// anew. Only a statement that is broken again counts: a machine or a link may be late once.
     ///
     /// # Errors
     /// The robot or the link is gone.

@@ -15,7 +15,7 @@ const CASES: &str = include_str!("cases.txt");
 /// A case.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct Case {
-    /// What the tester does.
+    /// The tester's plays, in order.
     pub plays: Vec<Play>,
     /// The statements that it is there for, by name.
     pub statements: Vec<String>,
@@ -41,7 +41,7 @@ impl Case {
         })
     }
 
-    /// What the tester does, in words.
+    /// The tester's plays, in words.
     #[must_use]
     pub fn words(&self) -> String {
         let words: Vec<_> = self.plays.iter().map(|play| play.words()).collect();
@@ -49,7 +49,7 @@ impl Case {
     }
 }
 
-/// What became of a case.
+/// Result of a case.
 #[derive(Clone, Debug)]
 pub struct Played {
     /// All that was seen.
@@ -66,9 +66,9 @@ pub enum Stopped {
     /// The robot's situation is not the one that the next play needs.
     #[error("the robot is {situation}, which is no situation for '{play}'")]
     OutOfPlace {
-        /// What the robot says.
+        /// The robot's situation by its messages.
         situation: String,
-        /// What was to be done.
+        /// The play that was to be done.
         play: &'static str,
     },
     /// Something could not be brought about at the robot.
@@ -84,9 +84,9 @@ pub enum Stopped {
 pub struct Table {
     /// The robot under test.
     pub robot: StationId,
-    /// What is assumed of it.
+    /// Assumptions on it.
     pub terms: Terms,
-    /// What stands around the packets of the tester's stations.
+    /// Envelopes of the packets of the tester's stations.
     pub envelopes: [Envelope; 2],
     /// The boot counter of the tester's stations; larger at each case.
     pub boot: u16,

@@ -1,4 +1,4 @@
-//! What was sent, heard and told in one case, in order: all that a verdict may look at.
+//! Messages and events of one case, sent, heard and told, in order: all that a verdict may look at.
 
 use std::ops::RangeBounds;
 
@@ -37,11 +37,11 @@ impl Player {
 /// A RAM, as far as rules are about it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct RamSeen {
-    /// What it says of coordination.
+    /// Its part on coordination.
     pub ram: Ram,
     /// Whether its sender takes part.
     pub availability: Availability,
-    /// What its sender shows to pedestrians, where it says so.
+    /// Its sender's sign to pedestrians, where it says one.
     pub sign: Option<PublicSignal>,
     /// How fast its sender moves, in m/s, where it says so.
     pub speed_mps: Option<f64>,
@@ -51,7 +51,7 @@ pub struct RamSeen {
 const MOVES_MPS: f64 = 0.5;
 
 impl RamSeen {
-    /// That of a station that takes part, and says nothing of a sign and of its speed.
+    /// A RAM of a station that takes part, and says nothing of a sign and of its speed.
     pub(crate) const fn of(ram: Ram) -> Self {
         Self {
             ram,
@@ -181,7 +181,7 @@ impl RamSeen {
     }
 }
 
-/// What a message says.
+/// Content of a message.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[allow(clippy::large_enum_variant, reason = "most of them are RAM")]
 pub enum Message {
@@ -269,7 +269,7 @@ pub struct Exchange {
     pub robot: StationId,
     /// The tester's stations, in the order of [`Player::ALL`].
     pub players: [StationId; 2],
-    /// What happened, in order.
+    /// The messages and events, in order.
     pub seen: Vec<Seen>,
     /// Until when the tester listened.
     pub ended_ms: u64,
@@ -320,7 +320,7 @@ impl Exchange {
             .filter_map(|(at, it)| Some((at, it.answer()?)))
     }
 
-    /// What was told to the robot.
+    /// Events that were told to the robot.
     pub(crate) fn told(&self) -> impl DoubleEndedIterator<Item = (u64, Local)> {
         self.seen.iter().filter_map(|seen| match seen.what {
             Happening::Told(local) => Some((seen.at_ms, local)),

@@ -14,7 +14,7 @@ use crate::subject::{Gone, Local, NotTold, Packet, Subject, Telling};
 /// How what happens at the robot comes about.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Events {
-    /// Nobody brings it about.
+    /// Not at all.
     Nobody,
     /// By lines on the standard input of the process that was started, as `crossguard run` takes them.
     Typed,
@@ -183,7 +183,7 @@ impl Subject for Live {
             return Err(NotTold::NoRestart);
         };
         self.end();
-        // What its last life said does not count.
+        // Messages of its last life do not count.
         while let Ok(Some(_)) = self.link.receiver.receive(Duration::from_millis(1)) {}
         let child = shell(&format!("exec {start}"))
             .stdin(Stdio::piped())

@@ -14,7 +14,7 @@ use crate::play::{Play, Side};
 use crate::subject::{Gone, Subject};
 use crate::words;
 
-/// What became of a play.
+/// Outcome of a play.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Performed {
     /// It was done.
@@ -55,7 +55,7 @@ impl<S: Subject> Bench<'_, S> {
         Ok(performed)
     }
 
-    /// What the robot says, but for what changes with every RAM.
+    /// The robot's newest RAM in words, without the parts that change with every RAM.
     fn essence(&self) -> Option<String> {
         let said = self.said()?;
         let part = words::part(&said.ram.coordination);

@@ -1,4 +1,4 @@
-//! What the tester can do: the words in which cases are written.
+//! Plays of the tester: the words in which cases are written.
 
 use crossguard_protocol::{Millis, StationId, TaskType, Unavailability};
 
@@ -136,7 +136,7 @@ plays! {
     };
 }
 
-/// Who does something.
+/// The side that brings a play about.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Side {
     /// The tester asks for help, or competes with the robot.
@@ -147,7 +147,7 @@ pub(crate) enum Side {
     Commands,
     /// The tester helps and follows the robot.
     Helps,
-    /// Somebody at the robot's side brings this about, where Ada has this station id.
+    /// An event at the robot's side, where Ada has this station id.
     Happens(fn(StationId) -> Local),
     /// The tester does what needs no part in a session.
     Other,
@@ -173,7 +173,7 @@ impl Play {
         known.map_or(Side::Other, |(_, side, _)| *side)
     }
 
-    /// What has to be told to the robot for it.
+    /// The event that has to be told to the robot for it.
     #[must_use]
     pub fn local(self, ada: StationId) -> Option<Local> {
         match self.side() {

@@ -5,7 +5,7 @@
 pub struct Rule {
     /// Its id in the index of the protocol's page.
     pub id: &'static str,
-    /// What it says there.
+    /// Its text there.
     pub says: &'static str,
     /// Why nothing of it can be judged from outside, or what of it cannot.
     pub unjudged: Option<&'static str>,

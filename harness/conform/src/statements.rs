@@ -1,4 +1,4 @@
-//! What must be true of every exchange: plain statements over messages and times, each about one rule.
+//! Statements about every exchange: plain ones over messages and times, each about one rule.
 //!
 //! None of them calls the transition function, and none knows a state of it: a statement reads what was sent, heard
 //! and told, and says where its premise was met and whether it was kept there.
@@ -66,7 +66,7 @@ pub struct Statement {
     pub name: &'static str,
     /// The rule that it is about, as in the index of the protocol's page.
     pub rule: &'static str,
-    /// What it says.
+    /// Its text.
     pub says: &'static str,
     judge: fn(&Trace) -> Vec<Met>,
 }
@@ -151,7 +151,7 @@ impl Trace<'_> {
         met_when(at_ms, self.situation_at(at_ms), broken)
     }
 
-    /// What the robot has to say within `limit_ms`, in words. `None` if it does not say it, and something else was done
+    /// A message that the robot has to send within `limit_ms`. `None` if it does not send it, and something else was done
     /// in between.
     fn due(
         &self,
@@ -186,7 +186,7 @@ impl Trace<'_> {
         self.ram_due(at_ms, self.soon_ms(), what, is_it)
     }
 
-    /// What no RAM may say while nothing else is done; `how` has words for one that says it so much later. `None` if
+    /// A RAM that must not come while nothing else is done; `how` has words for one that comes so much later. `None` if
     /// something else was done too soon.
     fn never(
         &self,

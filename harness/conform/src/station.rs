@@ -8,7 +8,7 @@ use crossguard_protocol::{
 /// A task that no robot offers.
 pub(crate) const UNSUPPORTED: u8 = 9;
 
-/// What a station's heartbeats, or the heartbeats that it echoes, do.
+/// Course of a station's heartbeats, or of the heartbeats that it echoes.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 pub enum Beating {
     /// Each RAM has a newer one.
@@ -27,7 +27,7 @@ pub enum Beating {
 pub(crate) struct PlayedStation {
     pub(crate) id: StationId,
     pub(crate) stack: Stack,
-    /// What it says of its part in a session; heartbeats and echoes are those of the next RAM. `None` if it sends
+    /// Its part in a session; heartbeats and echoes are those of the next RAM. `None` if it sends
     /// nothing, but for farewells.
     pub(crate) part: Option<Coordination>,
     pub(crate) beating: Beating,

@@ -19,7 +19,7 @@ pub enum Local {
     Done,
     /// The maneuver that runs cannot be finished.
     Fail,
-    /// Nobody is on the road any more, and the body has finished its fallback.
+    /// The road is clear, and the body has finished its fallback.
     Clear,
     /// Let the pedestrian cross.
     Open,
@@ -69,7 +69,7 @@ pub enum NotTold {
     /// The way failed.
     #[error("'{what}': {why}")]
     Failed {
-        /// What was to be told.
+        /// The event that was to be told.
         what: String,
         /// Why it was not.
         why: String,
@@ -107,7 +107,7 @@ pub enum Gone {
 pub struct Packet {
     /// When it arrived, in ms on the tester's clock.
     pub at_ms: u64,
-    /// What it holds.
+    /// The packet itself.
     pub octets: Vec<u8>,
 }
 

@@ -10,7 +10,7 @@ use crossguard_protocol::{Config, Robot, StationId};
 mod in_process;
 use in_process::{InProcess, table};
 
-/// What no case brings about yet.
+/// Statements that no case meets yet.
 const NOT_MET: [&str; 2] = ["the-nearer-is-chosen", "unfit-offers-are-not-taken"];
 
 #[test]

@@ -1,4 +1,4 @@
-//! What the verdicts are good for: a robot without a rule fails that rule, or the table says why nobody can see it.
+//! Verdicts on weakened robots: a robot without a rule fails that rule, or the table says why nobody can see it.
 
 use std::collections::BTreeSet;
 

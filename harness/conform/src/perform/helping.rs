@@ -119,7 +119,7 @@ impl<S: Subject> Bench<'_, S> {
 
     fn follow(&mut self, player: Player, session: SessionId, last: Option<Report>) {
         let station = self.station(player);
-        // Who takes part says no farewell.
+        // A station that takes part says no farewell.
         station.farewell = None;
         station.part = Some(Coordination::Follower {
             session,

@@ -256,7 +256,7 @@ fn fallen_back_stays(trace: &Trace) -> Vec<Met> {
     })
 }
 
-/// What must not be answered and must start nothing.
+/// Commands that must not be answered and must start nothing.
 fn change_nothing(trace: &Trace, commands: impl Iterator<Item = (u64, Command)>) -> Vec<Met> {
     let judge = |(at_ms, command): (u64, Command)| {
         let until_ms = trace.undisturbed_until(at_ms);

@@ -55,7 +55,7 @@ fn fallbacks(trace: &Trace) -> Vec<(u64, SessionId)> {
 
 fn not_before_t_safety(trace: &Trace, (at, session): (u64, SessionId)) -> Option<Met> {
     let early_ms = trace.terms.early_ms;
-    // What arrived just before cannot have been in that RAM.
+    // News that arrived just before cannot have been in that RAM.
     let since = newest_news(trace, session, at.saturating_sub(early_ms))?;
     let t_safety_ms = t_safety_ms(trace, session);
     let waited_ms = at - since;

@@ -111,7 +111,7 @@ fn other_ends_change_nothing(
     (at, session, _): (u64, SessionId, Ending),
 ) -> Option<Met> {
     let own = trace.state_at(at)?.session()?;
-    // What else that RAM says must not be news.
+    // The other parts of that RAM must not be news.
     let spoke = trace
         .played_rams()
         .any(|(then, it)| it.ram.station == session.leader && then < at && then + 300 > at);

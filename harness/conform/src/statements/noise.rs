@@ -1,4 +1,4 @@
-//! What means nothing changes nothing.
+//! Meaningless packets change nothing.
 
 use super::{Met, Trace, met_when};
 use crate::exchange::Happening;

@@ -15,7 +15,7 @@ statements! {
         "A requester or leader does not give way to a rival of the same kind that goes behind.";
 }
 
-/// What somebody claims: how urgent, where, and whether by leading already.
+/// Claim of a rival: how urgent, where, and whether by leading already.
 #[derive(Clone, Copy)]
 struct Claim {
     session: SessionId,

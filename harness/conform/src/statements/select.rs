@@ -98,7 +98,7 @@ fn leads_chosen_helpers_alone(trace: &Trace) -> Vec<Met> {
     all
 }
 
-/// Who says that it follows, and is not listed, is not listed for that.
+/// A station that says that it follows, and is not listed, is not listed for that.
 fn nobody_is_added(trace: &Trace) -> Option<Met> {
     let (at, session, who) = trace.played_rams().find_map(|(at, played)| {
         let (session, _) = played.following()?;

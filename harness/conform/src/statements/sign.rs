@@ -1,4 +1,4 @@
-//! What a leader shows to pedestrians, where its RAM say so.
+//! Sign of a leader to pedestrians, where its RAM tell it.
 
 use crossguard_protocol::{Command, Coordination, Heartbeat, Progress, SessionId};
 
@@ -22,7 +22,7 @@ statements! {
 /// RAM say what is shown twice a second.
 const SAID_MS: u64 = 500;
 
-/// What a follower has reported at last of a command by this time.
+/// The last report of a follower on a command by this time.
 fn progress_of(trace: &Trace, command: Command, until_ms: u64) -> Option<Progress> {
     let mut newest: Option<Heartbeat> = None;
     let mut known = None;
@@ -133,7 +133,7 @@ fn go_over_guards(trace: &Trace) -> Vec<Met> {
             all.push(met_when(at, "without a session", broken));
             continue;
         };
-        // What was so a moment ago may have been what it knew.
+        // The robot may have known only the situation of a moment ago.
         let since = at.saturating_sub(trace.soon_ms());
         let times = trace.seen.iter().map(|seen| seen.at_ms);
         let times = times.filter(|then| (since..=at).contains(then));
@@ -174,7 +174,7 @@ fn ended_by_reports(trace: &Trace) -> Vec<Met> {
 }
 
 fn go_can_be_shown(trace: &Trace, (at, session): (u64, SessionId)) -> Option<Met> {
-    // What is so must have been heard.
+    // The robot must have had time to hear of the situation.
     let was_so = obstacle(trace, session, at.saturating_sub(200)).is_none();
     if !was_so || obstacle(trace, session, at).is_some() {
         return None;

@@ -189,7 +189,7 @@ impl<P: StateMachine, F: Fn(StationId, u16) -> P> Subject for InProcess<P, F> {
     }
 
     fn send(&mut self, packet: &[u8]) -> Result<(), Gone> {
-        // What comes of it comes later.
+        // The robot reacts later than the tester sent.
         self.now_ms += 1;
         let arrived_ms = self.now_ms;
         self.handle(Stimulus::Datagram { packet, arrived_ms });
