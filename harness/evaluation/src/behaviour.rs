@@ -14,7 +14,7 @@ use super::vru::{Suppression, Understands, VamRule};
 pub struct Behaviour {
     /// When a device sends its VAM.
     pub vam: VamRule,
-    /// What devices understand of a cluster.
+    /// Announcements of a cluster that devices understand.
     pub understands: Understands,
     /// Whether a device has to be perceived to fall silent.
     pub suppression: Suppression,

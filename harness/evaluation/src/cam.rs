@@ -64,7 +64,7 @@ fn basic_container() -> Value {
     })
 }
 
-/// What every CAM has; nothing optional.
+/// The container that every CAM has, without optional fields.
 fn high_frequency() -> Value {
     json!({
         "heading": {"headingValue": 900, "headingConfidence": 10},

@@ -2,8 +2,8 @@
 //! holds sessions.
 //!
 //! Every second robot asks for help again and again, at a place of its own, and any other may be its follower. The
-//! leader commands `initialPos` and `block`, and ends the session after the time that was asked for. What the robots
-//! say goes over the channel, and only what is heard there is known: offers, heartbeats, commands and answers may be
+//! leader commands `initialPos` and `block`, and ends the session after the time that was asked for. The robots'
+//! messages go over the channel. A robot knows only what it hears there: offers, heartbeats, commands and answers may be
 //! lost, as everything else.
 
 use crossguard_protocol::{
@@ -48,7 +48,7 @@ pub(super) struct Crew {
     elapsed_to_ms: u64,
     /// When it asks for help; never if it only follows.
     asks_ms: Option<u64>,
-    /// What its application is about to tell, and when.
+    /// Events that its application is about to report, each with its time in ms.
     plans: Vec<(u64, Event)>,
     said: Vec<Said>,
 }
@@ -70,7 +70,7 @@ impl Crew {
         }
     }
 
-    /// What its RAM says of its part in a session.
+    /// Its part in a session, as its RAM tells it.
     pub(super) fn ram(&self) -> Ram {
         self.robot.ram()
     }

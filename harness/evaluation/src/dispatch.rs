@@ -156,7 +156,7 @@ mod tests {
         }
     }
 
-    /// Somebody leaves the first place after a minute, is within 15 m of the second one at 102.5 s, and stays there.
+    /// A person leaves the first place after a minute, is within 15 m of the second one at 102.5 s, and stays there.
     #[test]
     fn a_robot_follows_people_once_it_hears_that_they_are_elsewhere_and_not_without_evidence() {
         let at = |sample: u32| [(f64::from(sample) - 120.0).clamp(0.0, 100.0), 3.0];

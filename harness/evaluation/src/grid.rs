@@ -100,7 +100,7 @@ impl Grid {
     /// Checks that it is one.
     ///
     /// # Errors
-    /// What is wrong.
+    /// A parameter is out of its range.
     pub fn check(&self) -> Result<(), &'static str> {
         match self {
             Self { nodes_per_side, .. } if !(2..=26).contains(nodes_per_side) => {

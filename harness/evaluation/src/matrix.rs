@@ -12,7 +12,7 @@ use super::stationing::Stationing;
 use super::statistics::Estimate;
 use super::trace::Traces;
 
-/// What to vary.
+/// Parameters that vary.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Axes {
     /// Numbers of robots.
@@ -65,7 +65,7 @@ pub struct CbrCell {
     pub mcbr: Estimate,
     /// How much less it is than without robots, in percent of that.
     pub reduction_percent: Estimate,
-    /// What the law says: coverage times the share of VAM less that of RAM, in percent.
+    /// Prediction by the law: coverage times the share of VAM less that of RAM, in percent.
     pub predicted_percent: Estimate,
     /// Share of devices' time without VAM of their own, in percent.
     pub passive_percent: Estimate,

@@ -59,7 +59,7 @@ impl Streets {
     }
 }
 
-/// What is wanted of a net.
+/// The parts of a net that runs need.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Net {
     /// Least and most metres to the east and to the north: west, south, east, north.

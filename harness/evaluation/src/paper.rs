@@ -1,4 +1,4 @@
-//! What the paper states of its simulation, as values in one place.
+//! The paper's statements on its simulation, as values in one place.
 //!
 //! Only text is quoted; bars of the paper's figures are not read off. [`statements`](super::statements) compares
 //! these with a run.
@@ -16,7 +16,7 @@ pub struct StatedRange {
     pub rounding: f64,
 }
 
-/// What the paper states of its simulation (section III-B).
+/// Values of the paper's simulation (section III-B).
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub struct PaperSimulation {
     /// Intersections along a side of the grid.
@@ -48,7 +48,7 @@ pub struct PaperSimulation {
     pub reduction_most_percent: StatedRange,
 }
 
-/// What the paper states.
+/// The paper's values.
 pub const PAPER: PaperSimulation = PaperSimulation {
     nodes_per_side: 3,
     segment_m: 100.0,

@@ -18,7 +18,7 @@ const SIFS_US: u64 = 32;
 /// Window over which the channel busy ratio is taken, in microseconds.
 pub const WINDOW_US: u64 = 100_000;
 
-/// What the channel is like. The paper states the power, 200 mW, and the frequency, 5.9 GHz.
+/// Properties of the channel. The paper states the power, 200 mW, and the frequency, 5.9 GHz.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Radio {
@@ -30,11 +30,11 @@ pub struct Radio {
     pub loss_at_1_m_db: f64,
     /// Path loss exponent.
     pub exponent: f64,
-    /// Who receives less does not sense the channel busy, in dBm.
+    /// Least received power that a station senses as a busy channel, in dBm.
     pub sense_dbm: f64,
     /// Noise with the receiver's noise figure, in dBm.
     pub noise_dbm: f64,
-    /// Who receives a frame with less signal to interference and noise loses it, in dB.
+    /// Least ratio of signal to interference and noise at which a frame is received, in dB.
     pub sinr_min_db: f64,
     /// Arbitration interframe space number; 6 for best effort, in which CAM and VAM go.
     pub aifsn: u32,
@@ -236,8 +236,8 @@ impl Channel {
         }
     }
 
-    /// A station that waits and hears a transmission begin waits on: what is left of its slots counts again once
-    /// the channel is idle. Who would have sent in this very slot still does, which is a collision.
+    /// Contending stations in range freeze their backoff: the slots that are left count again once the channel is
+    /// idle. A station whose backoff ends in this very slot sends all the same, which is a collision.
     fn postpone(
         &mut self,
         sender: usize,

@@ -33,9 +33,9 @@ const SENSED_BEYOND_M: f64 = 5.0;
 #[derive(Clone, Debug)]
 pub(super) struct Message {
     pub(super) octets: usize,
-    /// What it announces to devices, as it is received.
+    /// The announcement to devices, as they receive it.
     pub(super) announced: Option<Announcement>,
-    /// What it says to robots that coordinate.
+    /// The message to robots that coordinate.
     said: Option<Said>,
     from: Point,
 }
@@ -49,7 +49,7 @@ pub enum RobotError {
     /// It cannot be encoded.
     #[error(transparent)]
     NotEncodable(#[from] crossguard_codec::EncodeError),
-    /// What was encoded cannot be decoded.
+    /// The encoded message cannot be decoded.
     #[error(transparent)]
     NotDecodable(#[from] crossguard_codec::DecodeError),
     /// A cluster VAM cannot be made.
@@ -198,7 +198,7 @@ impl<'a> Robot<'a> {
         }
     }
 
-    /// What is on the grid's plane, on the one that the robot keeps.
+    /// A cluster on the grid's plane, moved to the plane that the robot keeps.
     fn on_own_plane(&self, cluster: &Announced) -> Option<Announced> {
         let origin = self
             .surroundings
@@ -347,7 +347,7 @@ impl<'a> Robot<'a> {
         Self::by_vam(announced, octets)
     }
 
-    /// That one of these is over.
+    /// The VAM that ends the cluster of this id.
     fn breakup_vam(&self, id: u8, octets: usize) -> Message {
         let announced = Announcement {
             head: self.station,

@@ -49,7 +49,7 @@ pub enum ScheduleError {
         line: u64,
         /// Which robot.
         robot: String,
-        /// What is wrong.
+        /// The mistake.
         what: &'static str,
     },
     /// There is none.

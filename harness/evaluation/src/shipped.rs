@@ -47,7 +47,7 @@ pub fn traces(preset: Preset, pedestrians: usize) -> Option<Result<Traces, Trace
 
 macro_rules! school_street {
     ($($run:literal)*) => {
-        /// Who comes to the school street, as SUMO's floating car data: 20 runs. Its net and demand stand beside them in
+        /// The people on the school street, as SUMO's floating car data: 20 runs. Its net and demand stand beside them in
         /// `places/school-street`.
         pub const SCHOOL_STREET: &[&[u8]] =
             &[$(include_bytes!(concat!("../places/school-street/", $run, ".xml.gz"))),*];

@@ -2,7 +2,7 @@
 //!
 //! Event by event, in microseconds. Every station checks its generation rule every 100 ms, each at its
 //! own phase; the message is ready a moment later, waits for the channel, and is heard when its frame
-//! ends. What a robot announces goes through the octets of a real RAM, and a device decides by what it
+//! ends. A robot's announcement goes through the octets of a real RAM, and a device decides by the messages that it
 //! heard whether it falls silent.
 
 #![allow(clippy::similar_names, reason = "the same time in us and in ms")]
@@ -37,7 +37,7 @@ pub const SETTLING_US: u64 = 5_000_000;
 /// Frames that a station keeps waiting at most; a further one takes the place of the oldest.
 const QUEUE_MAX: usize = 2;
 
-/// What was measured in a run.
+/// Measurements of a run.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Measured {
     /// Mean channel busy ratio over vehicles, devices and windows of 100 ms, 0..1. Robots are left out, so that it is

@@ -93,7 +93,7 @@ statements! {
     UnchangedDevices "devices": "devices understand nothing but ETSI's messages";
 }
 
-/// What comes of a statement.
+/// Outcome of a comparison with a statement.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Outcome {
@@ -114,7 +114,7 @@ impl Outcome {
         if is_met { Self::Met } else { Self::NotMet }
     }
 
-    /// What comes of all of these: one that is not met decides, and then one that is undecided.
+    /// Outcome of all of these: one that is not met decides, and then one that is undecided.
     fn all(all: impl IntoIterator<Item = Self>) -> Self {
         all.into_iter()
             .fold(Self::Met, |one, other| match (one, other) {
@@ -168,7 +168,7 @@ impl Outcome {
 pub struct Comparison {
     /// Which statement.
     pub statement: Statement,
-    /// What it is about.
+    /// Its subject.
     pub about: &'static str,
     /// The paper's value, in words.
     pub paper: String,
@@ -176,11 +176,11 @@ pub struct Comparison {
     pub measured: String,
     /// By what rule the two are compared.
     pub rule: &'static str,
-    /// What comes of it.
+    /// The outcome.
     pub outcome: Outcome,
 }
 
-/// What a run is of.
+/// Setting of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Setting<'a> {
     /// The streets.
@@ -189,7 +189,7 @@ pub struct Setting<'a> {
     pub is_proven: bool,
     /// Vehicles, by run: one number where it is the same in all.
     pub vehicles: &'a [usize],
-    /// What was varied.
+    /// The parameters that vary.
     pub axes: &'a Axes,
     /// How stations behave, where there are any.
     pub behaviour: Option<&'a Behaviour>,
@@ -230,7 +230,7 @@ fn over_densities(at: impl Fn(usize) -> Option<Estimate>) -> Option<Vec<Estimate
     PAPER.pedestrians.into_iter().map(at).collect()
 }
 
-/// What there is of each of these, in a row, if there is something of all.
+/// The values of all these keys in a row, if each has some.
 fn all_of<K: Copy, T, I: IntoIterator<Item = T>>(
     keys: &[K],
     of: impl Fn(K) -> Option<I>,

@@ -53,7 +53,7 @@ impl Stationing {
     /// Checks that `most` robots can be so on the streets.
     ///
     /// # Errors
-    /// What is wrong.
+    /// There is no room or no corner for them, or a number is out of its range.
     pub fn check(&self, streets: &Streets, most: usize) -> Result<(), StationingError> {
         let room = match &self.robots_at {
             Some(robots) => robots.len(),

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// What a sample of runs says of a mean.
+/// Estimate of a mean from a sample of runs.
 #[derive(Clone, PartialEq, Debug, Default, Serialize)]
 pub struct Estimate {
     /// Arithmetic mean.

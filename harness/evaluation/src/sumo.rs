@@ -18,7 +18,7 @@ use super::grid::Grid;
 use super::trace::Run;
 use super::xml::SumoFileError;
 
-/// What a run is made of.
+/// Traffic and length of a run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Plan {
     /// How many vehicles.
@@ -70,7 +70,7 @@ pub enum SumoError {
     Failed {
         /// Which.
         program: &'static str,
-        /// What it says.
+        /// Its message.
         message: String,
     },
     /// A file of its input or output cannot be written or read.
@@ -87,9 +87,9 @@ pub enum SumoError {
         vehicles = .plan.vehicles, duration_s = .plan.duration_s
     )]
     NotAll {
-        /// What it moved.
+        /// The run that SUMO made.
         run: Box<Run>,
-        /// What was to be.
+        /// The run that was wanted.
         plan: Plan,
     },
 }

@@ -22,11 +22,11 @@ use serde::{Deserialize, Serialize};
 use super::grid::Grid;
 use super::net::Streets;
 
-/// What a trace file says of itself.
+/// The format that a trace file names.
 const FORMAT: &str = "crossguard-traces-1";
 /// No file unpacks to more, in octets.
 const UNPACKED_MAX: u64 = 1 << 30;
-/// Who is slower keeps the heading it had, in m/s.
+/// Least speed at which the heading is that of motion, in m/s; below it the last heading is kept.
 const STANDING_MPS: f64 = 0.2;
 
 /// Runs on the same streets.
@@ -34,8 +34,8 @@ const STANDING_MPS: f64 = 0.2;
 pub struct Traces {
     /// The streets.
     pub streets: Streets,
-    /// Whether this program knows what moved everybody: it ran SUMO itself, or carries the file along. What a file
-    /// says of itself is no proof.
+    /// Whether this program knows what moved everybody: it ran SUMO itself, or carries the file along. A file's
+    /// statement about itself is no proof.
     pub is_proven: bool,
     /// Time between two samples, in ms.
     pub sample_ms: u64,
@@ -95,7 +95,7 @@ pub enum TraceError {
     /// Its numbers contradict each other.
     #[error("contradicts itself: {0}")]
     Contradictory(&'static str),
-    /// Somebody was not on its grid, or not all the time.
+    /// A person or vehicle was not on its grid, or not all the time.
     #[error("{0}; give what moved on a net of its own with --net and --fcd")]
     Misfit(String),
 }
@@ -434,7 +434,7 @@ mod tests {
     }
 
     proptest! {
-        /// What is written is read again, to the centimetre.
+        /// A written file is read again, to the centimetre.
         #[test]
         fn tracks_are_packed_without_loss(
             places in proptest::collection::vec((0_i32..20_000, -500_i32..500), 2..50)

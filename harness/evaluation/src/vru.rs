@@ -47,7 +47,7 @@ pub const JOIN_NOTIFICATION_MS: u64 = 3_000;
 pub const JOIN_SUCCESS_MS: u64 = 500;
 /// How long leaving is announced, in ms (`timeClusterLeaveNotification`).
 pub const LEAVE_NOTIFICATION_MS: u64 = 1_000;
-/// Who is further outside of the bounding shape is out of the cluster, in metres (`maxClusterDistance`,
+/// Distance outside of the bounding shape from which a device is out of the cluster, in metres (`maxClusterDistance`,
 /// 3..5).
 pub const DISTANCE_MAX_M: f64 = 3.0;
 /// Largest difference of velocity to the cluster, as a share of its own (`maxClusterVelocityDifference`).
@@ -87,7 +87,7 @@ pub enum Suppression {
     Loose,
 }
 
-/// What a device hears of the cluster of one head.
+/// The announcement of one head's cluster, as a device hears it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Announcement {
     /// Station id of the head.
@@ -102,7 +102,7 @@ pub struct Announcement {
     pub ended: Option<u8>,
 }
 
-/// What came of an announcement.
+/// Effect of an announcement on a device.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Reaction {
@@ -144,7 +144,7 @@ pub enum LeaveReason {
     FailedJoin = 7,
 }
 
-/// What the device says of clusters in its VAM.
+/// Cluster operation in the device's VAM.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Operation {
     /// It joins a cluster.
@@ -170,7 +170,7 @@ pub struct DueVam {
     pub trigger: VamTrigger,
     /// Whether it has the low-frequency container.
     pub low_frequency: bool,
-    /// What it says of clusters.
+    /// Its cluster operation.
     pub operation: Option<Operation>,
 }
 
@@ -216,7 +216,7 @@ struct Membership {
     covered_ms: u64,
     /// When it heard its head the last time, in ms.
     heard_ms: u64,
-    /// What bounded the cluster then.
+    /// Bounding shape of the cluster then.
     area: Area,
     /// The velocity of the cluster then, if it said one.
     velocity_mps: Option<[f64; 2]>,
@@ -402,7 +402,7 @@ impl VruStation {
         trigger.map(VamTrigger::Motion)
     }
 
-    /// What time and motion do to the membership.
+    /// Applies time and motion to the membership.
     fn pass(&mut self, now_ms: u64, motion: &Motion) {
         let since = |then_ms: u64| now_ms.saturating_sub(then_ms);
         let by = self.fit();
@@ -507,7 +507,7 @@ impl Membership {
         by.misfit(motion, &area, self.velocity_mps).is_none()
     }
 
-    /// What bounds the cluster now, as far as the device knows: by the strict rule the shape moves with it.
+    /// Bounding shape of the cluster now, as far as the device knows: by the strict rule the shape moves with it.
     fn area_at(&self, by: Fit, now_ms: u64) -> Area {
         let area = self.area.clone();
         match (by, self.velocity_mps) {

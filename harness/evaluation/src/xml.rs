@@ -34,7 +34,7 @@ pub enum SumoFileError {
         at: u64,
         /// Which attribute.
         attribute: &'static str,
-        /// What is wanted.
+        /// The wanted value.
         wanted: &'static str,
     },
     /// Its numbers do not fit.
@@ -62,7 +62,7 @@ impl Element<'_> {
         text.unwrap_or_default()
     }
 
-    /// What an attribute stands for, by `of`.
+    /// Value of an attribute, by `of`.
     pub(super) fn value<T>(
         &self,
         attribute: &'static str,

@@ -15,13 +15,13 @@ use proptest::prelude::*;
 
 const SECONDS: u64 = 40;
 
-/// Somebody who stands here.
+/// Track of a body that stands here.
 fn standing(at: Point) -> Track {
     let samples = usize::try_from(SECONDS * 2 + 1).unwrap();
     Track::new(500, &vec![at; samples])
 }
 
-/// Somebody who walks or drives to and fro between two places.
+/// Track of a body that moves to and fro between two places.
 fn moving(from: Point, to: Point, seconds: f64) -> Track {
     let place = |half: u64| {
         #[expect(clippy::cast_precision_loss, reason = "a minute")]

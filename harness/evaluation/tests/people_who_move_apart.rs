@@ -128,7 +128,7 @@ fn clusters(sent: &[(u64, Sent)]) -> Vec<(&Announced, [f64; 2])> {
     clusters.collect()
 }
 
-/// What a device makes of a cluster.
+/// Reaction of a device to a cluster.
 fn device_hears(motion: &Motion, (cluster, velocity_mps): (&Announced, [f64; 2])) -> Reaction {
     let announcement = Announcement {
         head: HEAD,

@@ -1,4 +1,4 @@
-//! What the paper states of coverage, beside what was measured.
+//! The paper's statements on coverage, beside the measured values.
 
 use super::super::grid::{Grid, INTERSECTION_M};
 use super::super::matrix::ObsCell;
@@ -11,7 +11,7 @@ use super::{Comparison, Outcome, Setting, Statement, all_of, over_densities, sam
 /// By how much the ratio of the coverages at two radii may differ from that of the radii, as a share of it.
 const PROPORTION_TOLERANCE: f64 = 0.2;
 
-/// What the paper states of coverage, beside what was measured; nothing where the streets are no grid.
+/// The paper's statements on coverage, beside the measured values; nothing where the streets are no grid.
 #[must_use]
 pub fn of_coverage(setting: Setting<'_>, cells: &[ObsCell]) -> Vec<Comparison> {
     let Some(grid) = setting.streets.grid() else {

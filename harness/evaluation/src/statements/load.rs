@@ -1,4 +1,4 @@
-//! What the paper states of channel load, beside what was measured.
+//! The paper's statements on channel load, beside the measured values.
 
 use super::super::matrix::CbrCell;
 use super::super::paper::PAPER;
@@ -13,7 +13,7 @@ const WRONG_MAX_PERCENT: f64 = 5.0;
 /// The cells of the paper with robots, at both radii: first the smaller, then the larger one.
 type Pairs<'a> = Vec<[&'a CbrCell; 2]>;
 
-/// What the paper states of channel load, beside what was measured; nothing where the streets are no grid.
+/// The paper's statements on channel load, beside the measured values; nothing where the streets are no grid.
 #[must_use]
 pub fn of_load(setting: Setting<'_>, cells: &[CbrCell]) -> Vec<Comparison> {
     if setting.streets.grid().is_none() {
@@ -99,7 +99,7 @@ fn largest(cells: &[CbrCell], there: Option<&CbrCell>) -> Comparison {
     })
 }
 
-/// What the larger radius brings, and the smaller one saves.
+/// Gain of the larger radius, and saving of the smaller one.
 fn by_radius(pairs: Option<&Pairs<'_>>) -> [Comparison; 3] {
     let judge =
         |statement: Statement, paper, value: fn(&CbrCell) -> &Estimate, unit, least: f64| {
@@ -138,7 +138,7 @@ fn by_radius(pairs: Option<&Pairs<'_>>) -> [Comparison; 3] {
     ]
 }
 
-/// What more robots bring.
+/// Gain of more robots.
 fn by_robots(reductions: Option<(Vec<Estimate>, Vec<Estimate>)>) -> Comparison {
     let paper = "diminishing gain of each further robot";
     Statement::DiminishingGain.judge(&paper, reductions, |(one, nine)| {

@@ -1,4 +1,4 @@
-//! What the paper states of the set-up: streets, people, robots and the channel.
+//! The paper's statements on the set-up: streets, people, robots and the channel.
 
 use super::super::behaviour::Behaviour;
 use super::super::messages::SYMBOL_US;
@@ -11,7 +11,7 @@ use super::{Comparison, Outcome, Setting, Statement, same};
 /// Samples of a symbol of IEEE 802.11 (clause 17), its guard interval included; their rate is the channel's width.
 const SAMPLES_PER_SYMBOL: u64 = 80;
 
-/// What the paper states of the streets and who is on them.
+/// The paper's statements on the streets, and on vehicles, people and robots there.
 pub(super) fn setup(setting: Setting<'_>, people: impl Iterator<Item = usize>) -> Vec<Comparison> {
     let Setting {
         streets,

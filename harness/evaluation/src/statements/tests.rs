@@ -176,7 +176,7 @@ fn a_set_up_that_is_not_the_papers_is_not_met() {
         assert_eq!(of(statement), Outcome::NotMet, "{statement:?}");
     }
     assert_eq!(of(UnchangedDevices), Outcome::Met);
-    // What a file says of itself proves nothing.
+    // A file's statement about itself proves nothing.
     assert_eq!(of(Mobility), Outcome::NotMeasured);
     assert_eq!(of(ConservativeSilence), Outcome::NotMeasured);
 }
