@@ -10,7 +10,7 @@ use pyo3::types::PyBytes;
 use crate::errors::{DecodeError, EncodeError};
 use crate::json::to_json;
 
-/// What octets say, by a version of the common data dictionary.
+/// Decodes octets to JSON, by a version of the common data dictionary.
 #[pyfunction]
 pub(crate) fn decode(octets: &[u8], dictionary: &str) -> PyResult<String> {
     let dictionary = match dictionary {

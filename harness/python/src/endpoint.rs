@@ -18,7 +18,7 @@ use crate::json::{from_json, to_json};
 use crate::robot::Robot;
 use crate::settings::{config, identifiers};
 
-/// What the application is told to do, or to know: `outputs.Effect` of the package.
+/// An effect for the application: `outputs.Effect` of the package.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 enum Told<'a> {
@@ -55,7 +55,7 @@ enum Told<'a> {
 }
 
 impl<'a> Told<'a> {
-    /// What an effect tells the application; `None` for what is for the log alone.
+    /// The effect as the application receives it; `None` for one that is for the log alone.
     fn of(effect: &'a Effect) -> Option<Self> {
         Some(match effect {
             Effect::Stepped { .. } => return None,

@@ -15,7 +15,7 @@ pub(crate) fn from_json<'a, T: Deserialize<'a>>(what: &str, text: &'a str) -> Py
         .map_err(|error| PyValueError::new_err(format!("{what}: {}", without_place(&error))))
 }
 
-/// What is wrong, without where in the text: nobody wrote the text.
+/// The error's text without its place in the JSON: nobody wrote the JSON.
 pub(crate) fn without_place(error: &serde_json::Error) -> String {
     let text = error.to_string();
     let end = text.rfind(" at line ").unwrap_or(text.len());

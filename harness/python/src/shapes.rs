@@ -17,7 +17,7 @@ pub(crate) fn shapes() -> PyResult<String> {
     to_json(&registry)
 }
 
-/// What crosses, and every enumeration in it: an enumeration within another is complete only when it was
+/// The types that cross, and every enumeration in them: an enumeration within another is complete only when it was
 /// traced by itself.
 fn trace() -> serde_reflection::Result<Registry> {
     let mut tracer = Tracer::new(TracerConfig::default());

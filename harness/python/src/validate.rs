@@ -56,7 +56,7 @@ fn open((name, text): (String, Option<String>)) -> io::Result<Log<'static>> {
     Ok(Log { name, lines })
 }
 
-/// What does not fit; what cannot be read at all is an error, and not a robot that went wrong.
+/// The misfit of a log. A log that cannot be read is an error, and not a robot that went wrong.
 fn misfit(invalid: Invalid) -> PyResult<Misfit> {
     let text = invalid.to_string();
     match *invalid.fault {
