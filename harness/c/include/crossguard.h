@@ -48,7 +48,7 @@
 // A lane that is not given.
 #define CROSSGUARD_NO_LANE -128
 
-// What became of a call.
+// Result of a call.
 enum CrossguardStatus
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -658,7 +658,7 @@ typedef struct CrossguardSettings {
   uint8_t reserved[1];
 } CrossguardSettings;
 
-// What a robot is started with.
+// Configuration of a robot.
 typedef struct CrossguardConfig {
   // Its station id.
   uint32_t station;
@@ -670,15 +670,15 @@ typedef struct CrossguardConfig {
   uint8_t reserved;
   // Its name in logs, UTF-8 that ends with NUL.
   char name[CROSSGUARD_NAME_LEN];
-  // Those of RAM.
+  // Message identifiers of RAM.
   struct CrossguardMessageIdentifiers ram;
-  // Those of RMCM.
+  // Message identifiers of RMCM.
   struct CrossguardMessageIdentifiers rmcm;
   // Timers, limits and capabilities.
   struct CrossguardSettings settings;
 } CrossguardConfig;
 
-// What the robot knows of its body at the time of a call. NaN is *not known*.
+// State of the robot's body at the time of a call. NaN is *not known*.
 typedef struct CrossguardBody {
   // Degrees, north positive.
   double latitude_deg;
@@ -714,15 +714,15 @@ typedef struct CrossguardBody {
   uint8_t job_role;
   // Steered by: 0 itself, 1 a person, 2 nobody (emergency stop), 3 nobody (fault), 4 unavailable.
   uint8_t control_mode;
-  // What it can do besides maneuvers: bit 0 detects pedestrians, 1 leads, 2 follows, 3 gestures, 4
+  // Abilities besides maneuvers: bit 0 detects pedestrians, 1 leads, 2 follows, 3 gestures, 4
   // has a display, 5 speaks.
   uint8_t abilities;
   // By what it shows signals to people, which its RAM tell: bit 0 gestures, 1 a display, 2 lights, 3 voice. 0
   // for a robot that cannot; then the next two do not count.
   uint8_t signal_means;
-  // What it shows to vehicles: 0 nothing, 1 stop, 2 go, 3 take care.
+  // Sign to vehicles: 0 nothing, 1 stop, 2 go, 3 take care.
   uint8_t to_vehicles;
-  // What it shows to pedestrians, likewise. Go is for an open corridor alone.
+  // Sign to pedestrians, likewise. Go is for an open corridor alone.
   uint8_t to_pedestrians;
   // The place of the map that it is there for: 0 none, 1 a road segment, 2 an intersection.
   uint8_t map_kind;
@@ -807,7 +807,7 @@ typedef struct CrossguardEvent {
   struct CrossguardTaskParameters parameters;
 } CrossguardEvent;
 
-// Who was heard.
+// The station that was heard.
 typedef struct CrossguardHeard {
   // Degrees, north positive.
   double latitude_deg;
@@ -829,9 +829,9 @@ typedef struct CrossguardHeard {
   uint8_t on_duty;
   // As in `CrossguardBody`, by its RAM; 0 where this one says nothing of it, as most do.
   uint8_t signal_means;
-  // What it shows to vehicles, as in `CrossguardBody`.
+  // Its sign to vehicles, as in `CrossguardBody`.
   uint8_t to_vehicles;
-  // What it shows to pedestrians, as in `CrossguardBody`.
+  // Its sign to pedestrians, as in `CrossguardBody`.
   uint8_t to_pedestrians;
   // The place of the map that it is there for, as in `CrossguardBody`; 0 where its RAM says nothing of it, as
   // most do.
@@ -886,7 +886,7 @@ typedef struct CrossguardOutput {
   struct CrossguardTaskParameters parameters;
 } CrossguardOutput;
 
-// What a call works with: what the caller gives, and what the library gives back. Buffers are the
+// Inputs of a call from the caller, and its outputs from the library. Buffers are the
 // caller's, and may not overlap each other or the turn.
 typedef struct CrossguardTurn {
   // In: `TimestampIts` now: milliseconds since 2004-01-01 (TAI), for messages and packets.
@@ -952,7 +952,7 @@ typedef struct CrossguardFollower {
   uint8_t reserved[2];
 } CrossguardFollower;
 
-// What a robot is doing.
+// State of a robot.
 typedef struct CrossguardView {
   // Station id.
   uint32_t station;
@@ -1014,7 +1014,7 @@ extern "C" {
 // `CROSSGUARD_ABI_VERSION` of its header.
 uint32_t crossguard_abi_version(void);
 
-// What a status means, in English. The text is never null and lives as long as the program.
+// Text of a status, in English. It is never null and lives as long as the program.
 const char *crossguard_status_text(uint32_t status);
 
 // Sets a configuration to the defaults of the protocol. Station id, boot counter and name are yours.
@@ -1110,12 +1110,12 @@ CrossguardStatus crossguard_receive_message(struct CrossguardRobot *robot,
 CrossguardStatus crossguard_announce(struct CrossguardRobot *robot,
                                      struct CrossguardTurn *turn);
 
-// What a robot is doing. The robot is not changed.
+// Reads the state of a robot. The robot is not changed.
 //
 // Errors: `Null`, `Misaligned`, `NotInitialised`, `Finished`, `WrongVersion`.
 CrossguardStatus crossguard_view(const struct CrossguardRobot *robot, struct CrossguardView *view);
 
-// What was dropped or ignored so far: the cause number `index`, as text that ends with NUL, cut to
+// Reads a count of dropped or ignored inputs: the cause number `index`, as text that ends with NUL, cut to
 // `name_capacity` octets, and how often it occurred. Causes are numbered from 0 as they first occur.
 //
 // Errors: as for `crossguard_view`; `ShortBuffer` for a name without room, `End` behind the last.

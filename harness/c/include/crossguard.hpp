@@ -60,7 +60,7 @@ template <typename... Tasks> constexpr std::uint16_t tasks(Tasks... of) noexcept
   return static_cast<std::uint16_t>((0u | ... | (1u << static_cast<unsigned>(of))));
 }
 
-/// What a status means, in English.
+/// Text of a status, in English.
 inline const char *text(Status status) noexcept { return crossguard_status_text(status); }
 
 /// Octets that belong to somebody else.
@@ -155,7 +155,7 @@ struct Why {
   std::uint32_t station;         ///< where it is about one
 };
 
-// What a robot is to do.
+// Outputs of a robot.
 struct Send {
   Message message;
   Octets packet;          ///< a whole GeoNetworking packet
@@ -193,7 +193,7 @@ public:
 
   const CrossguardOutput &plain() const noexcept { return *plain_; }
 
-  /// What is to be done.
+  /// The output by its kind.
   What what() const {
     const CrossguardOutput &it = *plain_;
     switch (it.kind) {
@@ -217,7 +217,7 @@ public:
     }
   }
 
-  /// What is to be done, if it is this.
+  /// The output, if it is of this kind.
   template <typename Wanted> std::optional<Wanted> as() const {
     const What all = what();
     const Wanted *wanted = std::get_if<Wanted>(&all);
@@ -278,7 +278,7 @@ public:
   };
   Outputs outputs() const noexcept { return Outputs{*this}; }
 
-  /// What the robot knows of its body; set before a call.
+  /// State of the robot's body; set before a call.
   Body &body() noexcept { return plain_.body; }
   /// TimestampIts and the microseconds of the log's clock; set before a call.
   void at(std::uint64_t timestamp_its, std::uint64_t log_us) noexcept {
@@ -293,7 +293,7 @@ public:
 
   /// Lines for `crossguard validate`, each with its newline.
   std::string_view log() const noexcept { return {log_.data(), plain_.log_length}; }
-  /// Who was heard, if a message was understood.
+  /// The station that was heard, if a message was understood.
   std::optional<Heard> heard() const noexcept {
     if (plain_.heard.message == CROSSGUARD_MESSAGE_NONE) return std::nullopt;
     return plain_.heard;
@@ -311,7 +311,7 @@ private:
   std::array<char, CROSSGUARD_LOG_LEN> log_;
 };
 
-/// What a robot is started with: the defaults, for changes, and who it is.
+/// Configuration of a robot: station id, boot counter and name, and the defaults, for changes.
 class Config {
 public:
   /// `boot` is larger than at any boot before, and persisted before the robot is started.

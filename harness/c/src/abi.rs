@@ -1,4 +1,4 @@
-//! What crosses the boundary: numbers, and structs of numbers.
+//! Data that cross the boundary: numbers, and structs of numbers.
 //!
 //! Every pattern of bits is a value of these types, so nothing that C leaves in them can be wrong before
 //! it is looked at. Codes are octets, and the enumerations of `codes` say what they mean. A quantity that is
@@ -111,7 +111,7 @@ pub struct CrossguardMessageIdentifiers {
     pub protocol_version: u8,
 }
 
-/// What a robot is started with.
+/// Configuration of a robot.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
 pub struct CrossguardConfig {
@@ -125,15 +125,15 @@ pub struct CrossguardConfig {
     pub reserved: u8,
     /// Its name in logs, UTF-8 that ends with NUL.
     pub name: [c_char; CROSSGUARD_NAME_LEN],
-    /// Those of RAM.
+    /// Message identifiers of RAM.
     pub ram: CrossguardMessageIdentifiers,
-    /// Those of RMCM.
+    /// Message identifiers of RMCM.
     pub rmcm: CrossguardMessageIdentifiers,
     /// Timers, limits and capabilities.
     pub settings: CrossguardSettings,
 }
 
-/// What the robot knows of its body at the time of a call. NaN is *not known*.
+/// State of the robot's body at the time of a call. NaN is *not known*.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[repr(C)]
 pub struct CrossguardBody {
@@ -171,15 +171,15 @@ pub struct CrossguardBody {
     pub job_role: u8,
     /// Steered by: 0 itself, 1 a person, 2 nobody (emergency stop), 3 nobody (fault), 4 unavailable.
     pub control_mode: u8,
-    /// What it can do besides maneuvers: bit 0 detects pedestrians, 1 leads, 2 follows, 3 gestures, 4
+    /// Abilities besides maneuvers: bit 0 detects pedestrians, 1 leads, 2 follows, 3 gestures, 4
     /// has a display, 5 speaks.
     pub abilities: u8,
     /// By what it shows signals to people, which its RAM tell: bit 0 gestures, 1 a display, 2 lights, 3 voice. 0
     /// for a robot that cannot; then the next two do not count.
     pub signal_means: u8,
-    /// What it shows to vehicles: 0 nothing, 1 stop, 2 go, 3 take care.
+    /// Sign to vehicles: 0 nothing, 1 stop, 2 go, 3 take care.
     pub to_vehicles: u8,
-    /// What it shows to pedestrians, likewise. Go is for an open corridor alone.
+    /// Sign to pedestrians, likewise. Go is for an open corridor alone.
     pub to_pedestrians: u8,
     /// The place of the map that it is there for: 0 none, 1 a road segment, 2 an intersection.
     pub map_kind: u8,
@@ -304,7 +304,7 @@ pub struct CrossguardOutput {
     pub parameters: CrossguardTaskParameters,
 }
 
-/// Who was heard.
+/// The station that was heard.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[repr(C)]
 pub struct CrossguardHeard {
@@ -328,9 +328,9 @@ pub struct CrossguardHeard {
     pub on_duty: u8,
     /// As in `CrossguardBody`, by its RAM; 0 where this one says nothing of it, as most do.
     pub signal_means: u8,
-    /// What it shows to vehicles, as in `CrossguardBody`.
+    /// Its sign to vehicles, as in `CrossguardBody`.
     pub to_vehicles: u8,
-    /// What it shows to pedestrians, as in `CrossguardBody`.
+    /// Its sign to pedestrians, as in `CrossguardBody`.
     pub to_pedestrians: u8,
     /// The place of the map that it is there for, as in `CrossguardBody`; 0 where its RAM says nothing of it, as
     /// most do.
@@ -343,7 +343,7 @@ pub struct CrossguardHeard {
     pub map_id: u16,
 }
 
-/// What a call works with: what the caller gives, and what the library gives back. Buffers are the
+/// Inputs of a call from the caller, and its outputs from the library. Buffers are the
 /// caller's, and may not overlap each other or the turn.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
@@ -406,7 +406,7 @@ pub struct CrossguardFollower {
     pub reserved: [u8; 2],
 }
 
-/// What a robot is doing.
+/// State of a robot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 #[repr(C)]
 pub struct CrossguardView {

@@ -1,10 +1,10 @@
-//! What the codes that cross the boundary mean.
+//! Codes that cross the boundary.
 
 mod generated;
 
 pub use generated::*;
 
-/// What became of a call.
+/// Result of a call.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u32)]
 pub enum CrossguardStatus {

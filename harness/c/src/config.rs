@@ -1,4 +1,4 @@
-//! What a robot is started with, and what happens to it: plain numbers, checked.
+//! Configuration and events of a robot: plain numbers, checked.
 
 use core::ffi::c_char;
 

@@ -24,7 +24,7 @@ use crate::counters::Text;
 use crate::live::{Live, Turn, copy_text};
 use crate::trace::Lines;
 
-/// What a robot's memory begins with.
+/// Head of a robot's memory.
 #[repr(C)]
 #[derive(Clone, Copy)]
 struct Stamp {
@@ -216,7 +216,7 @@ pub extern "C" fn crossguard_abi_version() -> u32 {
     CROSSGUARD_ABI_VERSION
 }
 
-/// What a status means, in English. The text is never null and lives as long as the program.
+/// Text of a status, in English. It is never null and lives as long as the program.
 #[unsafe(no_mangle)]
 pub extern "C" fn crossguard_status_text(status: u32) -> *const c_char {
     const TEXTS: [&CStr; 11] = [
@@ -495,7 +495,7 @@ pub unsafe extern "C" fn crossguard_announce(
     unsafe { with(robot, turn, Live::announce) }
 }
 
-/// What a robot is doing. The robot is not changed.
+/// Reads the state of a robot. The robot is not changed.
 ///
 /// Errors: `Null`, `Misaligned`, `NotInitialised`, `Finished`, `WrongVersion`.
 #[unsafe(no_mangle)]
@@ -508,7 +508,7 @@ pub unsafe extern "C" fn crossguard_view(
     status(both.map(|(live, view)| *view = CrossguardView::of(live.robot())))
 }
 
-/// What was dropped or ignored so far: the cause number `index`, as text that ends with NUL, cut to
+/// Reads a count of dropped or ignored inputs: the cause number `index`, as text that ends with NUL, cut to
 /// `name_capacity` octets, and how often it occurred. Causes are numbered from 0 as they first occur.
 ///
 /// Errors: as for `crossguard_view`; `ShortBuffer` for a name without room, `End` behind the last.

@@ -12,7 +12,7 @@
 //!   reads a clock, and there is no global state.
 //! - A robot lives in a [`CrossguardRobot`] of fixed size. A stamp in it tells one that was never
 //!   initialised, was finished, or is of another version.
-//! - Every call returns a [`CrossguardStatus`]. What a robot is to do comes back in order in a
+//! - Every call returns a [`CrossguardStatus`]. The robot's outputs come back in order in a
 //!   [`CrossguardTurn`], with packets that are ready to be sent.
 //! - No panic crosses the boundary: it stops the process, or is the panic handler's without `std`.
 //!

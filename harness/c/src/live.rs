@@ -22,7 +22,7 @@ use crate::trace::{ByName, Entry, Hex, Lines, Reception};
 
 /// Headers of a single-hop broadcast with BTP-B, in octets.
 const HEADERS_LEN: usize = 44;
-/// What the clock of a robot shows when it boots: a packet may have waited for longer than the robot runs.
+/// Time on a robot's clock when it boots, in ms: a packet may have waited for longer than the robot runs.
 const BOOT_MS: u64 = CROSSGUARD_NONE_MS as u64;
 
 // A message of several commands is one step for each of them, and one of them at most is for this robot:
@@ -39,7 +39,7 @@ pub(crate) struct Turn<'a> {
     pub(crate) plain: &'a mut CrossguardTurn,
     pub(crate) packets: &'a mut [u8],
     pub(crate) lines: Lines<'a>,
-    /// What the robot knows of its body.
+    /// State of the robot's body.
     pub(crate) state: RobotState,
 }
 

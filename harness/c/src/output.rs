@@ -46,7 +46,7 @@ impl CrossguardOutput {
         }
     }
 
-    /// What `output` says; `None` for what becomes a packet. `parameters` are those of the command that
+    /// The plain form of `output`; `None` for one that becomes a packet. `parameters` are those of the command that
     /// the input may be.
     pub(crate) fn from_protocol(output: &Output, parameters: &TaskParameters) -> Option<Self> {
         let said = Said::by(output);
@@ -135,7 +135,7 @@ impl From<&TaskParameters> for CrossguardTaskParameters {
 }
 
 impl CrossguardTaskParameters {
-    /// What they say; `None` where a target or place of the map cannot be told from another.
+    /// The parameters in the codec's form; `None` where a target or place of the map cannot be told from another.
     pub(crate) fn to_codec(self) -> Option<TaskParameters> {
         let place = known(self.latitude_deg).zip(known(self.longitude_deg));
         let altitude = known(self.altitude_m);

@@ -1,4 +1,4 @@
-//! What happens on a panic in a program without the standard library: it stops here.
+//! Panic handler of a program without the standard library: it stops here.
 
 use core::panic::PanicInfo;
 

@@ -1,4 +1,4 @@
-//! What a robot does, as lines for `crossguard validate`: one JSON object each.
+//! Steps of a robot, as lines for `crossguard validate`: one JSON object each.
 //!
 //! The harness of the kit reads these records; a test holds the two against each other.
 
@@ -187,7 +187,6 @@ mod json {
         robot: &'a str,
     }
 
-    /// What is left of a buffer.
     struct Rest<'a> {
         room: &'a mut [u8],
         length: usize,

@@ -1,4 +1,4 @@
-//! What a robot is doing, as plain numbers.
+//! State of a robot, as plain numbers.
 
 use crossguard_protocol::{
     Availability, Duty, Identity, Lease, Maneuver, Member, Order, Phase, Robot,

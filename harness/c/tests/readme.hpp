@@ -1,4 +1,4 @@
-// What a robot brings along, for the loop in the README.
+// Parts of a robot, for the loop in the README.
 #include <chrono>
 #include <cstdint>
 #include <optional>
