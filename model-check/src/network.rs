@@ -226,8 +226,8 @@ impl Network {
 }
 
 /// Whether a message can have any effect on the receiver, whatever its state. Every robot within
-/// reach hears every message; messages that are ignored in every state are left out of the model. That
-/// they are ignored is checked in [`universe`](crate::universe).
+/// reach hears every message; messages that are ignored in every state are left out of the model.
+/// [`universe`](crate::universe) checks that they are ignored.
 #[must_use]
 pub fn concerns(message: &Message, receiver: StationId) -> bool {
     match message {

@@ -8,7 +8,7 @@ use rustc_hash::FxBuildHasher;
 /// Values, each stored once, with numbers from 0 in the order in which they were added.
 pub(crate) struct Numbered<T> {
     values: Vec<T>,
-    /// By what the values are.
+    /// Numbers by the hashes of their values.
     numbers: HashTable<u32>,
 }
 

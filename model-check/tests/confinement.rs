@@ -336,7 +336,7 @@ fn a_bystander_that_leads_there_ends_every_request() {
     }
 }
 
-/// The second message of leaders that go before counts, whoever speaks in between.
+/// The second message of leaders that go before counts, also where others speak in between.
 #[test]
 fn a_bystander_with_ever_new_sessions_hides_no_leader() {
     let other_leads = |honest: &mut Honest| {

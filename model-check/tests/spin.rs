@@ -164,7 +164,7 @@ fn assert_same_verdicts(printed: &str, mut scenario: Scenario) {
     assert_exhaustive(printed);
     assert!(printed.contains("errors: 0"), "{printed}");
     let expressed = |id: &PropertyId| EXPRESSED.contains(id);
-    // That a request number grows takes two commands.
+    // A request number grows only where there are two commands.
     let (is_there, commands) = (scenario.properties.contains(&I5), scenario.bounds.commands);
     assert_eq!(is_there, commands > 1);
     scenario.properties.retain(expressed);

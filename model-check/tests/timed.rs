@@ -1,5 +1,5 @@
-//! The timed model: what it proves of the shipped scenarios, and that its figures follow the timers. That it
-//! notices when a timer is not what it should be is in `timed_weakenings.rs`.
+//! The timed model: its verdicts on the shipped scenarios, and figures that follow the timers. Timers that
+//! are not as they should be are in `timed_weakenings.rs`.
 //!
 //! `cargo run --release -- check timed-pair timed-trio` is the same check with its report.
 

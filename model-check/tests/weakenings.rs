@@ -152,7 +152,7 @@ weakenings! {
     fn a_leader_that_hears_no_other_goes_on_showing_go("two-teams", HearsNoLeader, [W3] alone);
     #[test]
     fn a_robot_that_forgets_its_duty_begins_something_new("bilateral", ForgetsItsDuty, [W4] alone);
-    // Nobody is ever idle again, for who cooperates waits for the crossing.
+    // No robot is ever idle again, for one that cooperates waits for the crossing.
     #[test]
     fn without_positions_in_ram_nobody_ever_crosses("crossing", ReadsNoProgress, [L7, W7] alone);
     #[test]

@@ -51,7 +51,7 @@ impl Cell {
             Self::Aside => &[Self::Aside, Self::Near, Self::Away],
             Self::Lane => &[Self::Lane, Self::Near, Self::Far, Self::Beside],
             Self::Beside => &[Self::Beside, Self::Lane],
-            // Somebody who stays there for longer waits there.
+            // A person who stays there for longer waits there.
             Self::Far if is_free => &[Self::Away],
             Self::Far => &[Self::Far, Self::Away],
             Self::Away => &[Self::Away],

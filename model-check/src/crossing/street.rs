@@ -198,7 +198,7 @@ impl World {
             let mut more = Vec::new();
             for (moves, missed) in &all {
                 for cell in person.at.moves(goes, state.is_free, self.street.late) {
-                    // Nobody runs across in a second. Somebody who did, and was missed, would be one who waits over there.
+                    // No person runs across in a second. One who did, and was missed, would be one who waits over there.
                     if *cell == Cell::Far && person.at.is_road() && person.on_road < 2 {
                         continue;
                     }
@@ -400,7 +400,7 @@ impl State {
         } else {
             0
         };
-        // Somebody at the other kerb whom no frame had on the road waits there, as far as anybody can know.
+        // A person at the other kerb that no frame had on the road waits there, as far as any robot can know.
         let is_off_road =
             |it: &Person| it.at == Cell::Away || it.at == Cell::Far && it.was_seen_there;
         let is_disturbed = is_disturbed || self.cut.is_some();

@@ -1,7 +1,7 @@
 //! I18: the identity is locked while in a session.
 //!
-//! Checked are the outputs to the part of the endpoint that changes pseudonyms. That two members of a session
-//! never carry the same station id needs no rule: the robots of a scenario differ, and a locked id does not
+//! Checked are the outputs to the part of the endpoint that changes pseudonyms. No rule is needed for two members
+//! of a session never to carry the same station id: the robots of a scenario differ, and a locked id does not
 //! change. A robot that takes its leader's id breaks I1.
 
 use crossguard_protocol::Robot;

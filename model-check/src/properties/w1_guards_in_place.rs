@@ -41,7 +41,7 @@ fn is_gone_untold(view: &View, place: usize, body: Body) -> bool {
     else {
         return false;
     };
-    // By its place: it may have changed its pseudonym since. Nobody has the name of one that has booted again since.
+    // By its place: it may have changed its pseudonym since. No robot has the name of one that has booted again since.
     let mut commands = view.history.commands_with(id);
     commands.any(|command| {
         let to = view.world.place_of(command.to);

@@ -32,7 +32,7 @@ struct Setup {
 /// is held up keeps its connections.
 const GRACE: Duration = Duration::from_secs(20);
 
-/// With what the names of threads begin that timely ends early where a peer is gone.
+/// Beginning of the names of threads that timely ends early where a peer is gone.
 const OF_TIMELY: &str = "timely:";
 
 /// Message of the last thread of timely that ended early.
