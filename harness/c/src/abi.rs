@@ -174,7 +174,7 @@ pub struct CrossguardBody {
     /// Abilities besides maneuvers: bit 0 detects pedestrians, 1 leads, 2 follows, 3 gestures, 4
     /// has a display, 5 speaks.
     pub abilities: u8,
-    /// By what it shows signals to people, which its RAM tell: bit 0 gestures, 1 a display, 2 lights, 3 voice. 0
+    /// Means of its signals to people, as its RAM tell: bit 0 gestures, 1 a display, 2 lights, 3 voice. 0
     /// for a robot that cannot; then the next two do not count.
     pub signal_means: u8,
     /// Sign to vehicles: 0 nothing, 1 stop, 2 go, 3 take care.

@@ -11,7 +11,7 @@ use crossguard_robot::transport::{Arrival, Halves};
 
 use crate::subject::{Gone, Local, NotTold, Packet, Subject, Telling};
 
-/// How what happens at the robot comes about.
+/// Ways in which events come about at the robot.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Events {
     /// Not at all.
@@ -154,7 +154,7 @@ impl Subject for Live {
 
     fn send(&mut self, packet: &[u8]) -> Result<(), Gone> {
         match self.link.sender.send(packet) {
-            // Nobody may be there yet.
+            // No robot may be there yet.
             Err(error)
                 if !error.is_passing()
                     && error.cause.kind() != std::io::ErrorKind::ConnectionRefused =>

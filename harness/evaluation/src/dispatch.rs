@@ -164,7 +164,7 @@ mod tests {
         let [first, second, _] = PLACES;
         let stays = vec![(0.0, first)];
         let follows = vec![(0.0, first), (120.0, first), (220.0, second)];
-        // Nobody knows a person at the second place without a device, or with one that is heard 54 m away at most.
+        // A person at the second place is unknown without a device, or with one that is heard 54 m away at most.
         for (people, v2x_share, exponent, expected) in [
             (person.clone(), 1.0, 2.2, follows),
             (person.clone(), 0.0, 2.2, stays.clone()),

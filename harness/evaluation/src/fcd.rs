@@ -1,6 +1,6 @@
 //! How people and vehicles moved, by SUMO's floating car data (`sumo --fcd-output`).
 //!
-//! Everybody is there from their first step to their last. Somebody who is missing for a time, as a vehicle that
+//! All people and vehicles are there from their first step to their last. One that is missing for a time, as a vehicle that
 //! SUMO teleports, comes back as another station; [`Recording::gaps`] counts them.
 
 use std::collections::HashMap;

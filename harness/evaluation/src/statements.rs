@@ -174,7 +174,7 @@ pub struct Comparison {
     pub paper: String,
     /// The measured value, in words.
     pub measured: String,
-    /// By what rule the two are compared.
+    /// Rule of the comparison, in words.
     pub rule: &'static str,
     /// The outcome.
     pub outcome: Outcome,

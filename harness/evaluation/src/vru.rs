@@ -462,7 +462,7 @@ impl VruStation {
     }
 }
 
-/// By what a device takes itself for a member.
+/// Rule by which a device takes itself for a member.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Fit {
     Strict,

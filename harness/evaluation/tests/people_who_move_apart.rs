@@ -167,7 +167,7 @@ fn people_who_walk_north_and_a_cyclist_who_goes_east_are_announced_apart() {
         };
         assert!(is_as_perceived, "{cluster:?} {east} {north}");
     }
-    // Somebody who stands between them was not perceived, and does not take itself for one of them.
+    // The device of a person between them was not perceived, and does not take itself for one of them.
     let unseen = Motion {
         position_m: [0.7, 4.8],
         ..Motion::default()
