@@ -36,7 +36,7 @@ named! {
         Body = "body",
         /// The programs at its operator port.
         Operator = "operator",
-        /// What the robot keeps: boot counter, time, revocation list and tickets.
+        /// Persistent data: boot counter, time, revocation list and tickets.
         Storage = "storage",
         /// The log.
         Log = "log",
@@ -78,7 +78,7 @@ pub enum Cause {
     NotYielding,
     /// The robot perceived people and does not know its own position.
     Unplaced,
-    /// What a sensor source delivered is no frame that counts.
+    /// A sensor source delivered no usable frame, for this reason.
     FrameDropped(&'static str),
     /// The body fell silent, or its connection ended: an emergency stop.
     BodySilent,

@@ -44,11 +44,11 @@ pub enum Stimulus<'a> {
     Event(Event),
     /// The application commands a maneuver, with parameters.
     Order {
-        /// Who is to do it.
+        /// The station that carries it out.
         follower: StationId,
-        /// What.
+        /// Its task.
         task: TaskType,
-        /// Where and how.
+        /// Place and manner of the task.
         parameters: TaskParameters,
     },
     /// The application asks a vehicle whether it will stop: see [`Exchange::ask`].
@@ -65,14 +65,14 @@ pub enum Stimulus<'a> {
     Time,
 }
 
-/// What an endpoint wants to be done.
+/// Effect of an input, for the caller to carry out or log.
 #[derive(Clone, Debug)]
 pub enum Effect {
     /// The transition function took a step; for the log.
     Stepped {
-        /// What it took in.
+        /// Input of the step.
         input: Input,
-        /// What it put out.
+        /// Outputs of the step.
         outputs: Box<Outputs>,
         /// The state after it.
         state: Box<Robot>,
@@ -81,7 +81,7 @@ pub enum Effect {
     Heard {
         /// Which message.
         kind: Service,
-        /// Who sent it.
+        /// Sender of the message.
         from: StationId,
         /// When it arrived, on the clock of [`Moment::now_ms`].
         arrived_ms: u64,
@@ -107,7 +107,7 @@ pub enum Effect {
     Dropped {
         /// Why.
         cause: Cause,
-        /// What exactly.
+        /// Details of the cause.
         detail: String,
         /// The datagram.
         octets: Vec<u8>,
@@ -125,7 +125,7 @@ pub struct Endpoint<P = Robot> {
     congestion_ms: u64,
 }
 
-/// What an endpoint knows besides the protocol, and what it counts.
+/// Knowledge of an endpoint besides the protocol, and its counters.
 #[derive(Clone, Debug)]
 struct Around {
     neighbours: Neighbours,
@@ -181,19 +181,19 @@ impl<P: StateMachine> Endpoint<P> {
         self.exchange.config()
     }
 
-    /// What no standard has assigned.
+    /// Identifiers that no standard has assigned.
     #[must_use]
     pub const fn identifiers(&self) -> &Identifiers {
         self.exchange.identifiers()
     }
 
-    /// Who is around.
+    /// Local dynamic map of the road users around.
     #[must_use]
     pub const fn map(&self) -> &LocalDynamicMap {
         self.around.neighbours.map()
     }
 
-    /// What was dropped or ignored so far.
+    /// Counters of dropped and ignored inputs.
     #[must_use]
     pub const fn counters(&self) -> &Counters {
         &self.around.counters
@@ -269,7 +269,7 @@ impl<P: StateMachine> Endpoint<P> {
             Stimulus::Time => {}
         }
         self.others.tell_of_people(exchange, &mut turn);
-        // Who protects somebody is not silent.
+        // A robot that protects somebody is not silent.
         if exchange.robot().identity() != Identity::Unlocked || turn.announces_people() {
             self.pseudonyms.break_silence();
         }

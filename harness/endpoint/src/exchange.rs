@@ -80,7 +80,7 @@ impl<P: StateMachine> Exchange<P> {
         &self.config
     }
 
-    /// What no standard has assigned.
+    /// Identifiers that no standard has assigned.
     pub const fn identifiers(&self) -> &Identifiers {
         &self.identifiers
     }
@@ -90,7 +90,7 @@ impl<P: StateMachine> Exchange<P> {
         self.elapsed_to_ms
     }
 
-    /// What makes packets of messages, and opens them.
+    /// Stack that makes packets of messages, and opens them.
     pub const fn stack(&self) -> &Stack {
         &self.stack
     }
@@ -463,7 +463,7 @@ impl<P: StateMachine> Exchange<P> {
         state
     }
 
-    /// What a RAM says now: the state, and what events are about.
+    /// Content of a RAM now: the state, and the status that events compare.
     fn said<H: Host>(&self, host: &H) -> (RobotState, Status) {
         let state = self.state(host);
         let status = Status {

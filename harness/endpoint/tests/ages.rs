@@ -1,5 +1,5 @@
-//! What has waited in the robot for longer than `delay_max` is dropped under its own cause (rule 4 of the integrator's
-//! guide), after the robot was told of time.
+//! A message that has waited in the robot for longer than `delay_max` is dropped under its own cause (rule 4 of the
+//! integrator's guide), after the robot was told of time.
 
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::{Effect, Stimulus};

@@ -45,7 +45,7 @@ impl Street {
         }
     }
 
-    /// 100 ms later a station says that. What is dropped of it.
+    /// 100 ms later the leader hears `coordination` of a station. Returns the causes of drops.
     fn hear(&mut self, from: &mut (StationId, Stack), coordination: Coordination) -> Vec<String> {
         self.now_ms += 100;
         handle(&mut self.leader, self.now_ms, Stimulus::Time);
@@ -94,7 +94,7 @@ fn point_8_a_leader_that_does_not_yield_is_told_once_for_its_session() {
     for session in 0..2 {
         let said: Vec<_> = (0..6)
             .map(|beat| {
-                // What others say in between does not matter.
+                // Messages of others in between do not matter.
                 assert!(
                     street
                         .hear(&mut third, leads(0, beat, Place(8), false))

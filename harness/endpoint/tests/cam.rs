@@ -22,7 +22,7 @@ fn state() -> RobotState {
     }
 }
 
-/// What the endpoint sends within this many seconds when nothing happens.
+/// Packets that the endpoint sends within this many seconds when nothing happens.
 fn sent(endpoint: &mut Endpoint, seconds: u64) -> Vec<(u64, Service, Vec<u8>)> {
     let mut sent = Vec::new();
     for now_ms in (0..seconds * 1_000).step_by(100) {
@@ -54,7 +54,7 @@ fn the_cam_of_a_robot_does_not_replace_it_on_the_map() {
     let kinds: Vec<_> = packets.iter().map(|(_, kind, _)| *kind).collect();
     assert_eq!(kinds, [Service::Ram, Service::Cam].repeat(3));
     assert_eq!(on_the_map(&packets, |_| true), [Kind::Robot]);
-    // Who does not know RAM has a vehicle of that station type.
+    // A station that does not know RAM has a vehicle of that station type.
     let station_type = on_the_map(&packets, |kind| kind == Service::Cam);
     assert_eq!(station_type, [Kind::Vru]);
 }

@@ -18,12 +18,12 @@ pub(crate) const fn moment(now_ms: u64) -> Moment {
     Moment::after(694_694_401_000, now_ms)
 }
 
-/// What an endpoint does with a stimulus.
+/// Effects of a stimulus.
 pub(crate) fn handle(endpoint: &mut Endpoint, now_ms: u64, stimulus: Stimulus<'_>) -> Vec<Effect> {
     endpoint.handle(moment(now_ms), &RobotState::default(), stimulus)
 }
 
-/// What an endpoint does with a packet.
+/// Effects of a packet.
 pub(crate) fn hear(endpoint: &mut Endpoint, now_ms: u64, packet: &[u8]) -> Vec<Effect> {
     let arrived_ms = now_ms;
     handle(endpoint, now_ms, Stimulus::Datagram { packet, arrived_ms })

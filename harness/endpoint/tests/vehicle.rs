@@ -11,7 +11,7 @@ use crate::support::{endpoint, handle, hear, sent};
 
 const VEHICLE: StationId = StationId(7);
 
-/// What it answers who is `from` and of this type of station, in octets.
+/// Answer to `question` of a station `from` of this type, in octets.
 fn answer(question: Question, from: StationId, station_type: u8, promises: bool) -> Vec<u8> {
     let ids = Identifiers {
         robot_station_type: station_type,

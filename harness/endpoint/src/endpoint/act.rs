@@ -1,4 +1,4 @@
-//! What an endpoint wants of the application.
+//! Acts that an endpoint wants of the application.
 
 use crossguard_codec::TaskParameters;
 use crossguard_protocol::{
@@ -6,7 +6,7 @@ use crossguard_protocol::{
     StopReason,
 };
 
-/// What the application is to do or to know.
+/// Act for the application to carry out, or notice for it to know.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Act {
     /// Start a maneuver with these parameters.
@@ -34,7 +34,7 @@ pub enum Act {
     Ignored(Event, Ignored),
 }
 
-/// What an output means to the application.
+/// Act of the application for an output, if there is one.
 pub(super) fn act(output: Output, parameters: TaskParameters) -> Option<Act> {
     Some(match output {
         Output::StartManeuver(maneuver) => Act::Start(maneuver, parameters),

@@ -1,4 +1,4 @@
-//! Who may still answer a request for help.
+//! Robots that may still answer a request for help.
 //!
 //! A requester gathers offers for `t_select`. It need not wait that long when every robot that it has heard
 //! lately has answered: with an offer to this session, or by having a part in another one.
@@ -20,7 +20,7 @@ const ROBOTS_MAX: usize = 64;
 /// How many RAM of a leader say that it does not yield: it may send two before it has heard two of this robot.
 const INSISTS: u8 = 3;
 
-/// What the newest RAM of each robot nearby says of its part.
+/// Part of each robot nearby, from its newest RAM.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Answers {
     robots: BTreeMap<StationId, Answer>,
@@ -49,7 +49,7 @@ impl Answers {
             number,
         };
         let session = match ram.coordination {
-            // Who asks for help itself may withdraw, and help then.
+            // A robot that asks for help itself may withdraw, and help then.
             Coordination::None | Coordination::NeedHelp { .. } => None,
             Coordination::Leader { number, .. } => Some(own(number)),
             Coordination::OfferHelp { session, .. } | Coordination::Follower { session, .. } => {

@@ -17,7 +17,7 @@ use crate::ras::clustering::PerceivedVru;
 use crate::ras::containers;
 use crate::ras::surroundings::Told;
 
-/// What one call of [`Endpoint::handle`](super::Endpoint::handle) works with.
+/// Working data of one call of [`Endpoint::handle`](super::Endpoint::handle).
 pub(super) struct Turn<'a> {
     pub(super) around: &'a mut Around,
     state: &'a RobotState,

@@ -20,7 +20,7 @@ pub enum NotEntitled {
     Namesake {
         /// The station id in the message.
         says: StationId,
-        /// That of the certificate.
+        /// The station id in the certificate.
         is: StationId,
     },
     /// The packet comes from the address of another station.

@@ -1,4 +1,4 @@
-//! What an exchange is embedded in.
+//! Host interface of an exchange.
 
 use core::fmt::Display;
 
@@ -10,7 +10,7 @@ use crossguard_protocol::{Input, Output, Outputs, Robot, StationId};
 use crate::cause::Cause;
 use crate::ras::generation::Trigger;
 
-/// What time it is.
+/// Time of a call, on both clocks of the robot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Moment {
     /// Milliseconds since any fixed moment, on a clock that never goes back.
@@ -54,13 +54,13 @@ pub struct Outgoing<'a> {
     pub packet_len: usize,
 }
 
-/// What an exchange is embedded in: its effects go here, in order.
+/// Host of an exchange. It receives the effects, in order.
 pub trait Host {
-    /// What time it is: one for all that happens in a call.
+    /// Current time: one for all that happens in a call.
     fn moment(&self) -> Moment;
 
-    /// How the application says that the robot is. What the protocol knows better is corrected before it is
-    /// sent.
+    /// State of the robot, as the application reports it. The exchange corrects what the protocol knows better before
+    /// it sends.
     fn state(&self) -> &RobotState;
 
     /// Where the robot is now, for packets.

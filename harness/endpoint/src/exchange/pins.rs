@@ -1,13 +1,13 @@
 //! The tickets of robots that have a part in the robot's session: who joins under one ticket stays under it.
 //!
 //! The station id follows from the ticket, by four octets of its digest or by a name in it, so two tickets can have one
-//! id: by chance, by search, or because the authority gave the same name twice. What a session knows of its leader and
-//! of each member is what *that* ticket has said, or, without security, what was said without any.
+//! id: by chance, by search, or because the authority gave the same name twice. A session believes of its leader and
+//! of each member only what *that* ticket has said; without security, only what came without a ticket.
 
 use crossguard_codec::geonet::Signer;
 use crossguard_protocol::{MAX_FOLLOWERS, Phase, Robot, StationId};
 
-/// Who vouches for a message; nobody, without an envelope.
+/// Signer of a message; `None` without an envelope.
 type Vouching = Option<Signer>;
 
 /// The tickets of those in the robot's session.
@@ -17,7 +17,7 @@ pub(super) struct Pins([Option<(StationId, Vouching)>; MAX_FOLLOWERS]);
 impl Pins {
     /// Whether somebody may speak under this ticket, as far as the session of `robot` goes.
     pub(super) fn allow(&mut self, robot: &Robot, from: StationId, signer: Vouching) -> bool {
-        // Who has left may come back under another ticket.
+        // A station that has left may come back under another ticket.
         for pin in &mut self.0 {
             pin.take_if(|(station, _)| !has_part(robot, *station));
         }

@@ -1,4 +1,4 @@
-//! What bounds a cluster of road users: a circle, a rectangle or a polygon on the plane, and the same
+//! Area around a cluster of road users: a circle, a rectangle or a polygon on the plane, and the same
 //! on the wire (TS 102 894-2 `Shape` as `VruClusterInformation` restricts it).
 //!
 //! On the wire an area is relative to the sender's reference position: centimetres to the east and
@@ -11,7 +11,7 @@ use crossguard_codec::core::cdd::{
 
 use super::motion::{Point, distance_m};
 
-/// What rounding on the wire may take away from an area, in metres.
+/// Largest loss of an area by rounding on the wire, in metres.
 const ROUNDING_M: f64 = 0.05;
 
 /// An area on the plane.
@@ -380,7 +380,7 @@ mod tests {
     }
 
     proptest! {
-        /// Nobody falls out of an area, neither when it is drawn nor on the wire.
+        /// Every person stays inside an area, both as drawn and on the wire.
         #[test]
         fn everybody_stays_inside(points in points(), x in -30.0..30.0_f64, y in -30.0..30.0_f64) {
             let area = Area::around(&points, 0.3).unwrap();

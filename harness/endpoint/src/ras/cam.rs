@@ -2,7 +2,7 @@
 //! the same bits as TS 103 900 v2.3.1 here).
 //!
 //! It is that of a vehicle of the station type of robots, without a special role: where the robot is, how
-//! it moves and how large it is. What a robot does for people stands in its RAM alone.
+//! it moves and how large it is. Its work for people stands in its RAM alone.
 
 use crossguard_codec::asn1::cam::{
     BasicVehicleContainerHighFrequency, BasicVehicleContainerLowFrequency, CAM, CamParameters,
@@ -39,7 +39,7 @@ const WIDTH_UNAVAILABLE: u8 = 62;
 pub struct CamGeneration {
     cadence: Cadence,
     low_frequency: LowFrequency,
-    /// What the last one said.
+    /// State in the last CAM.
     said: RobotState,
 }
 

@@ -84,13 +84,13 @@ impl VruClass {
 /// A road user as a sensor tells of it, of whatever kind the sensor is.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct PerceivedVru {
-    /// What the sensor tracks it by. It never leaves the robot.
+    /// Number by which the sensor tracks it. It never leaves the robot.
     pub id: u32,
     /// Where it is, on the robot's plane.
     pub position_m: Point,
     /// Its velocity in m/s, to the east and to the north.
     pub velocity_mps: [f64; 2],
-    /// What it is.
+    /// Its class.
     pub class: VruClass,
     /// How sure the sensor is that it exists, 0..1.
     pub confidence: f64,
@@ -114,7 +114,7 @@ impl PerceivedVru {
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Settings {
-    /// Who is nearer to the robot than this becomes a member, in metres; at most 100.
+    /// A road user nearer to the robot than this becomes a member, in metres; at most 100.
     pub radius_m: f64,
     /// A member stays one until it is this much further away, from the robot or from another member of its
     /// cluster, in metres.
@@ -128,7 +128,7 @@ pub struct Settings {
     /// The directions of two members of a cluster differ by no more than this, in degrees; when they come
     /// together, by half of it. At most 360.
     pub heading_difference_deg: f64,
-    /// Who is less certain, from 0 to 1, does not become a member; a member stays one down to half of it.
+    /// A road user with less confidence, from 0 to 1, does not become a member; a member stays one down to half of it.
     pub confidence_min: f64,
     /// A member that is no longer perceived is forgotten after so long, in ms. The default is half of
     /// `timeClusterContinuity`.
@@ -160,7 +160,7 @@ impl Settings {
     /// Checks that they are possible.
     ///
     /// # Errors
-    /// What is wrong.
+    /// The first setting that is out of range, with its range.
     pub fn check(&self) -> Result<(), &'static str> {
         let within = |value: f64, most: f64| (0.0..=most).contains(&value);
         if !within(self.radius_m, 100.0) {
@@ -190,7 +190,7 @@ impl Settings {
 pub struct Cluster {
     /// Random id.
     pub id: u8,
-    /// What bounds the members.
+    /// Area around the members.
     pub area: Area,
     /// How many they are.
     pub cardinality: u8,
@@ -247,7 +247,7 @@ struct Other {
 }
 
 impl Clustering {
-    /// Nobody is a member yet. The ids of clusters follow from `seed`.
+    /// A clustering without members. The ids of clusters follow from `seed`.
     #[must_use]
     pub fn new(settings: Settings, seed: u64) -> Self {
         Self {

@@ -7,7 +7,7 @@
 //! | interval, ms | 100 | 200 | 400 | 500 | 1000 |
 //!
 //! An evaluation moves by one state at most, and is due every 200 ms. Where nobody measures the channel any more,
-//! it counts as free. What the interval holds back is CAM, and RAM outside of sessions: see
+//! it counts as free. The interval holds back CAM, and RAM outside of sessions: see
 //! [`Endpoint::hold_back`](crate::Endpoint::hold_back).
 
 /// How often the state is evaluated, in ms.

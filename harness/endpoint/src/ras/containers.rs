@@ -151,7 +151,7 @@ fn prediction(
 pub struct Announced {
     /// Its id, if it says one.
     pub id: Option<u8>,
-    /// What bounds it, on the receiver's plane.
+    /// Area around its members, on the receiver's plane.
     pub area: Area,
     /// How many belong to it.
     pub cardinality: u8,

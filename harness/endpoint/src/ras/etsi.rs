@@ -1,4 +1,4 @@
-//! What messages of ETSI share with a RAM. Their basic container and motion are made as those of a RAM
+//! Parts that messages of ETSI share with a RAM. Their basic container and motion are made as those of a RAM
 //! are, so a robot says the same of itself in each.
 
 use crossguard_codec::asn1::cdd::{
@@ -11,7 +11,7 @@ use crossguard_codec::{
 };
 use crossguard_protocol::{Availability, Coordination, Ram, StationId};
 
-/// What a RAM of `station` would say of this state, without a part in a session. `now_ms` is the time of
+/// RAM of `station` in this state, without a part in a session. `now_ms` is the time of
 /// its position in `TimestampIts`; `complete` adds containers.
 pub(super) fn awareness(
     ids: &Identifiers,

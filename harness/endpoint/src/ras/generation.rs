@@ -83,7 +83,7 @@ impl Trigger {
 /// Within what the interval between two messages stays.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Limits {
-    /// The shortest interval that congestion control allows, in ms (`T_GenCam_DCC`). What is outside
+    /// The shortest interval that congestion control allows, in ms (`T_GenCam_DCC`). A value outside
     /// of 100..1000 counts as the nearer end.
     pub congestion_ms: u64,
     /// The longest interval, in ms; at most 1000.
@@ -176,7 +176,7 @@ impl LowFrequency {
     }
 }
 
-/// What a RAM says that events are about.
+/// Fields of a RAM whose changes are events.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Status {
     /// Its part in a session.
@@ -187,7 +187,7 @@ pub struct Status {
     pub progression: TaskProgression,
 }
 
-/// What the last RAM said, and when.
+/// Content and time of the last RAM.
 #[derive(Clone, Debug, Default)]
 pub struct Generation {
     cadence: Cadence,
@@ -217,7 +217,7 @@ impl Generation {
         })
     }
 
-    /// What has happened to the robot since its last RAM, if anything has.
+    /// Event of the robot since its last RAM, if there was one.
     #[must_use]
     pub fn event(&self, now: &Status) -> Option<Trigger> {
         let Some((_, before)) = &self.said else {
@@ -280,7 +280,7 @@ fn role(coordination: &Coordination) -> impl PartialEq + use<> {
     }
 }
 
-/// What is asked for or offered, without what changes at every heartbeat.
+/// Request or offer, without the fields that change at every heartbeat.
 fn help(coordination: &Coordination) -> impl PartialEq + use<> {
     match *coordination {
         Coordination::NeedHelp {
@@ -291,7 +291,7 @@ fn help(coordination: &Coordination) -> impl PartialEq + use<> {
     }
 }
 
-/// What a follower reports of its command.
+/// Report of a follower on its command.
 fn report(coordination: &Coordination) -> impl PartialEq + use<> {
     match *coordination {
         Coordination::Follower { last, .. } => last,

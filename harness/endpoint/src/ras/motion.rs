@@ -10,7 +10,7 @@ use crossguard_protocol::Decimetres;
 /// A place on the plane: metres to the east and to the north of its origin.
 pub type Point = [f64; 2];
 
-/// Who is slower stands, in m/s: a heading is noise there.
+/// A station slower than this stands, in m/s: a heading is noise there.
 pub const STANDING_MPS: f64 = 0.3;
 
 /// Distance between two places, in metres.
@@ -56,7 +56,7 @@ pub struct Likeness {
 }
 
 impl Likeness {
-    /// Whether two velocities, in m/s to the east and to the north, are alike. Who is slower than
+    /// Whether two velocities, in m/s to the east and to the north, are alike. A velocity below
     /// [`STANDING_MPS`] has no direction that counts: then the difference of the two velocities does.
     #[must_use]
     pub fn holds(&self, a: [f64; 2], b: [f64; 2]) -> bool {
@@ -77,7 +77,7 @@ pub const MATCH: Likeness = Likeness {
     heading_deg: 20.0,
 };
 
-/// What has changed since a message was sent; `None` where one of the two is not known.
+/// Change since a message was sent; `None` where one of the two values is not known.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Change {
     /// Distance between the two places, in metres.
@@ -89,7 +89,7 @@ pub struct Change {
 }
 
 impl Change {
-    /// What changed between two motions.
+    /// Change between two motions.
     #[must_use]
     pub fn of_motion(before: &Motion, after: &Motion) -> Self {
         Self {
@@ -99,7 +99,7 @@ impl Change {
         }
     }
 
-    /// What changed between two states of a robot. The distance is exact to 0.1 m.
+    /// Change between two states of a robot. The distance is exact to 0.1 m.
     #[must_use]
     pub fn of_robot(before: &RobotState, after: &RobotState) -> Self {
         let both = |a: Option<Measurement>, b: Option<Measurement>| Some((a?.value, b?.value));

@@ -1,4 +1,4 @@
-//! What a robot perceives of the people around it, and what it announces of them: one cluster in every
+//! People that a robot perceives around it, and their announcement: one cluster in every
 //! RAM, in turn, and a cluster VAM for each where devices do not understand RAM. A cluster that is over goes
 //! first: the next RAM is due at once and says so, and three cluster VAM break it up.
 //!
@@ -63,17 +63,17 @@ pub struct Surroundings {
     breakups: Vec<(Ended, u8)>,
 }
 
-/// What a cluster VAM says.
+/// Content of a cluster VAM.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Told {
-    /// Where a cluster is.
+    /// A cluster and its place.
     Cluster(Cluster),
-    /// That one is over.
+    /// The end of a cluster.
     Ended(Ended),
 }
 
 impl Surroundings {
-    /// Nobody is around yet. The ids of clusters follow from `seed`.
+    /// Surroundings without people. The ids of clusters follow from `seed`.
     #[must_use]
     pub fn new(awareness: Awareness, seed: u64) -> Self {
         Self {
@@ -204,7 +204,7 @@ impl Surroundings {
         whole_ms.clamp(INTERVAL_MIN_MS, INTERVAL_MAX_MS)
     }
 
-    /// What the next RAM says of the people around, if anything.
+    /// Cluster, or end of one, that the next RAM announces, if there is any.
     pub fn next_told(&mut self) -> Option<Told> {
         match self.ended.pop_front() {
             Some(ended) => Some(Told::Ended(ended)),
@@ -222,7 +222,7 @@ impl Surroundings {
         Some(cluster)
     }
 
-    /// What the cluster VAM say that are due at `now_ms`. The first one that breaks a cluster up is due at once, the
+    /// Contents of the cluster VAM that are due at `now_ms`. The first one that breaks a cluster up is due at once, the
     /// others every interval.
     pub fn due_cluster_vams(&mut self, now_ms: u64) -> Vec<Told> {
         let (Some(_), Some(interval_ms)) = (self.plane, self.cluster_vam_interval_ms) else {
@@ -319,7 +319,7 @@ mod tests {
             let is_there = due.iter().map(|told| matches!(told, Told::Cluster(_)));
             sent.extend(is_there.map(|is_there| (now_ms, is_there)));
         }
-        // Who is no longer perceived is forgotten a second after the last time, at 900 ms.
+        // A person who is no longer perceived is forgotten a second after the last time, at 900 ms.
         let (is_there, is_over) = (true, false);
         let told = [
             (0, is_there),

@@ -165,7 +165,7 @@ pub fn vam(
     ))
 }
 
-/// What a VAM shares with a RAM.
+/// Containers that a VAM shares with a RAM.
 fn shared(
     station: u32,
     state: &RobotState,
@@ -262,7 +262,7 @@ mod tests {
     use super::super::motion::Point;
     use super::*;
 
-    /// What the golden vectors of VAM have in common (`codec/tests/golden/vam.txt`).
+    /// State that the golden vectors of VAM have in common (`codec/tests/golden/vam.txt`).
     fn golden_state() -> RobotState {
         let measurement = |value, confidence| {
             Some(Measurement {
@@ -298,7 +298,7 @@ mod tests {
         }
     }
 
-    /// What `make` makes, heard on the newer and on the older dictionary.
+    /// Messages of `make`, decoded by the newer and by the older dictionary.
     fn heard(make: impl Fn(&Identifiers) -> Vec<u8>) -> [ItsMessage; 2] {
         [Dictionary::V2_4_1, Dictionary::V2_1_1].map(|dictionary| {
             let ids = Identifiers {

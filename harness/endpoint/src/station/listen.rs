@@ -1,4 +1,4 @@
-//! What any receiver can say of packets and messages, without verifying them: for sniffers, captures and charts.
+//! Packets and messages as any receiver can read them, without verifying them: for sniffers, captures and charts.
 
 #[cfg(feature = "security")]
 use crossguard_codec::geonet::EnvelopeError;
@@ -49,7 +49,7 @@ pub fn link_layer_of(packet: &[u8]) -> [u8; 6] {
     })
 }
 
-/// What `octets`, a message or a packet with one, say to a listener: for charts and tools.
+/// Content of `octets`, a message or a packet with one, to a listener: for charts and tools.
 ///
 /// # Errors
 /// Why they say nothing.

@@ -1,7 +1,7 @@
 //! The local dynamic map: who is around, as heard lately.
 //!
 //! Each kind of road user has room of its own, so that a flood of one does not push out another; when
-//! the room is full, the user that was heard of longest ago makes place. What is not heard of again is
+//! the room is full, the user that was heard of longest ago makes place. A user that is not heard of again is
 //! forgotten.
 
 use std::collections::BTreeMap;
@@ -26,10 +26,10 @@ pub const fn lifetime_ms(kind: Kind) -> u64 {
     }
 }
 
-/// Somebody on the map.
+/// A road user on the map.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Neighbour {
-    /// What was told of it last.
+    /// Its newest report.
     pub user: RoadUser,
     /// When, on the robot's clock.
     pub heard_ms: u64,

@@ -1,4 +1,4 @@
-//! What makes a robot an ITS station besides its packets: a map of who is around, and pseudonyms.
+//! Parts of an ITS station besides its packets: a map of the road users around, and pseudonyms.
 //!
 //! - [`LocalDynamicMap`] is who is around, as heard lately, by robots and by other stations.
 //! - [`Security`] is whether a robot signs and verifies, and under which pseudonyms.

@@ -1,8 +1,8 @@
-//! Who goes by which station id.
+//! Owners of station ids.
 //!
 //! The id of a robot follows from its ticket, so nobody else can go by it. The tickets of other stations say nothing
 //! of ids: there, an id belongs to the ticket under which it was heard first, until that has been silent for a while,
-//! and a ticket has one id at a time. Nobody who is heard is forgotten to make room for somebody new.
+//! and a ticket has one id at a time. No station that is heard is forgotten to make room for a new one.
 
 use std::collections::HashMap;
 
@@ -44,7 +44,7 @@ impl From<NotAdmitted> for Cause {
     }
 }
 
-/// Who goes by an id.
+/// The ticket that owns an id.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(
     not(any(feature = "foreign", test)),
@@ -67,7 +67,7 @@ impl Owner {
 pub(super) struct Namesakes {
     /// Robots, whose ids follow from their tickets. They have places of their own, which others cannot fill.
     robots: HashMap<StationId, Owner>,
-    /// Those whose ids do not.
+    /// Other stations, whose ids do not follow from their tickets.
     others: HashMap<StationId, Owner>,
 }
 

@@ -1,4 +1,4 @@
-//! Who is around a robot, and who goes by which station id.
+//! Road users around a robot, and owners of station ids.
 
 use crossguard_codec::geonet::{Address, EgoPosition, Signer};
 use crossguard_codec::si::rebuild_timestamp;

@@ -2,7 +2,7 @@
 //!
 //! A pseudonym is a ticket with all that follows from it, station id and link address, and with all that this module
 //! draws for it: the numbers of sessions and offers, the ids of clusters, and how long the robot is silent before it.
-//! What is drawn follows from a secret that nobody else knows and from the station id, so that two pseudonyms do not
+//! All draws follow from a secret that nobody else knows and from the station id, so that two pseudonyms do not
 //! tell that they are one robot, and one that comes back gives out no number twice:
 //!
 //! ```text
@@ -26,11 +26,11 @@ const SILENCE_PER_PERIOD: u64 = 30;
 /// For how long after such a moment a robot still changes, in ms: so often each looks at its clock at least.
 const MOMENT_MS: u64 = 500;
 
-/// What a robot draws for its pseudonyms: from a secret that nobody else knows.
+/// Secret from which a robot draws for its pseudonyms. Nobody else knows it.
 #[derive(Clone, Copy, Default)]
 pub struct Secret([u8; 32]);
 
-/// What is drawn for a pseudonym.
+/// Kind of a draw for a pseudonym.
 #[derive(Clone, Copy)]
 enum Drawn {
     Epoch = 1,
@@ -71,7 +71,7 @@ impl Secret {
         self.draw(Drawn::Epoch, station) as u16
     }
 
-    /// What stands for a boot counter in the numbers of this station. Different boot counters give different ones.
+    /// Stand-in for a boot counter in the numbers of this station. Different boot counters give different ones.
     #[must_use]
     pub fn epoch(&self, station: StationId, boot: u16) -> u16 {
         boot.wrapping_add(self.mask(station))
@@ -82,7 +82,7 @@ impl Secret {
         epoch.wrapping_sub(self.mask(station))
     }
 
-    /// What the ids of clusters follow from under this pseudonym.
+    /// Seed of the ids of clusters under this pseudonym.
     pub(crate) fn clusters(&self, station: StationId, boot: u16) -> u64 {
         self.draw(Drawn::Clusters, station) ^ u64::from(boot)
     }
@@ -94,7 +94,7 @@ pub(crate) struct Taken {
     pub(crate) station: StationId,
     /// Where its session and offer numbers begin.
     pub(crate) next: UniqueNumber,
-    /// What the ids of its clusters follow from.
+    /// Seed of the ids of its clusters.
     pub(crate) clusters: u64,
 }
 
@@ -197,7 +197,7 @@ impl Pseudonyms {
         now_ms < self.silent_until_ms
     }
 
-    /// What stands for a boot counter that has been persisted, in the numbers of this station.
+    /// Stand-in for a boot counter that has been persisted, in the numbers of this station.
     pub(crate) fn epoch(&self, station: StationId, boot: u16) -> u16 {
         self.secret.epoch(station, boot)
     }
@@ -258,7 +258,7 @@ mod tests {
         assert!(!early.is_due(49_999));
         assert!(early.is_due(50_000) && late.is_due(50_090));
         assert!(!early.is_due(50_100));
-        // Who was in a session then waits for the next moment.
+        // A robot that was in a session then waits for the next moment.
         assert!(!early.is_due(60_500));
         assert!(!early.is_due(60_600));
         assert!(early.is_due(70_499));

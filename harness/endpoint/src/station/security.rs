@@ -20,7 +20,7 @@ named! {
         /// None: packets are not signed, and signed ones are dropped.
         #[default]
         Off = "off",
-        /// Packets are signed. Those of others are taken without a signature as well, but not with a
+        /// Packets are signed. Packets of others are taken without a signature as well, but not with a
         /// wrong one.
         Sign = "sign",
         /// Packets are signed, and nothing is taken in without a signature that can be relied on.
@@ -43,7 +43,7 @@ impl FromStr for Mode {
     }
 }
 
-/// What a robot needs to sign and to verify.
+/// Certificates that a robot needs to sign and to verify.
 #[derive(Clone, Debug, Default)]
 pub struct Credentials {
     /// The certificates that it trusts.
@@ -67,11 +67,11 @@ impl Credentials {
 /// The security of one robot; off by default.
 #[derive(Clone, Debug, Default)]
 pub struct Security {
-    /// What stands around its packets.
+    /// Envelope of its packets.
     pub envelope: Envelope,
     /// After how long it changes its pseudonym, in milliseconds; `None` for never.
     pub pseudonym_period_ms: Option<u64>,
-    /// What it draws for its pseudonyms; not used without security.
+    /// Secret for its pseudonyms; not used without security.
     pub secret: Secret,
 }
 
@@ -122,8 +122,8 @@ impl Security {
         self
     }
 
-    /// What a robot that goes by this station id has in its session and offer numbers for its boot counter: the boot
-    /// counter itself without security, and otherwise a number that tells it to nobody.
+    /// Epoch in the session and offer numbers of a robot with this station id: the boot counter itself without
+    /// security, and otherwise a number that does not reveal it.
     #[must_use]
     pub fn epoch(&self, station: StationId, boot: u16) -> u16 {
         match &self.envelope {

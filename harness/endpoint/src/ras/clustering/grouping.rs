@@ -1,4 +1,4 @@
-//! Who belongs together: members that are close to each other and move alike.
+//! Groups of members that are close to each other and move alike.
 //!
 //! Every pair in a group is close and alike, not only neighbours: a queue of people does not become one long
 //! group, and a turn along a row of them does not either. A group of before stays together longer than
@@ -48,7 +48,7 @@ impl Togetherness {
     }
 }
 
-/// Divides `people` into groups. Who was together in `before` stays so if they are still close and alike.
+/// Divides `people` into groups. Members of a group in `before` stay together if they are still close and alike.
 pub(super) fn groups(
     people: &[&PerceivedVru],
     before: &[(u8, BTreeSet<u32>)],
@@ -106,7 +106,7 @@ fn of_one_motion(mut group: Vec<&PerceivedVru>, likeness: Likeness) -> Vec<Vec<&
     parts
 }
 
-/// What is left of the groups of before, and who is in none.
+/// Remainder of the groups of before, and people in none.
 fn stayed<'a>(
     people: &[&'a PerceivedVru],
     before: &[(u8, BTreeSet<u32>)],
@@ -121,7 +121,7 @@ fn stayed<'a>(
         let mut members: Vec<_> = members.collect();
         let middle = mean(&members, |vru| vru.position_m);
         let from_middle = |vru: &PerceivedVru| distance_m(middle, vru.position_m);
-        // Who is in the middle of a group has the most in common with the others.
+        // The member in the middle of a group has the most in common with the others.
         members.sort_by(|a, b| from_middle(a).total_cmp(&from_middle(b)));
         let mut core: Vec<&PerceivedVru> = Vec::new();
         for vru in members {

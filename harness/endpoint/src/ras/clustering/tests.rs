@@ -1,4 +1,4 @@
-//! Who is a member, and of which cluster.
+//! Members, and the clusters that they belong to.
 
 use proptest::prelude::*;
 
@@ -317,7 +317,7 @@ proptest! {
         prop_assert_eq!(ids.len(), clusters.len());
     }
 
-    /// What a person is tracked by has no influence on what is announced.
+    /// The numbers by which people are tracked have no influence on what is announced.
     #[test]
     fn nothing_persistent_gets_out(
         places in proptest::collection::vec((-12.0..12.0_f64, -9.0..9.0_f64), 1..50), offset in 1_u32..1_000_000
