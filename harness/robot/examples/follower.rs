@@ -39,7 +39,7 @@ struct Follower {
     began: Instant,
     /// Where the body is, in degrees. A leader does not believe a follower that is elsewhere than it was sent.
     position: Position,
-    /// What the body does, where it leads, and until when.
+    /// The maneuver that the body carries out, its target, and when it ends.
     running: Option<(ManeuverId, Option<Target>, Instant)>,
     completed: usize,
     is_released: bool,
@@ -53,7 +53,7 @@ impl Follower {
             now_ms,
             timestamp_its: si::timestamp_its(unix_ms()),
         };
-        // What the sensors know of the body; what they do not know stays unavailable.
+        // State of the body as the sensors know it; unknown fields stay unavailable.
         let state = RobotState {
             position: self.position,
             speed: Some(if self.running.is_some() { 0.5 } else { 0.0 }.into()),
@@ -67,7 +67,7 @@ impl Follower {
             if let Effect::Act(act) = &effect {
                 self.act(act);
             }
-            // What is sent is logged first: no receiver logs it before its sender.
+            // A packet is logged before it is sent: no receiver logs it before its sender.
             if let Some(entry) = trace::recorded(effect) {
                 self.record(entry)?;
             }

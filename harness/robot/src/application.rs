@@ -6,7 +6,7 @@
 //!   RAM, CAM, VAM ──┘                     └──► body
 //! ```
 //!
-//! What is decided about people, guards, vehicles and the plan is decided in `crossguard-crossing`.
+//! `crossguard-crossing` decides about people, guards, vehicles and the plan.
 
 mod bodily;
 mod senses;
@@ -43,22 +43,22 @@ const WISHES: usize = 64;
 #[derive(Debug)]
 pub struct Application {
     body: Box<dyn Body>,
-    /// What people see while it leads.
+    /// The sign that people see while it leads.
     sign: Sign,
-    /// What its robot's RAM say that it shows to people.
+    /// Signals to people, as its robot's RAM report them.
     shown: Shown,
     /// Whether its robot asks for help or leads, so that people look at its sign.
     faces_people: bool,
     /// Whether it counts on the people of a simulation that it keeps: it leads, or its crossing is not over.
     counts: bool,
-    /// What it knows of the people on the road.
+    /// Its knowledge of the people on the road.
     road: Road,
     site: Site,
-    /// What it does when it leads; without one, somebody else tells it.
+    /// Its plan for leading; without one, somebody else tells it.
     plan: Option<Plan>,
     setup: Box<Setup>,
     crossing: Box<Crossing>,
-    /// What keeps people from crossing, as told last.
+    /// The reason that keeps people from crossing, as told last.
     hindrance: Option<Hindrance>,
     /// The same, until it is logged.
     untold_hindrance: Option<Hindrance>,
@@ -122,7 +122,7 @@ impl Application {
         self
     }
 
-    /// What it knows of the road from now on, where it has come to.
+    /// Replaces its knowledge of the road, because the robot has come to another place.
     pub fn come_to(&mut self, road: Road) {
         self.road = road;
         *self.setup = self.crossing_setup();
@@ -255,7 +255,7 @@ impl Application {
         }
     }
 
-    /// What keeps people from crossing from now on, for the log.
+    /// New reason that keeps people from crossing, for the log.
     pub(crate) const fn next_hindrance(&mut self) -> Option<Hindrance> {
         self.untold_hindrance.take()
     }
@@ -284,8 +284,8 @@ impl Application {
         }
     }
 
-    /// What a robot shows to vehicles that holds them back: what its plan says while it leads, and stop at its place as a
-    /// guard. Neither ends before the road is clear of what it did.
+    /// Signal by which a robot holds vehicles back: that of its plan while it leads, and stop at its place as a guard.
+    /// Neither ends before the road is clear.
     fn holds_back(&self, robot: &Robot) -> Option<PublicSignal> {
         let duty = robot.duty();
         let maneuver = match (robot.phase(), duty) {

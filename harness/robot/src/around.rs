@@ -1,4 +1,4 @@
-//! Who is around a robot, in few numbers: its local dynamic map as logs, `status` and metrics have it.
+//! Road users around a robot, in few numbers: its local dynamic map as logs, `status` and metrics have it.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -7,7 +7,7 @@ use crossguard_endpoint::station::LocalDynamicMap;
 use crossguard_protocol::Decimetres;
 use serde::{Deserialize, Serialize};
 
-/// Who is around, by kind; kinds of which nobody is around are left out.
+/// Road users around, by kind; kinds without any are left out.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Around {
     /// One for each kind.
@@ -22,7 +22,7 @@ pub struct OfKind {
     pub kind: Kind,
     /// How many stations, objects and clusters there are.
     pub count: usize,
-    /// Who is nearest, unless no distance is known.
+    /// The nearest one, unless no distance is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nearest: Option<Nearest>,
     /// For how long the one that was told of longest ago has not been told of again, in ms.
@@ -33,14 +33,14 @@ pub struct OfKind {
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Nearest {
-    /// Who it is.
+    /// Its identity.
     pub who: Identity,
     /// How far away it is, in metres.
     pub distance_m: f64,
 }
 
 impl Around {
-    /// Who is on `map` at `now_ms`, seen from `own`.
+    /// Road users on `map` at `now_ms`, seen from `own`.
     #[must_use]
     pub fn of(map: &LocalDynamicMap, own: &Position, now_ms: u64) -> Self {
         let kinds = Kind::ALL
@@ -51,7 +51,7 @@ impl Around {
         }
     }
 
-    /// Those of a kind, if there are any.
+    /// Road users of a kind, if there are any.
     #[must_use]
     pub fn of_kind(&self, kind: Kind) -> Option<&OfKind> {
         self.kinds.iter().find(|it| it.kind == kind)

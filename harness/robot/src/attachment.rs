@@ -7,8 +7,8 @@
 //!  │ "CG"   │ 1│kind│length│port│port info│TC│ 0 │power │busy ratio │ time        │ body │
 //! ```
 //!
-//! All numbers are big-endian. What a frame does not say has the value for *unknown*; the length says how many
-//! octets the body has, and nothing follows them.
+//! All numbers are big-endian. A field that the sender does not know has the value for *unknown*. The length says how
+//! many octets the body has, and nothing follows them.
 
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
@@ -17,7 +17,7 @@ use crossguard_codec::geonet::{
 };
 use serde::Deserialize;
 
-/// What each frame begins with.
+/// First octets of each frame.
 pub const MAGIC: [u8; 2] = *b"CG";
 /// The version of this protocol.
 pub const VERSION: u8 = 1;
@@ -31,7 +31,7 @@ const BUSY_ALWAYS: u16 = 10_000;
 const BUSY_UNKNOWN: u16 = u16::MAX;
 const POWER_UNKNOWN: i16 = i16::MIN;
 
-/// What a frame is.
+/// Kind of a frame.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Kind {
     /// The robot is here: to be said once a second, and answered by [`Kind::Channel`].
@@ -58,7 +58,7 @@ impl Kind {
         Self::Channel,
     ];
 
-    /// Who sends it.
+    /// The side that sends it.
     #[must_use]
     pub const fn side(self) -> Side {
         match self {
@@ -83,7 +83,7 @@ pub enum Side {
     Unit,
 }
 
-/// What a unit measures.
+/// Measurements of a unit.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Radio {
     /// Power of the reception, in tenths of dBm.
@@ -127,11 +127,11 @@ pub struct Btp {
 /// A frame.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Frame<'a> {
-    /// What it is.
+    /// Its kind.
     pub kind: Kind,
     /// Port and traffic class of a payload.
     pub btp: Btp,
-    /// What the unit measured.
+    /// Measurements of the unit.
     pub radio: Radio,
     /// When the unit received the body, in µs since 1970 (UTC).
     pub unix_us: Option<u64>,
@@ -160,9 +160,9 @@ pub enum FrameError {
     /// The length is not that of the body.
     #[error("the length is {announced}, and {present} octets follow the header")]
     Length {
-        /// What the header says.
+        /// Length in the header, in octets.
         announced: u16,
-        /// How many there are.
+        /// Octets that are there.
         present: usize,
     },
     /// There is a body where none may be, or none where one has to be.
@@ -299,7 +299,7 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// What a robot gives to its unit.
+/// Data that a robot gives to its unit.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Sends {

@@ -27,7 +27,7 @@ pub use self::port::{BodyPort, Ported, VERSION as PORT_VERSION};
 pub use self::simulated::Simulated;
 use crate::site::{Place, Site};
 
-/// What kind of robot a body is.
+/// Kind of robot that a body is.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Build {
@@ -43,7 +43,7 @@ pub enum Build {
     Aerial,
     /// Anything else.
     Other,
-    /// Nobody says.
+    /// Not known.
     Unknown,
 }
 
@@ -109,7 +109,7 @@ impl Build {
 /// How near a body is to a place at which it stands, in metres.
 const AT_PLACE_M: f64 = 0.05;
 
-/// What a body is to do.
+/// Act for a body to carry out.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum BodyAct {
     /// Begin a maneuver. Without a target it is done where the body stands. One that holds a place, like a
@@ -142,7 +142,7 @@ pub trait Body: fmt::Debug + Send {
     /// Lets `seconds` pass. Returns all that the body reports meanwhile, in order.
     fn advance(&mut self, seconds: f64) -> Vec<Report>;
 
-    /// What the body's sensors say.
+    /// State of the robot, by the body's sensors.
     fn state(&self) -> RobotState;
 
     /// Where the body is, as far as is known.
@@ -197,7 +197,7 @@ pub struct Pose {
     pub speed_mps: Option<f64>,
 }
 
-/// What a body reports.
+/// Report of a body.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Report {
     /// It is at the place from which it guards.
@@ -229,7 +229,7 @@ pub enum Fallback {
     Finished,
 }
 
-/// What is known of a body of this build at a pose; `None` where nobody knows where it is. What is not known is
+/// State of a body of this build at a pose; `None` where its place is not known. Unknown values are
 /// unavailable in messages.
 fn state_of(
     build: Build,

@@ -26,7 +26,7 @@ use nix::fcntl::OFlag;
 
 use crate::files;
 
-/// What the file begins with.
+/// First words of the file.
 const MAGIC: &str = "crossguard boot counter";
 
 /// Why there is no boot counter.
@@ -93,7 +93,7 @@ pub struct Boot {
     pub counter: u16,
     /// Where it is kept; nowhere, for robots of which nothing outlives the process.
     kept: Option<Kept>,
-    /// What a robot that signs remembers besides.
+    /// Further memory of a robot that signs.
     memory: Option<Memory>,
 }
 
@@ -126,7 +126,7 @@ impl Boot {
         Ok(self)
     }
 
-    /// What a robot that signs remembers; nothing from before this start, unless it is [`Boot::remembering`].
+    /// Memory of a robot that signs; nothing from before this start, unless it is [`Boot::remembering`].
     pub(crate) fn take_memory(&mut self) -> Memory {
         self.memory.take().unwrap_or_else(Memory::nowhere)
     }
@@ -199,7 +199,7 @@ fn take_after(path: &Path, lock: &File, known: u16) -> Result<u16, BootError> {
     Ok(counter)
 }
 
-/// What the locked file tells of the counter.
+/// Counter according to the locked file.
 #[derive(Clone, Copy, Debug)]
 enum Remembered {
     /// The robot has never taken one.
@@ -344,7 +344,7 @@ mod tests {
         assert_eq!(take(&path).unwrap().counter, 4);
         fs::write(&path, format!("{MAGIC} 1\n")).unwrap();
         assert_eq!(take(&path).unwrap().counter, 5);
-        // What is beside it may be gone, as after an update: the file counts on.
+        // The file beside it may be gone, as after an update: this file counts on.
         fs::remove_file(beside(&path)).unwrap();
         assert_eq!(take(&path).unwrap().counter, 6);
         fs::write(beside(&path), "").unwrap();

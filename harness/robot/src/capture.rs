@@ -38,7 +38,7 @@ pub struct Capture {
     lost: Arc<AtomicU64>,
 }
 
-/// What the thread that writes is told.
+/// Item for the thread that writes.
 #[derive(Debug)]
 enum Item {
     /// This frame was on the link, so long after 1970.
@@ -170,7 +170,7 @@ fn write(mut writer: PcapWriter<File>, queue: &Queue<Item>) {
             }
             Item::Frame(..) => {}
             Item::Finish(tell) => {
-                // Who asked may have given up.
+                // The asking thread may have given up.
                 let _ = tell.send(std::mem::replace(&mut result, Ok(())));
             }
         }

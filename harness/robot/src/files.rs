@@ -1,5 +1,5 @@
 //! Files that a configuration names: regular files alone, and none longer than it can be. A FIFO holds no robot up, and a device
-//! without an end fills no memory. What an open file is, is asked of it: nothing is exchanged in between.
+//! without an end fills no memory. The type of a file is asked of the open file: nothing is exchanged in between.
 
 use std::fs::{File, Metadata};
 use std::io::{Error, ErrorKind, Read as _, Result};
@@ -63,7 +63,7 @@ pub(crate) fn regular(file: File) -> Result<(File, Metadata)> {
     Err(Unfit::Kind(unfit).into())
 }
 
-/// What is in an open file, which has at most so many octets.
+/// Content of an open file, which has at most so many octets.
 pub(crate) fn rest(file: File, octets_max: u64) -> Result<Vec<u8>> {
     let mut octets = Vec::new();
     // One octet more than the longest.
@@ -74,7 +74,7 @@ pub(crate) fn rest(file: File, octets_max: u64) -> Result<Vec<u8>> {
     Ok(octets)
 }
 
-/// What is in a regular file, which has at most so many octets.
+/// Content of a regular file, which has at most so many octets.
 ///
 /// # Errors
 /// When it cannot be read, is no regular file, or is longer.
@@ -85,7 +85,7 @@ pub fn read(path: &Path, octets_max: u64) -> Result<Vec<u8>> {
 /// The same, as text.
 ///
 /// # Errors
-/// Those of [`read`], and when it is no text in UTF-8.
+/// The errors of [`read`], and a text that is not in UTF-8.
 pub fn text(path: &Path, octets_max: u64) -> Result<String> {
     text_of(read(path, octets_max)?)
 }
@@ -119,7 +119,7 @@ mod tests {
     type Maker = fn(&Path);
     type Reader = fn(&Path) -> Option<String>;
 
-    /// What reads the file of this name in a folder, and what is said where it is not read.
+    /// Readers of the file of this name in a folder. Each returns its error.
     const READERS: [(&str, Reader); 9] = [
         ("robot.toml", |at| {
             told(RobotFile::read(&at.join("robot.toml")))
@@ -144,7 +144,7 @@ mod tests {
         ("root.key", |at| told(Holder::read(at, "root"))),
     ];
 
-    /// What stands in the place of a file, and what is said of it.
+    /// Error for an unfit file, and the maker of that file.
     const UNFIT: [(&str, Maker); 5] = [
         ("is a FIFO, not a file", |path| {
             mkfifo(path, Mode::S_IRUSR | Mode::S_IWUSR).unwrap();

@@ -24,7 +24,7 @@ pub const RECORDS: usize = 4_096;
 /// How often a record is tried again that is worth waiting for.
 const PATIENCE_STEP: Duration = Duration::from_millis(5);
 
-/// What becomes of a queue that is full.
+/// Fate of a queue that is full.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum WhenFull {
     /// It ends; its reader gets what is in it and no more.
@@ -55,7 +55,7 @@ impl Journal {
         Self::default()
     }
 
-    /// A queue of at most `length` records for one more reader. What it does not get is counted
+    /// A queue of at most `length` records for one more reader. Records that it does not get are counted
     /// under `lost`.
     pub fn reader(
         &mut self,
@@ -92,11 +92,11 @@ impl Journal {
     }
 }
 
-/// Writes what comes out of a queue until nothing more can come. What is written is not kept back by `to`, which
+/// Writes the items of a queue until no more can come. `to` does not keep back written items: it
 /// is flushed while nothing comes.
 ///
 /// # Errors
-/// Those of the writer.
+/// Errors of the writer.
 pub fn write_out<T, W>(
     queue: &Receiver<T>,
     to: &mut W,
@@ -126,7 +126,7 @@ impl Queue {
             return Err(self.lost);
         }
         match self.to.try_send(Arc::clone(record)) {
-            // Who does not read any more misses nothing.
+            // A reader that has gone misses nothing.
             Ok(()) | Err(TrySendError::Disconnected(_)) => Ok(()),
             Err(TrySendError::Full(_)) => {
                 let ends = self.when_full == WhenFull::End;

@@ -41,7 +41,7 @@ pub struct FileError {
     pub file: String,
     /// The line, from 1 on; `None` where the whole file is meant.
     pub line: Option<usize>,
-    /// What is wrong there.
+    /// The fault there.
     pub what: String,
 }
 
@@ -54,7 +54,7 @@ impl fmt::Display for FileError {
     }
 }
 
-/// What is wrong, and where in the text.
+/// Fault of a text, and where it is.
 #[derive(Debug)]
 pub(crate) struct Misfit {
     pub(crate) span: Option<Range<usize>>,
@@ -194,11 +194,11 @@ pub(crate) fn within_if_any(
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 #[error("{name} is {}: {wanted} is wanted", Number(value))]
 pub struct Impossible {
-    /// What it is called there.
+    /// Its name there.
     pub name: &'static str,
     /// The number.
     pub value: f64,
-    /// What would be possible.
+    /// Possible values, in words.
     pub wanted: &'static str,
 }
 

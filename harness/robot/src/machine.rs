@@ -141,7 +141,7 @@ impl<P: StateMachine> Machine<P> {
     }
 
     /// Whether the robot may be switched off: it has no part in a session, says farewell to none, and its
-    /// body is on no way that its fallback takes. Who holds a place goes on holding it.
+    /// body is on no way that its fallback takes. A robot that holds a place goes on holding it.
     #[must_use]
     pub fn may_stop(&self) -> bool {
         let robot = self.endpoint.robot();

@@ -1,4 +1,4 @@
-//! What a person types to a running robot, and what programs tell it by the [port]. One table of commands, `COMMANDS`, is what the parser and the help go by.
+//! Commands to a running robot, by a person who types and by programs at the [port]. The parser and the help go by one table, `COMMANDS`.
 
 mod commands;
 pub mod port;
@@ -47,7 +47,7 @@ pub enum Misunderstood {
     Missing {
         /// The command.
         command: &'static str,
-        /// What it wants.
+        /// The words that it wants.
         wanted: &'static str,
     },
     /// A word means nothing here.
@@ -55,7 +55,7 @@ pub enum Misunderstood {
     Word {
         /// The word.
         word: String,
-        /// What was wanted in its place.
+        /// The word that was wanted in its place.
         wanted: Cow<'static, str>,
     },
     /// It is no person.
@@ -111,7 +111,7 @@ fn person(text: &str) -> Result<Line, Misunderstood> {
 const MEANING: usize = 23;
 const WIDTH: usize = 80;
 
-/// What can be typed: all of it, or the command of this name.
+/// Help for all commands, or for the command of this name.
 #[must_use]
 pub fn help(command: Option<&str>) -> String {
     let mut lines = Vec::new();

@@ -47,10 +47,10 @@ const PEOPLE_MAX: usize = 256;
 /// Error of a place where a source does not say it, in metres.
 const ERROR_M: f64 = 0.2;
 
-/// Somebody in a frame.
+/// A road user in a frame.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Perceived {
-    /// Who, and where on the site.
+    /// The road user, with its place on the site.
     pub vru: PerceivedVru,
     /// Whether the source tracks them by a number.
     pub has_id: bool,
@@ -84,12 +84,12 @@ impl From<PerceivedVru> for Perceived {
     }
 }
 
-/// What a source saw at one time.
+/// Observation of a source at one time.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct SensorFrame {
     /// The source.
     pub source: u8,
-    /// What it covers; `None` for the whole carriageway.
+    /// The area that it covers; `None` for the whole carriageway.
     pub covers: Option<Area>,
     /// Everybody it saw there.
     pub people: Vec<Perceived>,
@@ -115,7 +115,7 @@ pub enum Taken {
     Unix(f64),
 }
 
-/// What a line says.
+/// Content of a line.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Observation {
     /// A source looked at this time.
@@ -197,7 +197,7 @@ pub enum PerceptionError {
     /// There are too many people.
     #[error("{0} people: at most {PEOPLE_MAX} are possible")]
     Many(usize),
-    /// What it covers is no polygon.
+    /// The covered area is no polygon.
     #[error(transparent)]
     Covers(#[from] NoPolygon),
     /// A number is not possible.
@@ -280,7 +280,7 @@ fn frame(line: FrameLine) -> Result<Observation, PerceptionError> {
 /// Checks that there can be somebody like that.
 ///
 /// # Errors
-/// What is impossible.
+/// The value that is impossible.
 pub fn check(vru: &PerceivedVru) -> Result<(), PerceptionError> {
     for metres in vru.position_m {
         possible("position_m", metres, -1e5..=1e5, "metres on the site")?;
@@ -292,7 +292,7 @@ pub fn check(vru: &PerceivedVru) -> Result<(), PerceptionError> {
     Ok(())
 }
 
-/// Somebody on the site, as a robot that is at `place` sees it.
+/// A road user on the site, as a robot at `place` sees it.
 #[must_use]
 pub fn seen_from(place: Place, vru: PerceivedVru) -> PerceivedVru {
     let [east, north] = vru.position_m;
@@ -336,12 +336,12 @@ impl Newest {
     }
 }
 
-/// What a feed tells of, with when it was observed on the clock of this machine.
+/// Item of a feed, with the time of its observation on the clock of this machine.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Perception {
     /// A source looked.
     Frame(Arc<SensorFrame>, Instant),
-    /// Somebody is there.
+    /// A person is there.
     Person(PerceivedVru),
     /// A line that is no observation, and why.
     Garbled(String),
@@ -354,7 +354,7 @@ pub struct Feed {
 }
 
 impl Perception {
-    /// What a robot is to be told of it.
+    /// Order that tells a robot of it.
     #[must_use]
     pub fn order(&self) -> Order {
         match self {
@@ -393,7 +393,7 @@ impl Feed {
         Ok(Self { told })
     }
 
-    /// What is due by now.
+    /// Items that are due by now.
     #[must_use]
     pub fn due(&self) -> Vec<Perception> {
         let told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
@@ -485,7 +485,7 @@ pub fn instant_of(unix_s: f64) -> Result<Instant, String> {
     }
 }
 
-/// What a robot's RAM announced last, to tell a person when that changes.
+/// Last announcement in a robot's RAM, to tell a person when it changes.
 #[derive(Clone, Debug, Default)]
 pub struct Announced(BTreeMap<u8, u8>);
 

@@ -50,7 +50,7 @@ pub use starts::{drawn_start, early_us};
 /// How long before its time a certificate begins to be valid, in seconds: clocks differ.
 pub const EARLY_S: u64 = 60;
 
-/// What time it is on the scale of certificates, by the system's clock.
+/// Current time on the scale of certificates, by the system's clock.
 #[must_use]
 pub fn now() -> Time64 {
     let unix = SystemTime::now()
@@ -115,7 +115,7 @@ pub enum PkiError {
         line: usize,
         /// How the line begins.
         found: String,
-        /// What is wanted.
+        /// Why it names no certificate.
         cause: NoHashedId8,
     },
     /// All pseudonyms of a robot are revoked.
@@ -180,11 +180,11 @@ pub fn write_ticket(ticket: &Holder, folder: &Path) -> Result<(), PkiError> {
     )
 }
 
-/// What a folder with certificates says to trust, of a PKI or of a robot: its roots, and the authorities
+/// Certificates to trust from a folder of a PKI or of a robot: its roots, and the authorities
 /// that they vouch for.
 ///
 /// # Errors
-/// What is wrong with which file.
+/// Faulty file, and its fault.
 pub fn read_trust(folder: &Path) -> Result<TrustStore, PkiError> {
     let mut trust = TrustStore::default();
     let certificates: Vec<_> = certificates_in(folder)?
@@ -203,10 +203,10 @@ pub fn read_trust(folder: &Path) -> Result<TrustStore, PkiError> {
     Ok(trust)
 }
 
-/// What a robot needs, from its folder.
+/// Credentials of a robot, from its folder.
 ///
 /// # Errors
-/// What is wrong with which file.
+/// Faulty file, and its fault.
 pub fn read_credentials(folder: &Path) -> Result<Credentials, PkiError> {
     let trust = read_trust(folder)?;
     let folder_of_tickets = folder.join("tickets");
@@ -224,10 +224,10 @@ pub fn read_credentials(folder: &Path) -> Result<Credentials, PkiError> {
     Ok(Credentials { trust, tickets })
 }
 
-/// What the robot of this name signs with, from its own folder or from that of a PKI.
+/// Credentials of the robot of this name, from its own folder or from that of a PKI.
 ///
 /// # Errors
-/// Those of [`read_credentials`].
+/// Errors of [`read_credentials`].
 pub fn credentials_of(folder: &Path, robot: &str) -> Result<Credentials, PkiError> {
     let of_robot = robot_folder(folder, robot);
     let is_pki = folder.join("robots").is_dir();
@@ -237,7 +237,7 @@ pub fn credentials_of(folder: &Path, robot: &str) -> Result<Credentials, PkiErro
 /// The same without what is on a revocation list, which the robot does not trust either.
 ///
 /// # Errors
-/// Those of [`read_credentials`], what is wrong with the list, or that all tickets are on it.
+/// Errors of [`read_credentials`], a fault of the list, or that all tickets are on it.
 pub fn credentials_but(
     folder: &Path,
     robot: &str,

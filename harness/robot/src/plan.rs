@@ -1,4 +1,4 @@
-//! What a leader has its followers do: stage by stage, each follower its part.
+//! Plan of a leader for its followers: stage by stage, each follower its part.
 
 use crossguard_codec::PublicSignal;
 use crossguard_crossing as crossing;
@@ -20,15 +20,15 @@ pub struct Leg {
     pub heading_deg: Option<f64>,
 }
 
-/// What happens at a time. A stage is over when every part is done; a `block` is when it has begun,
+/// Parts that happen at a time. A stage is over when every part is done; a `block` is when it has begun,
 /// and goes on through the stages that have nothing else for its follower.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Stage {
-    /// Who does what.
+    /// Parts, with the robots that do them.
     pub parts: Vec<(Who, Leg)>,
 }
 
-/// Who does a part.
+/// The robots that do a part.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Who {
     /// Every follower without a part of its own in the stage, side by side.
@@ -37,7 +37,7 @@ pub enum Who {
     Role(usize),
 }
 
-/// What a leader has its followers do.
+/// Plan of a leader for its followers.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Plan {
     /// Where it happens.
@@ -54,7 +54,7 @@ pub struct Plan {
     pub own_place: Option<Place>,
     /// Which way it faces there, in degrees clockwise from north, if that matters.
     pub own_heading_deg: Option<f64>,
-    /// What the leader shows to vehicles while it leads, if the plan says that.
+    /// The leader's signal to vehicles while it leads, if the plan has one.
     pub shows: Option<PublicSignal>,
     /// How long a simulated pedestrian takes to cross, in seconds of the robots' own time.
     pub crossing_s: f64,
@@ -201,7 +201,7 @@ impl Plan {
         }
     }
 
-    /// What a leader with this plan asks for.
+    /// Request of a leader with this plan.
     #[must_use]
     pub fn request(&self) -> HelpRequest {
         let legs = self.stages.iter().flat_map(|stage| &stage.parts);

@@ -43,11 +43,11 @@ pub const APART_M: f64 = 1.0;
 pub struct PlanFile {
     /// Its name.
     pub name: String,
-    /// What happens, in a sentence.
+    /// Summary of its events, in a sentence.
     pub summary: String,
     /// The site that its places are on.
     pub site: SiteFile,
-    /// Who takes part: leaders and followers, in the order of the file.
+    /// Robots that take part: leaders and followers, in the order of the file.
     pub roles: Vec<Role>,
     /// How many followers it takes unless it is said.
     pub followers: u8,
@@ -85,11 +85,11 @@ pub struct Car {
     pub from_m: f64,
     /// How fast it is, in m/s.
     pub speed_mps: f64,
-    /// What it does when it is asked to stop.
+    /// Its reaction when it is asked to stop.
     pub answers: CarAnswer,
 }
 
-/// What a vehicle does when it is asked to stop.
+/// Reaction of a vehicle that is asked to stop.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CarAnswer {
@@ -103,10 +103,10 @@ pub enum CarAnswer {
     Silent,
 }
 
-/// Somebody who takes part.
+/// A robot that takes part.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Role {
-    /// What it is called in stages.
+    /// Its name in stages.
     pub name: String,
     /// Whether it leads.
     pub leads: bool,
@@ -118,13 +118,13 @@ pub struct Role {
     pub robot: Option<String>,
     /// The station that the role is for, unless any may take it.
     pub station: Option<StationId>,
-    /// What kind of robot it is in a demonstration.
+    /// Its build in a demonstration.
     pub build: Option<Build>,
     /// Where it waits before.
     pub waits: Option<Place>,
     /// Where a leader stands while it leads.
     pub stands: Option<Place>,
-    /// What a leader shows to vehicles while it leads; stop where it stands somewhere, unless it is said.
+    /// A leader's signal to vehicles while it leads; stop where it stands somewhere, unless the file has another one.
     pub shows: Option<PublicSignal>,
 }
 
@@ -133,7 +133,7 @@ pub struct Role {
 pub enum Ending {
     /// The leader ended the session.
     Session(EndReason),
-    /// Nobody ended it; the followers left.
+    /// The followers left; the leader did not end it.
     Released(ReleaseReason),
 }
 
@@ -221,7 +221,7 @@ impl PlanFile {
         self.roles.iter().filter(takes_part).collect()
     }
 
-    /// What a leader does in a team with this many followers: the leader with this station id, or else the first one.
+    /// Plan of a leader in a team with this many followers: the leader with this station id, or else the first one.
     #[must_use]
     pub fn plan(&self, leader: StationId, followers: u8) -> Plan {
         let team = self.taking_part(followers);

@@ -147,7 +147,7 @@ pub fn connect(port: &PortAddress, patience: Duration) -> std::io::Result<UnixSt
     Ok(UnixStream::from(std::os::fd::OwnedFd::from(socket)))
 }
 
-/// What comes in by a port. Connections are numbered.
+/// Input of a port. Connections are numbered.
 #[derive(Debug)]
 pub(crate) enum Heard {
     Connected(u64, Stream),
@@ -201,7 +201,7 @@ fn socket_at(path: &Path) -> Option<Which> {
 /// Binds a socket that its owner alone may open. A file that is no socket stays where it is.
 fn bind(path: &Path) -> std::io::Result<UnixListener> {
     if socket_at(path).is_some() {
-        // What a robot that was killed left behind is nobody's any more.
+        // The socket of a robot that was killed has no owner any more.
         if UnixStream::connect(path)
             .is_err_and(|error| error.kind() == ErrorKind::ConnectionRefused)
         {
@@ -278,7 +278,7 @@ fn read(half: UnixStream, number: u64, tell: &SyncSender<Heard>) {
     let mut half = BufReader::new(half);
     loop {
         let mut line = Vec::new();
-        // What was read before an error is a line without an end, too.
+        // Octets that were read before an error are a line without an end, too.
         let _ = half.by_ref().take(LINE_MAX).read_until(b'\n', &mut line);
         if line.last() != Some(&b'\n') {
             if !line.is_empty() {
@@ -427,7 +427,7 @@ mod tests {
         assert!(listen(&address).is_err(), "it is in use");
         drop(port);
         assert!(!path.exists());
-        // What a process that was killed leaves behind.
+        // A process that was killed leaves its socket behind.
         drop(UnixListener::bind(&path).unwrap());
         let port = listen(&address).unwrap();
         // Somebody else took the place of its file.

@@ -49,9 +49,9 @@ pub struct RobotFile {
     pub name: String,
     /// Its station id.
     pub station: StationId,
-    /// What kind of robot it is.
+    /// Its build.
     pub build: Build,
-    /// What it says of itself besides.
+    /// Its further traits.
     pub traits: Traits,
     /// Where its boot counter is kept.
     pub boot_file: PathBuf,
@@ -72,7 +72,7 @@ pub struct RobotFile {
     pub carriageway: Option<Area>,
     /// The kerbs between which it has people escorted, where they are not those of its plan.
     pub kerbs: Option<[Place; 2]>,
-    /// What it does when it leads by itself, if a file says that; otherwise the paper's crossing.
+    /// Its plan for leading by itself, if a file has one; otherwise the paper's crossing.
     pub plan_file: Option<PlanFile>,
     /// Where its body connects, if that is another process.
     pub body_port: Option<BodyPort>,
@@ -82,7 +82,7 @@ pub struct RobotFile {
     pub link: Link,
     /// The protocol's configuration.
     pub config: Config,
-    /// What no standard has assigned.
+    /// Identifiers that no standard has assigned.
     pub identifiers: Identifiers,
     /// How it announces the people around it, and itself to stations that do not know RAM.
     pub awareness: Awareness,
@@ -165,7 +165,7 @@ struct OperatorTable {
     listen: String,
 }
 
-/// What is said beside a robot file, and counts more.
+/// Files that are given beside a robot file, and count more.
 #[derive(Clone, Copy, Default, Debug)]
 pub struct Besides<'a> {
     /// The file of the site.
@@ -180,7 +180,7 @@ pub struct Besides<'a> {
 pub struct RobotFileError {
     /// The file.
     pub path: PathBuf,
-    /// What is wrong.
+    /// The fault.
     pub cause: Impossibility,
 }
 
@@ -191,7 +191,7 @@ impl RobotFileError {
     }
 }
 
-/// What is wrong with a configuration.
+/// Fault of a configuration.
 #[derive(Debug, thiserror::Error)]
 pub enum Impossibility {
     /// The file cannot be read.
@@ -203,7 +203,7 @@ pub enum Impossibility {
     /// Timers contradict each other.
     #[error("[protocol] {0}")]
     Settings(#[from] BrokenInequality),
-    /// Nobody crosses so fast.
+    /// `t_cross` is shorter than a slow walker takes.
     #[error(
         "[protocol] t_cross is {t_cross_s} s: a slow walker (0.9 m/s) is between the kerbs of the site for {walk_s:.1} s"
     )]
@@ -230,7 +230,7 @@ pub enum Impossibility {
     /// The body's time does not pass, or goes back.
     #[error(transparent)]
     Speed(#[from] Impossible),
-    /// Nobody could tell it from others.
+    /// The name is blank, so it tells the robot from no other.
     #[error("name: a name with at least one character other than white space is wanted")]
     Name,
     /// No station has this id.
@@ -349,8 +349,8 @@ impl RobotFile {
         Ok(Box::new(body))
     }
 
-    /// What it knows of the people on the road: what its sensors have, what it simulates, or else what others tell of the
-    /// carriageway of its site.
+    /// Its knowledge of the people on the road: from its sensors, from its simulation, or else from what others tell
+    /// of the carriageway of its site.
     #[must_use]
     pub fn road(&self) -> Road {
         match &self.zone {
@@ -366,7 +366,7 @@ impl RobotFile {
         kerbs.map_or_else(Street::default, |[from, to]| Street::between(from, to))
     }
 
-    /// What it does when it leads, if it leads by itself.
+    /// Its plan, if it leads by itself.
     #[must_use]
     pub fn plan(&self) -> Option<Plan> {
         self.autopilot.then(|| match (self.kerbs, &self.plan_file) {

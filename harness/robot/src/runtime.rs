@@ -7,8 +7,8 @@
 //! ```
 //!
 //! 1. The loop waits for the inbox, at most until the machine or the body has something to do.
-//! 2. What came in is handed to the [`Machine`] with the time, in one turn; if nothing did, the time alone.
-//! 3. Effects are carried out in order: what is sent is put into the [`Journal`] first, so that no
+//! 2. Inputs are handed to the [`Machine`] with the time, in one turn; without any, the time alone.
+//! 3. Effects are carried out in order: a packet is put into the [`Journal`] before it is sent, so that no
 //!    receiver logs it before its sender.
 //!
 //! The loop owns the machine, the sending half of the link, and the journal; nothing is locked. It
@@ -92,7 +92,7 @@ pub struct Setup {
     pub boot: Boot,
     /// Its configuration.
     pub config: Config,
-    /// What no standard has assigned.
+    /// Identifiers that no standard has assigned.
     pub identifiers: Identifiers,
     /// Whether it signs and verifies.
     pub security: Security,
@@ -215,15 +215,15 @@ struct Loop {
     /// The boot counter that it started with.
     boot: u16,
     keeper: Keeper,
-    /// What the log says of the clock.
+    /// State of the clock in the log.
     clock_state: Option<ClockState>,
     /// The radio channel, where the link measures it.
     channel: Monitored,
-    /// Whom its sensors have, for RAM.
+    /// People that its sensors have, for RAM.
     newest: Newest,
-    /// Who the log says is around, and since when.
+    /// Road users around in the log, and since when.
     around: (Around, u64),
-    /// What is dropped more often than the log takes.
+    /// Drops that are more frequent than the log takes.
     sampler: Sampler,
     stopping: bool,
     is_dead: bool,
@@ -469,7 +469,7 @@ impl Loop {
         let shown = self.clock.now_us();
         let moment = moment_at(shown);
         let effects = self.machine.handle(moment, seconds(shown), stimulus);
-        // What the robot saw is logged before what it did by that.
+        // A sight is logged before the effects that follow from it.
         if let Some(sight) = self.machine.application_mut().next_sight() {
             let sighted = self.record_at(shown, Entry::People(sight));
             self.put(sighted);
@@ -522,7 +522,7 @@ impl Loop {
             }
             _ => {}
         }
-        // What is sent is logged first: no receiver logs it before its sender.
+        // A packet is logged before it is sent: no receiver logs it before its sender.
         if let Some(entry) = recorded(effect) {
             self.log(entry);
         }

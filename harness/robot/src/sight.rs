@@ -1,4 +1,4 @@
-//! What a robot has of others at a crossing, for its log: people and vehicles without what tracks them, and the zone.
+//! Others at a crossing, as a robot senses them, for its log: people and vehicles without track numbers, and the zone.
 //!
 //! Places are in degrees, as in RAM, so that a log needs no site.
 
@@ -43,9 +43,9 @@ pub struct SeenVehicle {
 pub struct Seen {
     /// Latitude and longitude.
     pub place: Degrees,
-    /// What it is.
+    /// Its class.
     pub class: VruClass,
-    /// What it does at the crossing.
+    /// Its conduct at the crossing.
     pub conduct: Conduct,
 }
 
@@ -85,7 +85,7 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// That of a zone on a site.
+    /// The outline of a zone on a site.
     #[must_use]
     pub fn of(zone: &Zone, site: &Site) -> Self {
         let outline = |area: &Option<Area>| {

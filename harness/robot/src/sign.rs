@@ -43,12 +43,12 @@ impl Sign {
     }
 }
 
-/// What a robot's RAM say that it shows to people; nothing of a robot that cannot show anything.
+/// Signals in a robot's RAM; none of a robot that cannot show anything.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Shown {
-    /// What it was told to show, and by which means.
+    /// Signals that it was told to show, and their means.
     told: Option<SignalsShown>,
-    /// What it shows to vehicles instead, while it holds them back.
+    /// Signal to vehicles instead, while it holds them back.
     pub(crate) holds_back: Option<PublicSignal>,
 }
 
@@ -80,7 +80,7 @@ impl Shown {
         self.told.map(|shown| shown.means).unwrap_or_default()
     }
 
-    /// What a RAM says, of a leader whose sign shows *go* or not, or of a robot that has no sign now.
+    /// Signals in a RAM, of a leader whose sign shows *go* or not, or of a robot that has no sign now.
     pub(crate) fn told(self, by_sign: Option<bool>) -> Option<SignalsShown> {
         let shown = self.told?;
         let to_pedestrians = match by_sign {

@@ -74,11 +74,11 @@ pub struct Lane {
 pub struct Spot {
     /// Where it is.
     pub place: Place,
-    /// What it is for.
+    /// Its purpose.
     pub purpose: Purpose,
 }
 
-/// What a place is for.
+/// Purpose of a place.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Purpose {
@@ -392,7 +392,7 @@ mod tests {
         assert_eq!(lane("near-kerb"), None);
     }
 
-    /// What is replaced in the street, by what, and what is said then.
+    /// Replaced text of the street, its replacement, and the error.
     const MISFITS: &str = r#"
 latitude = 49    | latitude = 95     | s.toml:5: 95.0101, 8.4124 is no latitude and longitude in degrees
 longitude = 8.4124 | longitude = 180.0 | s.toml:5: 49.0101, 180 is no latitude and longitude

@@ -100,8 +100,8 @@ impl Street {
         self.people.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Somebody comes to cross the road, from one side or from each of both, and takes so long for it. Nobody comes
-    /// while somebody waits: robots that see the same person tell of one.
+    /// A person comes to cross the road, from one side or from each of both, and takes so long for it. No person comes
+    /// while another one waits: robots that see the same person tell of one.
     pub fn arrive(&self, crossing_us: u64, sides: usize) {
         let mut people = self.people();
         if people.waiting.is_empty() {
@@ -227,15 +227,15 @@ impl Street {
     }
 }
 
-/// What a robot knows of the people on the road.
+/// Knowledge of a robot of the people on the road.
 #[derive(Clone, Debug, Default)]
 pub enum Road {
     /// Nothing: a person says when it is clear.
     #[default]
     Unknown,
-    /// What others tell of people and vehicles on this road: it has no sensors for them. A person says when it is clear.
+    /// Reports of others on people and vehicles there: it has no sensors for them. A person says when it is clear.
     Heard(Area),
-    /// What its sensors have in a zone.
+    /// Road users in a zone, by its sensors.
     Watched(Zone),
     /// Everything, in a simulation.
     Known(Street),

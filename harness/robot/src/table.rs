@@ -1,4 +1,4 @@
-//! What unit tests share: tables as text, and a maneuver.
+//! Shared parts of unit tests: tables as text, and a maneuver.
 
 use crossguard_protocol::{
     Maneuver, ManeuverId, RequestId, SessionId, SessionNumber, StationId, TaskType, UniqueNumber,

@@ -26,13 +26,13 @@ pub struct Tally {
     pub messages: BTreeMap<(Way, Service), u64>,
     /// Steps of the transition function.
     pub steps: u64,
-    /// What was dropped or ignored, by cause.
+    /// Dropped and ignored inputs, by cause.
     pub causes: Counts,
     /// The stations that were heard; no more than [`STATIONS`].
     pub heard: BTreeSet<StationId>,
     /// The people that its sensors have.
     pub sight: Sight,
-    /// Who is on its map.
+    /// Road users on its map.
     pub around: Around,
     /// The radio channel, where the link measures it.
     pub channel: Option<ChannelState>,
@@ -149,7 +149,7 @@ impl Tally {
         counted.join(", ")
     }
 
-    /// What was heard of other stations and who is around, for a person who asks.
+    /// Other stations that were heard and road users around, for a person who asks.
     #[must_use]
     pub fn surroundings(&self) -> String {
         let mut text = format!(

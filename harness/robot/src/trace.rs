@@ -32,7 +32,7 @@ pub struct Record {
     pub at_us: u64,
     /// The robot's name.
     pub robot: String,
-    /// What it did.
+    /// Its entry.
     #[serde(flatten)]
     pub entry: Entry,
 }
@@ -50,7 +50,7 @@ impl Record {
     }
 }
 
-/// What a robot did.
+/// Entry of a robot in its log.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(
     tag = "entry",
@@ -64,12 +64,12 @@ pub enum Entry {
         station: StationId,
         /// Its boot counter.
         boot: u16,
-        /// What its first session and offer numbers have for the boot counter, where that is told to nobody.
+        /// Stand-in for the boot counter in its first session and offer numbers, where the counter is told to nobody.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         epoch: Option<u16>,
         /// Its configuration.
         settings: Box<Settings>,
-        /// What no standard has assigned; without it its messages are not understood.
+        /// Identifiers that no standard has assigned; without them its messages are not understood.
         #[serde(default)]
         identifiers: Identifiers,
         /// Milliseconds since 1970 (UTC), to line up logs of several robots.
@@ -80,9 +80,9 @@ pub enum Entry {
     },
     /// The transition function took a step.
     Step {
-        /// What it took in.
+        /// Input of the step.
         input: Input,
-        /// What it put out.
+        /// Outputs of the step.
         outputs: Box<Outputs>,
         /// The state after it.
         state: Box<Robot>,
@@ -101,7 +101,7 @@ pub enum Entry {
     Heard {
         /// Which message.
         message: Service,
-        /// Who sent it.
+        /// Sender of the message.
         from: StationId,
         /// When; `None` in the log of a robot that does not say.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -115,7 +115,7 @@ pub enum Entry {
         /// The layer and cause that it is counted under.
         #[serde(flatten)]
         cause: CauseName,
-        /// What exactly.
+        /// Details of the cause.
         detail: String,
         /// The datagram, if there was one.
         #[serde(with = "hex::serde", default)]
@@ -155,7 +155,7 @@ pub enum Entry {
 pub struct Reception {
     /// When it arrived.
     pub arrived_us: u64,
-    /// When the robot was told of it: for so long it waited. What became of it stands in the log somewhat
+    /// When the robot was told of it: for so long it waited. Its effects stand in the log somewhat
     /// later.
     pub told_us: u64,
 }
@@ -168,7 +168,7 @@ impl Reception {
     }
 }
 
-/// What the log says of an effect, if the log's clock is that of the endpoint. What the application is to do is in the outputs of its step.
+/// Log entry of an effect, if the log's clock is that of the endpoint. Acts of the application are in the outputs of their step.
 #[must_use]
 pub fn recorded(effect: Effect) -> Option<Entry> {
     Some(match effect {
@@ -222,7 +222,7 @@ pub fn recorded(effect: Effect) -> Option<Entry> {
 /// Writes a record as a line.
 ///
 /// # Errors
-/// Those of the writer.
+/// Errors of the writer.
 pub fn write(to: &mut impl Write, record: &Record) -> std::io::Result<()> {
     serde_json::to_writer(&mut *to, record)?;
     to.write_all(b"\n")

@@ -130,18 +130,18 @@ pub trait Receiver: Send {
     /// Waits for the next datagram, for so long at most. `None` when there was none.
     ///
     /// # Errors
-    /// Those of the operating system that will not go away by themselves.
+    /// Errors of the operating system that will not go away by themselves.
     fn receive(&mut self, at_most: Duration) -> std::io::Result<Option<Arrival>>;
 }
 
-/// Who sent a datagram, as far as the transport can tell.
+/// Sender of a datagram, as far as the transport can tell.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Source {
     /// The address that it came from.
     Address(SocketAddr),
     /// The link-layer address that it came from.
     LinkLayer([u8; 6]),
-    /// Nobody that the transport could name.
+    /// The transport could name no sender.
     Unknown,
 }
 
@@ -155,14 +155,14 @@ impl Arrival {
     }
 }
 
-/// What came in.
+/// Arrival at a receiver.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Arrival {
     /// A datagram.
     Datagram {
-        /// Who sent it.
+        /// Its sender.
         from: Source,
-        /// What it holds.
+        /// Its content.
         octets: Vec<u8>,
         /// When it arrived, as far as the transport can tell, and not later: what waits from then on grows
         /// old.
@@ -172,7 +172,7 @@ pub enum Arrival {
     Lost {
         /// How.
         how: Loss,
-        /// What it held.
+        /// Its content.
         octets: Vec<u8>,
     },
     /// How the channel is, from a transport that measures it.
@@ -181,9 +181,9 @@ pub enum Arrival {
     Misframed {
         /// The name of the cause, for counters.
         cause: &'static str,
-        /// What exactly.
+        /// Details of the cause.
         detail: String,
-        /// What it held.
+        /// Its content.
         octets: Vec<u8>,
     },
 }

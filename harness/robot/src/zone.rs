@@ -30,7 +30,7 @@ pub struct Zone {
     pub crossing: Option<Area>,
     /// When somebody waits.
     pub rules: WaitingRules,
-    /// What is assumed of the sensors.
+    /// Assumptions about the sensors.
     pub sensors: Sensors,
     /// When a robot is in position there.
     pub position: PositionRules,
@@ -138,7 +138,7 @@ pub fn metres_per_second(way: Way) -> [f64; 2] {
     [way.east_cm, way.north_cm].map(|it| f64::from(it) / 100.0)
 }
 
-/// Somebody on the site, as the crossing machine takes them in.
+/// A road user on the site, as the crossing machine takes it in.
 #[must_use]
 #[expect(
     clippy::cast_possible_truncation,
@@ -167,7 +167,7 @@ const fn road_user(class: VruClass) -> RoadUser {
     }
 }
 
-/// What somebody is, as sensors say it.
+/// Class of a road user, as sensors say it.
 #[must_use]
 pub const fn class(what: RoadUser) -> VruClass {
     match what {

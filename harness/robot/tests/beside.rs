@@ -62,7 +62,7 @@ impl Others {
     }
 }
 
-/// What the leader did.
+/// The leader's sign, and its drops.
 #[derive(Default)]
 struct Done {
     shows_go: bool,

@@ -34,7 +34,7 @@ fn permits(certificate: &dot2::ToBeSignedCertificate) -> Vec<(u32, Vec<u8>)> {
     all.map(one).collect()
 }
 
-/// What clause 6 says of all certificates.
+/// Rules of clause 6 for all certificates.
 fn check_common(certificate: &EtsiTs103097Certificate) {
     assert_eq!(certificate.version, 3);
     assert_eq!(certificate.r#type, dot2::CertificateType::Explicit);

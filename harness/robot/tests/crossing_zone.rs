@@ -1,5 +1,5 @@
 //! A robot that leads by itself and watches a crossing zone: a person who waits is helped across without
-//! anybody's word. What the crossing machine decides is tested in its own crate.
+//! anybody's word. The decisions of the crossing machine are tested in its own crate.
 
 mod support;
 #[path = "support/zone.rs"]
@@ -33,7 +33,7 @@ fn machine(station: u32, build: Build, plan: Option<Plan>, road: Road) -> Machin
     )
 }
 
-/// What a leader that watches a zone did.
+/// Calls, ends and sign of a leader that watches a zone.
 #[derive(Default)]
 struct Done {
     calls: Vec<Urgency>,

@@ -134,7 +134,7 @@ impl Hour {
             self.capture
                 .record_at(Duration::from_millis(at_ms), &packet);
             let partner = place ^ 1;
-            // What nobody needs to hear is not verified, which would take hours.
+            // A packet that nobody needs to hear is not verified: that would take hours.
             let robots = [place, partner].map(|it| self.seats[it].endpoint.robot());
             if robots.iter().any(|it| it.identity() != Identity::Unlocked) {
                 let arrived_ms = self.now_ms;

@@ -1,6 +1,6 @@
 //! Hazard: the holder of one valid ticket speaks as somebody else.
 //!
-//! What a session believes of a member must come from the member. With the names of a robot open to anybody who says them
+//! A session must take facts of a member from the member alone. With the names of a robot open to anybody who says them
 //! first, one ticket that may only help could push a follower's entry out of the table of names and speak for it: the
 //! follower was dead, and the leader kept its corridor open.
 
@@ -50,7 +50,7 @@ fn security(pki: &Pki, ticket: Ticket) -> Security {
     Security::new(Mode::Enforce, credentials, None, epoch()).unwrap()
 }
 
-/// Somebody with one valid ticket who says what it likes, under any name and address.
+/// A station with one valid ticket that says what it likes, under any name and address.
 struct Liar(Stack);
 
 impl Liar {

@@ -18,7 +18,7 @@ use self::support::{TICK_MS, effects};
 
 const FOLLOWER: StationId = StationId(2);
 
-/// What the follower was to start, in order.
+/// Maneuvers that the follower was to start, in order.
 type Started = Vec<(TaskType, TaskParameters)>;
 type Street = support::Street<Started>;
 
@@ -56,7 +56,7 @@ fn the_other_robot_has_on_its_map_what_is_shown_to_people() {
     application.show(shown(stop, caution));
     street.pass(2_000);
     assert_eq!(on_the_map(&mut street), Some(shown(stop, caution)));
-    // Who asks for help or leads has a sign, and what that shows is what its RAM say, the first one, too.
+    // A robot that asks for help or leads has a sign. Its RAM say what the sign shows, the first one, too.
     let request = Plan::crossing(Site::default()).request();
     street.pass(200);
     street.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));

@@ -1,4 +1,4 @@
-//! What a moment, or one station, takes away from somebody on the road.
+//! Protection that a moment, or one station, takes away from a person on the road.
 
 mod support;
 #[path = "support/zone.rs"]

@@ -21,7 +21,7 @@ fn a_counter_that_was_cut_off_at_any_byte_is_refused_and_never_smaller() {
         assert!(error.to_string().contains(way_out), "{error}");
         assert_eq!(fs::read_to_string(&path).unwrap(), whole[..length]);
     }
-    // What a disk may hold in place of what was never written, and files of something else.
+    // Garbage that a disk may hold in place of lost writes, and files of something else.
     for garbage in [
         &[0; 30][..],
         b"crossguard boot counter 12\0\0\0\n",

@@ -25,7 +25,7 @@ const EPOCH_ITS: u64 = 694_694_401_000;
 const PERIOD_MS: u64 = 1_000;
 const STEP_MS: u64 = 10;
 
-/// Who sent a packet: signer, station id.
+/// Sender of a packet: signer, station id.
 type Sender = ([u8; 8], StationId);
 
 struct Street {
@@ -145,7 +145,7 @@ impl Street {
         self.robots[robot].robot().station()
     }
 
-    /// Somebody waits, and the first robot asks for help.
+    /// A person waits, and the first robot asks for help.
     fn ask(&mut self) {
         let request = Plan::crossing(Site::default()).request();
         self.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));

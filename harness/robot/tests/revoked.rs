@@ -1,5 +1,5 @@
-//! Hazard: a stolen robot speaks on. What is on the revocation list of a running robot is not believed, from the list
-//! on; a list that cannot be read any more changes nothing, and is said.
+//! Hazard: a stolen robot speaks on. A certificate on the revocation list of a running robot is not believed, from the
+//! list on; a list that cannot be read any more changes nothing, and is said.
 
 use std::fs;
 use std::net::{SocketAddr, UdpSocket};

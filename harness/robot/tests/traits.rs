@@ -1,4 +1,4 @@
-//! What a robot file and an operator say of a robot stands in its RAM: category, job, size and battery; and a low
+//! The RAM of a robot has its traits from a robot file and an operator: category, job, size and battery. A low
 //! battery keeps it from taking part.
 
 use crossguard_codec::core::ram::RAM;

@@ -15,7 +15,7 @@ const EPOCH_ITS: u64 = 694_694_401_000;
 /// A robot with a wall clock that can be put wrong.
 struct Clocked {
     robot: Endpoint,
-    /// What its wall clock is ahead by, in ms.
+    /// Lead of its wall clock, in ms.
     ahead_ms: i64,
     heard: usize,
     dropped: BTreeMap<String, usize>,
@@ -42,7 +42,7 @@ impl Clocked {
         }
     }
 
-    /// What it sends.
+    /// Packets that it sends.
     fn tell(&mut self, now_ms: u64, stimulus: Stimulus<'_>) -> Vec<Vec<u8>> {
         let moment = Moment {
             now_ms,

@@ -1,4 +1,4 @@
-//! What is wrong with a body that is another process: one that is silent is an emergency stop of its robot.
+//! Faults of a body that is another process: a silent body is an emergency stop of its robot.
 
 use std::borrow::Cow;
 use std::collections::VecDeque;
@@ -14,11 +14,11 @@ pub(crate) type Trouble = (Cause, Cow<'static, str>, u64);
 
 #[derive(Debug, Default)]
 pub(super) struct Bodily {
-    /// What its robot has to be unavailable for while the body is not there.
+    /// Reason why its robot is unavailable while the body is not there.
     missing: Option<Unavailability>,
     /// The availability that the endpoint is to be told.
     untold: Option<Availability>,
-    /// What waits to be counted, and how often it happened.
+    /// Troubles that wait to be counted, and how often each happened.
     troubles: VecDeque<Trouble>,
 }
 
@@ -54,7 +54,7 @@ impl Application {
         self.trouble(cause, what, count);
     }
 
-    /// Something is to be counted. What happens again has one entry.
+    /// Notes a trouble to be counted. A repeated trouble has one entry.
     pub(super) fn trouble(&mut self, cause: Cause, what: impl Into<Cow<'static, str>>, count: u64) {
         let (troubles, what) = (&mut self.bodily.troubles, what.into());
         match troubles.iter_mut().find(|it| it.0 == cause && it.1 == what) {

@@ -1,4 +1,4 @@
-//! What the crossing machine takes in of a robot: its body, its sensors, a simulated street, and other stations.
+//! Inputs of the crossing machine from a robot: its body, its sensors, a simulated street, and other stations.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -64,7 +64,7 @@ impl Observed {
     }
 }
 
-/// What was said of road users last.
+/// The last reports of road users.
 #[derive(Debug, Default)]
 pub(super) struct Said {
     /// The road users in the newest frames and messages. A log is judged by them, so the robot's own conclusions play
@@ -416,7 +416,7 @@ fn age(known: &Neighbour, now_ms: u64) -> Millis {
     Millis(u32::try_from(now_ms.saturating_sub(known.heard_ms)).unwrap_or(u32::MAX))
 }
 
-/// What somebody is known by.
+/// Number by which a road user is known.
 fn key(identity: Identity) -> u32 {
     match identity {
         Identity::Station(id) => id,

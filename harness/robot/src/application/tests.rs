@@ -1,4 +1,4 @@
-//! What an application does with its body and its plan.
+//! Behaviour of an application with its body and its plan.
 
 use std::sync::{Arc, Mutex};
 

@@ -1,4 +1,4 @@
-//! What a robot is and how its battery is, as its robot file and its operator say: it stands in every RAM.
+//! Traits of a robot and state of its battery, from its robot file and its operator: they stand in every RAM.
 
 use crossguard_codec::{
     Battery, Capabilities, Dimensions, JobRole, MapPlace, RobotState, SignalMeans, SignalsShown,
@@ -12,7 +12,7 @@ use crate::street::Road;
 /// A robot whose battery was low is available again this much above the limit, in percent.
 const RECOVERY_PERCENT: f64 = 5.0;
 
-/// What a robot says of itself besides its body's state.
+/// Traits that a robot reports besides its body's state.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Traits {
     /// The job that it is there for; `None` for that of its build.
@@ -56,12 +56,12 @@ impl Application {
         self.shown.show(signals);
     }
 
-    /// Somebody was detected: they are told to wait before help is asked for (the paper, section III-A, stage 2).
+    /// Tells a detected person to wait before help is asked for (the paper, section III-A, stage 2).
     pub(crate) const fn tell_people_to_wait(&mut self) {
         self.faces_people = true;
     }
 
-    /// What it can do besides maneuvers: by its sensors, its plan, and the means by which it shows signals.
+    /// Its capabilities besides maneuvers: by its sensors, its plan, and the means by which it shows signals.
     fn capabilities(&self) -> Capabilities {
         let means = self.shown.means();
         let has_sensors = !matches!(self.road, Road::Unknown | Road::Heard(_));

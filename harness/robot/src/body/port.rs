@@ -148,7 +148,7 @@ impl Ported {
         })
     }
 
-    /// Nobody hears what is said here: the body will know by the silence.
+    /// Says a line to a body that is there. A failure is ignored: the body will know by the silence.
     fn mention(&mut self, what: &ToBody) {
         if self.presence == Presence::Here {
             let _ = self.say(what);
@@ -174,7 +174,7 @@ impl Ported {
         match heard {
             Heard::Connected(_, mut stream) if self.stream.is_some() => {
                 let why = "another body is connected".to_owned();
-                // Who does not hear it sees that the connection ends.
+                // A body that does not hear it sees that the connection ends.
                 let _ = stream.say(&ToBody::Refused { why });
                 stream.close();
                 self.drop(Cause::BodiesFull, "another body wanted to connect: refused");

@@ -54,7 +54,7 @@ struct Motion {
     speed_mps: f64,
     /// Which way it faces there, if that matters.
     heading_deg: Option<f64>,
-    /// What the body reports when it arrives.
+    /// Report of the body on its arrival.
     report: Option<Report>,
 }
 

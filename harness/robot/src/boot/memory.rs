@@ -1,4 +1,4 @@
-//! What a robot that signs remembers besides its boot counter, in two files beside it.
+//! Memory of a robot that signs, besides its boot counter, in two files beside it.
 //!
 //! - `.secret` has what its pseudonyms are drawn with. It is made once, and only its owner can read it. With another
 //!   one, a pseudonym that comes back might give out a session number twice; with one that others know, its pseudonyms
@@ -24,11 +24,11 @@ use crate::files;
 /// How far ahead the time is kept, in µs, and how often at most it is written.
 pub const AHEAD_US: u64 = 5_000_000;
 
-/// What the files begin with.
+/// First words of the files.
 const SECRET: &str = "crossguard secret";
 const TIME: &str = "crossguard time";
 
-/// What outlives a boot besides the counter.
+/// Data that outlive a boot besides the counter.
 #[derive(Clone, Debug)]
 pub struct Memory {
     secret: Secret,
@@ -38,7 +38,7 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// That of a robot of which nothing outlives the process.
+    /// Memory of a robot of which nothing outlives the process.
     #[must_use]
     pub fn nowhere() -> Self {
         Self {
@@ -48,7 +48,7 @@ impl Memory {
         }
     }
 
-    /// What is kept beside this boot counter; what is not there yet is made. Fails where a file cannot be read or made,
+    /// Memory beside this boot counter; missing files are made. Fails where a file cannot be read or made,
     /// or holds something else.
     pub(super) fn beside(counter: &Path) -> Result<Self, BootError> {
         let (secret, time) = (beside(counter, "secret"), beside(counter, "time"));
@@ -59,7 +59,7 @@ impl Memory {
         })
     }
 
-    /// What the robot draws its pseudonyms with.
+    /// Secret from which the robot draws its pseudonyms.
     #[must_use]
     pub const fn secret(&self) -> Secret {
         self.secret
@@ -74,7 +74,7 @@ impl Memory {
     /// Writes that the robot will not have gone beyond this time.
     ///
     /// # Errors
-    /// Those of the file; it is then as it was.
+    /// Errors of the file; it is then as it was.
     pub fn keep(&self, time: Time64) -> Result<(), BootError> {
         let Some(path) = &self.path else {
             return Ok(());
@@ -88,7 +88,7 @@ fn beside(counter: &Path, extension: &str) -> PathBuf {
     counter.with_added_extension(extension)
 }
 
-/// What stands behind the first words of a file of one line; `None` where there is no file.
+/// Text behind the first words of a file of one line; `None` where there is no file.
 fn read(path: &Path, begins: &str) -> Result<Option<String>, BootError> {
     let text = match files::text(path, 200) {
         Ok(text) => text,

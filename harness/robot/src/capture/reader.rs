@@ -62,7 +62,7 @@ pub enum NoCapture {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Fault of the file.
         cause: PcapError,
     },
 }

@@ -17,10 +17,10 @@ use super::words::{
 };
 use super::{Line, Misunderstood};
 
-/// What the words of a line are about.
+/// Context of the words of a line.
 pub(super) struct Scope<'a> {
     pub(super) site: &'a Site,
-    /// What `detect` alone asks for.
+    /// Request of `detect` alone.
     pub(super) planned: Option<HelpRequest>,
 }
 

@@ -50,7 +50,7 @@ const TICK: Duration = Duration::from_millis(10);
 /// How many lines are taken in at a time.
 const LINES_AT_A_TIME: usize = 16;
 
-/// What is told of a robot besides its records, and what words of commands are about.
+/// Facts of a robot besides its records, and the context of command words.
 #[derive(Clone, Debug)]
 pub struct Desk {
     /// Its name.
@@ -63,7 +63,7 @@ pub struct Desk {
     pub trusts_ros_graph: bool,
     /// Where places are.
     pub site: Site,
-    /// What `detect` alone asks for.
+    /// Request of `detect` alone.
     pub planned: Option<HelpRequest>,
 }
 
@@ -122,7 +122,7 @@ struct Counter<O> {
     orders: O,
     clients: BTreeMap<u64, Client>,
     robot: Option<Robot>,
-    /// What was told of its state, and when.
+    /// State that was told last, and when.
     told: Option<(Fields, u64)>,
     /// Until when the pedestrian may cross, by the leases that stand.
     go_ends_us: u64,
@@ -211,13 +211,13 @@ impl<O: Obeys> Counter<O> {
         match heard {
             Heard::Connected(_, mut stream) if self.clients.len() >= CLIENTS => {
                 let why = format!("{CLIENTS} programs are connected already");
-                // Who does not hear it sees that the connection ends.
+                // A program that does not hear it sees that the connection ends.
                 let _ = stream.say(&ToOperator::Refused { line: 0, why });
                 stream.close();
                 self.count(Cause::OperatorsFull, "a program more than can be connected");
             }
             Heard::Connected(number, mut stream) => {
-                // Who does not take it is gone when the next line is told.
+                // A program that does not take it is gone when the next line is told.
                 let _ = stream.say(&ToOperator::Hello {
                     crossguard: VERSION,
                     robot: &self.desk.robot,
@@ -277,7 +277,7 @@ impl<O: Obeys> Counter<O> {
         }
     }
 
-    /// What a line wants of the robot, or why it means nothing.
+    /// Order of a line to the robot, or why the line means nothing.
     fn understand(&self, line: &str) -> Result<Option<Order>, String> {
         let text = |error: serde_json::Error| error.to_string();
         let mut fields: Map<String, Value> = serde_json::from_str(line).map_err(text)?;
@@ -386,7 +386,7 @@ impl<O: Obeys> Counter<O> {
     }
 }
 
-/// What a client did wrong that does not take a line: nothing, if it has gone away.
+/// Cause to count for a client that does not take a line: none, if it has gone away.
 fn slowness(error: &std::io::Error) -> Option<Cause> {
     (error.kind() == ErrorKind::WouldBlock).then_some(Cause::OperatorSlow)
 }
@@ -403,12 +403,12 @@ fn greeting(line: &str) -> Result<(), String> {
     }
 }
 
-/// What the other fields of a line say of people.
+/// Observation of people in the other fields of a line.
 fn perceived(fields: Map<String, Value>) -> Result<Observation, String> {
     perception::parse(&Value::Object(fields).to_string()).map_err(|error| error.to_string())
 }
 
-/// What an event is to a robot. Some are for the kit alone.
+/// Order of an event to a robot. Some events are for the kit alone.
 pub(super) fn order_of(event: Event) -> Result<Order, String> {
     Ok(match event {
         Event::RoadClear => Order::Clear,

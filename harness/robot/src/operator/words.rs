@@ -35,7 +35,7 @@ fn tasks() -> impl Iterator<Item = TaskType> {
     TaskSet(u16::MAX).iter()
 }
 
-/// What a value is called in a line: what it displays as, in one word.
+/// Name of a value in a line: its display text, in one word.
 fn name_of(value: impl Display) -> String {
     value.to_string().replace(' ', "-")
 }
@@ -128,7 +128,7 @@ pub(crate) fn means(name: &str) -> Result<SignalMeans, Misunderstood> {
         .ok_or_else(|| wrong(name, "gesture, display, lights or speech"))
 }
 
-/// What a place of the map is like.
+/// Form of a place of the map.
 pub(super) const MAP_PLACE: &str =
     "a road segment or intersection, like 'segment 276:12' or 'intersection 4711'";
 

@@ -1,4 +1,4 @@
-//! Certificates and keys in files. What is written is whole on the disk before it has its name. A key is read only
+//! Certificates and keys in files. A file is whole on the disk before it has its name. A key is read only
 //! where nobody else can read or replace it, and its text is wiped from memory.
 
 use std::fs::{self, DirBuilder, File, Metadata, Permissions};
@@ -62,7 +62,7 @@ pub fn write_key(key: &PrivateKey, folder: &Path, name: &str) -> Result<(), PkiE
     create(&path, pem.as_ref().as_bytes(), 0o600).map_err(at(&path))
 }
 
-/// Reads a key. Who may read it is asked of the open file, so that it is not exchanged in between.
+/// Reads a key. Its permissions are asked of the open file, so that it is not exchanged in between.
 fn read_key(path: &Path) -> Result<PrivateKey, PkiError> {
     let (file, metadata) = files::open(path).map_err(at(path))?;
     check_private(path, &metadata)?;
@@ -260,7 +260,7 @@ mod tests {
     #[test]
     fn a_key_that_power_left_half_written_has_not_its_name() {
         let (_folder, pki) = written();
-        // What a crash leaves: a file with the name that it had until then.
+        // A crash leaves a file with the name that it had until then.
         fs::write(pki.join(".abc.new"), "-----BEGIN PRIVATE").unwrap();
         assert!(Holder::read(&pki, "root").is_ok());
         assert_eq!(certificates_in(&pki).unwrap().len(), 1);

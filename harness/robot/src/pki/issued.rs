@@ -221,7 +221,7 @@ impl Pki {
         Ok(trust)
     }
 
-    /// What a robot with this many pseudonyms for a day needs. The first one names this station id, if there is one.
+    /// Credentials of a robot with this many pseudonyms for a day. The first one names this station id, if any.
     ///
     /// # Errors
     /// None that is to be expected.

@@ -1,4 +1,4 @@
-//! What the tickets of robots permit.
+//! Permissions in the tickets of robots.
 
 use crossguard_codec::security::{Permission, Ssp};
 use crossguard_codec::{Identifiers, Part, Service};

@@ -61,8 +61,8 @@ impl RevokedList {
         parse(path, &text.map_err(at(path))?)
     }
 
-    /// The certificates on it, if the file is another one than when it was read the last time, or is gone. What is wrong
-    /// with one file is said once.
+    /// The certificates on it, if the file is another one than when it was read the last time, or is gone. A fault of
+    /// one file is told once.
     pub fn read_if_changed(&mut self) -> Option<Result<BTreeSet<HashedId8>, PkiError>> {
         (self.stamp() != self.seen).then(|| self.read())
     }
@@ -88,7 +88,7 @@ fn parse(path: &Path, text: &str) -> Result<BTreeSet<HashedId8>, PkiError> {
     ids.collect()
 }
 
-/// Adds certificates to a list, which is made if need be. What is on it already stays as it is.
+/// Adds certificates to a list, which is made if need be. Its entries stay as they are.
 ///
 /// # Errors
 /// When the list cannot be read or written.

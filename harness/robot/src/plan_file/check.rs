@@ -236,7 +236,7 @@ fn place(
     Ok(spot.place)
 }
 
-/// Looks that no two robots are sent to one place. Who has no part in a stage stays where its last one led.
+/// Checks that no two robots are sent to one place. A robot without a part in a stage stays where its last one led.
 fn apart(tables: &PlanTables, roles: &[Role], stages: &[Stage]) -> Result<(), Misfit> {
     let leaders = roles.iter().filter(|role| role.leads);
     let stand = leaders.filter_map(|role| Some((&*role.name, role.stands.or(role.waits)?)));

@@ -18,7 +18,7 @@ fn seconds(time: Millis) -> f64 {
     f64::from(time.0) / 1_000.0
 }
 
-/// What is wrong with the part of a role in the stage with this number, at its line.
+/// Fault in the part of a role in the stage with this number, at its line.
 fn at(tables: &PlanTables, stage: usize, role: &str, what: String) -> Misfit {
     Misfit::at_any(tables.stages[stage].get_ref().get(role), what)
 }

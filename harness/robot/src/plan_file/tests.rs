@@ -79,7 +79,7 @@ fn two_dogs_go_to_two_places() {
     );
 }
 
-/// What is replaced in [`TWO_DOGS`], by what, and what is said then.
+/// Replaced text of [`TWO_DOGS`], its replacement, and the error.
 const MISFITS: &str = r#"
 [2.5, -1.0]       | "near-kerb"         | p.toml:12: roles 'first' and 'second' are 0.00 m apart
 [2.5, -1.0]       | [1.9, -1.0]         | are 0.90 m apart in this stage: at least 1 m is wanted

@@ -40,7 +40,7 @@ pub enum NoBody {
     /// It is no UNIX socket.
     #[error(transparent)]
     Address(#[from] NoAddress),
-    /// Nobody is silent so fast, or so slowly, and no body stands like that.
+    /// The time of silence, or the tolerance of a standing body, is out of range.
     #[error(transparent)]
     Number(#[from] Impossible),
 }

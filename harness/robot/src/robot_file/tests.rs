@@ -5,7 +5,7 @@ use std::path::Path;
 use super::*;
 use crate::table::rows;
 
-/// What is replaced in the text of a robot, its site or its plan, by what, and what is said then.
+/// Changed file (robot, site or plan), replaced text, its replacement, and the error.
 const WRONG: &str = r#"
 robot | [0.0, -1.5]        | [0,0, -1,5]          | 4 elements are here, and 2 are wanted; decimals have a point, like 1.5
 robot | [0.0, -1.5]        | [0.0]                | 1 elements are here, and 2 are wanted

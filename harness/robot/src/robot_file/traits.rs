@@ -1,4 +1,4 @@
-//! What a robot file says of the robot itself: its job, its size and its battery.
+//! Traits of the robot in its robot file: its job, its size and its battery.
 //!
 //! ```toml
 //! build = "wheeled"

@@ -70,7 +70,7 @@ pub enum NoZone {
     Place {
         /// The field.
         field: &'static str,
-        /// What stands there.
+        /// Its value.
         place: [f64; 2],
     },
     /// Corners are no polygon.

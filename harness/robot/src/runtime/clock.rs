@@ -32,7 +32,7 @@ impl Clock {
         moment_at(self.now_us())
     }
 
-    /// What it showed at an instant, in ms; 0 before the start.
+    /// Its time at an instant, in ms; 0 before the start.
     pub(super) fn at_ms(&self, instant: Instant) -> u64 {
         let since = instant.saturating_duration_since(self.start);
         u64::try_from(since.as_millis()).unwrap_or(u64::MAX)

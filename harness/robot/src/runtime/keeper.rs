@@ -7,7 +7,7 @@ use crossguard_codec::security::Time64;
 
 use crate::boot::{AHEAD_US, Boot, BootError, Memory};
 
-/// What is to be persisted.
+/// Value to persist.
 enum Task {
     Counter,
     Time(Time64),

@@ -1,4 +1,4 @@
-//! Whose datagrams have places of their own in the inbox: those of the robots that this one has a session with.
+//! The robots that this one has a session with: their datagrams have places of their own in the inbox.
 //!
 //! A flood fills the places for everybody. It must not shut out the heartbeats that a maneuver hangs on. An address can
 //! be forged, and then a flood fills these places as well: it is not worse off for the robot than without them.

@@ -16,7 +16,7 @@ const LINK_REST: Duration = Duration::from_millis(200);
 /// often is known to have hung, and its datagrams to have waited, by that much later.
 const READER_WAIT: Duration = Duration::from_millis(10);
 
-/// What the reader and the loop know of the datagrams between them.
+/// Datagrams between the reader and the loop.
 #[derive(Debug, Default)]
 pub(super) struct Waiting {
     /// How many are in the inbox.
@@ -24,7 +24,7 @@ pub(super) struct Waiting {
     /// How many were dropped and are not counted yet.
     pub(super) dropped: AtomicU64,
     pub(super) dropped_in_all: AtomicU64,
-    /// Whose datagrams have places of their own.
+    /// Robots whose datagrams have places of their own.
     pub(super) partners: Partners,
 }
 

@@ -15,7 +15,7 @@ use super::Delivery;
 use super::reader::Waiting;
 use crate::perception::SensorFrame;
 
-/// What a running robot can be told from outside.
+/// Order to a running robot from outside.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Order {
     /// Something for its endpoint.

@@ -15,7 +15,7 @@ pub(super) const RECORDED: u32 = 32;
 /// A second, in µs.
 const SECOND_US: u64 = 1_000_000;
 
-/// What was dropped in the present second.
+/// Drops in the present second.
 #[derive(Debug, Default)]
 pub(super) struct Sampler {
     began_us: u64,
@@ -53,7 +53,7 @@ impl Sampler {
         self.finish()
     }
 
-    /// What is left to be recorded.
+    /// Drops that remain to be recorded.
     pub(super) fn finish(&mut self) -> Option<Counts> {
         let unrecorded = std::mem::take(&mut self.unrecorded);
         (!unrecorded.is_empty()).then_some(unrecorded)

@@ -19,7 +19,7 @@ pub(super) type Points = Vec<(String, [Spanned<f64>; 2])>;
 #[derive(Debug)]
 pub struct Draft {
     path: PathBuf,
-    /// What is in the file.
+    /// Content of the file.
     before: String,
     /// The text.
     pub text: String,

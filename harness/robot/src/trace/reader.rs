@@ -15,7 +15,7 @@ pub const SAME_CLOCK_US: u128 = 10_000;
 
 /// A log to be read.
 pub struct Log<'a> {
-    /// What it is called in messages.
+    /// Its name in messages.
     pub name: String,
     /// Its lines.
     pub lines: Box<dyn BufRead + 'a>,
@@ -70,7 +70,7 @@ pub struct Records<'a> {
 }
 
 impl<'a> Records<'a> {
-    /// Those of `log`.
+    /// The records of `log`.
     #[must_use]
     pub const fn new(log: Log<'a>) -> Self {
         Self {
@@ -81,7 +81,7 @@ impl<'a> Records<'a> {
         }
     }
 
-    /// What the log is called.
+    /// Name of the log.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.log.name
@@ -153,7 +153,7 @@ impl<'a> Records<'a> {
 /// for that each is held back for a second of the logs' time.
 pub struct Merged<'a> {
     sources: Vec<OpenLog<'a>>,
-    /// What is held back, by time, and by the order in which it was read; with the log that it is from.
+    /// Records that are held back, by time and by the order of reading, each with the number of its log.
     held: BTreeMap<(u64, u64), (usize, Record)>,
     read: u64,
     newest_us: u64,
@@ -191,7 +191,7 @@ impl OpenLog<'_> {
 }
 
 impl<'a> Merged<'a> {
-    /// Those of `logs`.
+    /// The records of `logs`.
     ///
     /// # Errors
     /// Which log cannot be read, and why.

@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 /// How much later than it asked for a thread may be awake and still have looked all the time.
 const SLACK: Duration = Duration::from_millis(5);
 
-/// What a receiving thread knows of its own attention.
+/// Attention of a receiving thread to its socket.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Attention {
     /// When it looked at the socket the last time.

@@ -62,7 +62,7 @@ impl Receiver for EthernetReceiver {
         let Some((_, frame, at)) = self.frames.next(at_most)? else {
             return Ok(None);
         };
-        // What is not for the service is not looked at, and not worth a count.
+        // A frame that is not for the service is not looked at, and not worth a count.
         Ok(
             ethernet::packet(frame).map(|(source, packet)| Arrival::Datagram {
                 from: Source::LinkLayer(source),

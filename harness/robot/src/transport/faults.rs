@@ -65,7 +65,7 @@ pub struct Outage {
     pub until_ms: u64,
 }
 
-/// What becomes of a datagram.
+/// Fate of a datagram.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Fate {
     /// It is lost.
@@ -109,7 +109,7 @@ impl Channel {
         };
     }
 
-    /// What becomes of a datagram that is sent `now_us` microseconds after the channel began.
+    /// Fate of a datagram that is sent `now_us` microseconds after the channel began.
     pub fn fate(&mut self, now_us: u64) -> Fate {
         // Everything is drawn for every datagram, so that one fault more does not change the others.
         let in_burst = self.turn();
@@ -215,9 +215,9 @@ pub enum FaultsError {
     Value {
         /// The fault.
         fault: &'static str,
-        /// What stands there.
+        /// The value there.
         value: String,
-        /// What was wanted.
+        /// The value that was wanted.
         wanted: &'static str,
     },
 }

@@ -41,7 +41,7 @@ impl FramingError {
 }
 
 impl Framing {
-    /// What goes into a datagram with this packet.
+    /// Octets of a datagram with this packet.
     #[must_use]
     pub fn wrap(self, packet: &[u8]) -> Vec<u8> {
         match self {

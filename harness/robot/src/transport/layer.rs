@@ -19,7 +19,7 @@ const SOURCES_MAX: usize = 64;
 /// are not those of another, and each may have faults of its own.
 #[derive(Clone, Debug)]
 pub struct WithFaults<T> {
-    /// What the datagrams go over.
+    /// Transport of the datagrams.
     pub transport: T,
     /// The faults on the way from every sender.
     pub faults: Faults,
@@ -78,7 +78,7 @@ struct Faulty {
     /// By when they arrive, in µs, and in which order they came.
     under_way: BTreeMap<(u64, u64), (Source, Vec<u8>)>,
     count: u64,
-    /// What has been lost and not been told yet.
+    /// Lost datagrams that have not been told yet.
     lost: VecDeque<(Vec<u8>, Loss)>,
 }
 
@@ -126,7 +126,7 @@ impl Faulty {
         self.lost.push_back((octets, how));
     }
 
-    /// What is to be told now: what was lost, and what has arrived.
+    /// Arrival to tell now: a datagram that was lost, or one that has arrived.
     fn due(&mut self) -> Option<Arrival> {
         if let Some((octets, how)) = self.lost.pop_front() {
             return Some(Arrival::Lost { how, octets });
@@ -204,7 +204,7 @@ mod tests {
         Source::LinkLayer([number; 6])
     }
 
-    /// What a receiver with these faults takes in of 200 datagrams, by number, and how many are lost; `count` together,
+    /// Datagrams of 200 that a receiver with these faults takes in, by number, and how many are lost; `count` together,
     /// unless more come.
     fn arrivals(faults: &str, by_source: &[(Source, &str)], count: usize) -> (Vec<u8>, usize) {
         let by_source = by_source.iter().map(|(s, f)| (*s, f.parse().unwrap()));

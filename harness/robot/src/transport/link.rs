@@ -1,4 +1,4 @@
-//! What robots are configured with: where they meet.
+//! Configuration of a robot's link: where robots meet.
 
 use std::fmt;
 use std::net::{Ipv4Addr, SocketAddr, SocketAddrV4};
@@ -14,7 +14,7 @@ pub enum Link {
     Peers {
         /// The robot's own address.
         address: SocketAddr,
-        /// Those of the others.
+        /// Addresses of the others.
         peers: Vec<SocketAddr>,
         /// How packets lie in datagrams.
         framing: Framing,
@@ -39,7 +39,7 @@ pub enum Link {
         unit: SocketAddr,
         /// The robot's own; any port, if it is not said.
         address: Option<SocketAddr>,
-        /// What the robot gives to it.
+        /// Data that the robot gives to it.
         sends: Sends,
     },
 }

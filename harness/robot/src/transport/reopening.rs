@@ -16,7 +16,7 @@ const PERIOD: Duration = Duration::from_secs(1);
 /// A transport that is opened again when it fails.
 #[derive(Clone, Debug)]
 pub struct Reopening<T>(
-    /// What is opened.
+    /// The transport to open.
     pub T,
 );
 
@@ -55,7 +55,7 @@ impl<T: Transport + Send> Sender for ReopeningSender<T> {
         let Ok(Halves { sender, receiver }) = self.transport.open() else {
             return Err(failure);
         };
-        // What a transport does when both halves of it are gone is up to the thread that receives.
+        // The old transport ends in the receiving thread, which drops the other half.
         self.sender = sender;
         // One that has not been taken yet is as good as this one was a moment ago.
         let _ = self.hand_over.try_send(receiver);

@@ -20,7 +20,7 @@ const DRIFT_MAX: Duration = Duration::from_millis(5);
 pub(super) struct Stamped {
     /// How many octets.
     pub(super) length: usize,
-    /// Who sent it.
+    /// Its sender.
     pub(super) from: Option<SockaddrStorage>,
     /// How long ago the kernel had it, if that is known.
     pub(super) age: Option<Duration>,
@@ -49,7 +49,7 @@ impl Stamps {
         }
     }
 
-    /// Receives a datagram. What is longer than the buffer is cut off. Fails where there is nothing, too.
+    /// Receives a datagram. The rest of a longer one than the buffer is cut off. Fails where there is nothing, too.
     pub(super) fn receive(
         &mut self,
         socket: &impl AsRawFd,

@@ -111,7 +111,7 @@ struct UnitReceiver {
     /// When the unit was heard last, or its silence was told of.
     heard: Instant,
     told_channel: Option<Instant>,
-    /// What came with a frame that told how the channel is.
+    /// Datagram of a frame that also told how the channel is.
     next: Option<Arrival>,
 }
 
@@ -140,7 +140,7 @@ impl UnitReceiver {
     }
 }
 
-/// What a frame holds for the robot, if it holds a packet or payload.
+/// Packet or payload in a frame for the robot, if there is one.
 fn packet_in(frame: &Frame<'_>, unit: SocketAddr, at: Instant) -> Option<Arrival> {
     let octets = match frame.kind {
         Kind::ReceivedPacket => Ok(frame.body.to_vec()),

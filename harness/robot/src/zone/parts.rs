@@ -119,7 +119,7 @@ impl Piece {
         if from[0] > ends || to[0] < begins {
             return false;
         }
-        // What of the line is beside the piece: a line whose ends are both on one side of it is so as a whole.
+        // The part of the line beside the piece: a line whose ends are both on one side of it is so as a whole.
         let beside = [from, to].map(|at| {
             let along = at[0].clamp(begins, ends);
             if from[0] < to[0] {

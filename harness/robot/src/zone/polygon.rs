@@ -26,7 +26,7 @@ pub enum NoPolygon {
         field: &'static str,
         /// The number of a side, from 1 on.
         first: usize,
-        /// That of another.
+        /// The number of another side.
         second: usize,
     },
     /// It has no area.

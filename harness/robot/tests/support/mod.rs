@@ -31,7 +31,7 @@ pub(crate) fn machine(
     Machine::new(endpoint, Application::new(Box::new(body), plan).on(road))
 }
 
-/// What a robot wants when it is told something at this time.
+/// Effects of a robot that is told something at this time.
 pub(crate) fn effects(machine: &mut Machine, now_ms: u32, stimulus: Stimulus<'_>) -> Vec<Effect> {
     let moment = Moment::after(BEGAN_ITS, now_ms.into());
     machine.handle(moment, f64::from(now_ms) / 1e3, stimulus)

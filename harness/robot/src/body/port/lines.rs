@@ -9,7 +9,7 @@ use crate::site::{Place, Site};
 /// The version that both sides say in `hello`.
 pub const VERSION: u8 = 2;
 
-/// What the kit says to a body.
+/// Line of the kit to a body.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 #[serde(
     rename_all_fields = "camelCase",
@@ -36,7 +36,7 @@ pub(super) enum ToBody {
 pub(super) struct Start {
     id: String,
     task: String,
-    /// What the body says when it is there.
+    /// Type of the report that the body sends when it is there.
     report: &'static str,
     to: Option<At>,
     speed_mps: Option<f64>,
@@ -54,7 +54,7 @@ pub(super) struct At {
     longitude: f64,
 }
 
-/// What a body says to the kit. Fields that are not named here are left alone.
+/// Line of a body to the kit. Fields that are not named here are left alone.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(
     rename_all_fields = "camelCase",

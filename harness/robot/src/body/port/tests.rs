@@ -33,7 +33,7 @@ fn open(hello: &str) -> (Ported, UnixStream, tempfile::TempDir) {
     (body, other, folder)
 }
 
-/// What the body reports next, within a minute. No time passes by its clock.
+/// Next report of the body, within a minute. No time passes by its clock.
 fn report(body: &mut Ported) -> Option<Report> {
     (0..60_000).find_map(|_| {
         std::thread::sleep(Duration::from_millis(1));
@@ -41,12 +41,12 @@ fn report(body: &mut Ported) -> Option<Report> {
     })
 }
 
-/// What the body reports within a second of its clock, while nothing comes from it.
+/// Report of the body within a second of its clock, while nothing comes from it.
 fn report_of_silence(body: &mut Ported) -> Option<Report> {
     (0..10).find_map(|_| body.advance(0.1).pop())
 }
 
-/// What a body that is lost reports.
+/// Report of a body that is lost.
 fn silent(why: &str) -> Report {
     Report::Silent(format!("the body {why}"))
 }
@@ -196,7 +196,7 @@ fn what_is_said_besides_is_counted_and_delays_no_end() {
             assert_eq!(others, before.map(|it| (turn, it)));
             assert_eq!(dropped, 600 * lines);
         } else {
-            // What it says after that is dropped, too: two lines in the end, and beats.
+            // Later lines are dropped, too: two lines in the end, and beats.
             let beats = 600 * 271 + 2 - dropped;
             assert!((1..=100).contains(&beats), "{beats} beats were taken in");
         }
@@ -274,7 +274,7 @@ fn pose(east: i32, more: &str) -> String {
     format!(r#"{{"type": "pose", "eastM": {east}, "northM": 0{more}}}"#)
 }
 
-/// What a RAM of a robot in this state says of it.
+/// State of a robot in this state, as its RAM reports it.
 fn ram_of(state: &RobotState) -> RobotState {
     let ids = Identifiers::default();
     let view = Robot::new(StationId(7), 1).ram();

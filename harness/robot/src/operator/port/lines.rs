@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 
 use crate::around::Around;
 
-/// What the kit says to a program at the operator port.
+/// Line of the kit to a program at the operator port.
 #[derive(Serialize)]
 #[serde(
     rename_all_fields = "camelCase",
@@ -90,7 +90,7 @@ fn session(session: SessionId) -> Value {
     json!({ "leader": session.leader.0, "boot": boot, "count": count })
 }
 
-/// What an output says.
+/// Fields of an output.
 pub(super) fn said(output: &Output) -> Fields {
     let said = Said::by(output);
     fields(json!({

@@ -248,7 +248,7 @@ fn a_client_that_does_not_read_says_no_hello_or_is_one_too_many_loses_its_connec
     heard(&mut mute);
     assert_eq!(mute.read_line(&mut String::new()).unwrap(), 0);
     is_counted(&told, Cause::OperatorGarbled);
-    // What nobody reads fills the socket.
+    // Lines that nobody reads fill the socket.
     let mut at_us = 0;
     while counter.clients.len() > 1 {
         at_us += 1;
