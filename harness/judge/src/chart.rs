@@ -55,7 +55,7 @@ pub struct Chart {
     /// How long a line may be; 0 for any length.
     width: usize,
     lanes: Vec<Lane>,
-    /// What stations are called, those before a change of identity included.
+    /// Names of stations, including those before a change of identity.
     names: Names,
     /// Whether robots get columns as they turn up in the records.
     grows: bool,
@@ -64,7 +64,7 @@ pub struct Chart {
     /// Which of the paper's stages it has come to, from 1; 0 before the first.
     stage: usize,
     gathering: Gathering,
-    /// What people do who see a sign show go, before the record says so.
+    /// Acts of people who see a sign show go, before the record says so.
     on_go: Vec<(u64, Mark)>,
 }
 
@@ -208,7 +208,7 @@ impl Chart {
         self.drawn(marks)
     }
 
-    /// What is complete at this time, with names.
+    /// Marks that are complete at this time, with names.
     fn due(&mut self, at_us: u64) -> Vec<(u64, Mark)> {
         let due = self.gathering.due(at_us);
         self.all_named(due)
@@ -269,7 +269,7 @@ impl Chart {
         let sent = self.sent(record);
         let ended = self.signs_that_ended(record);
         let (now, after) = self.marks_of(record);
-        // What a step put out after a message comes after it.
+        // The outputs of a step after a message come after that message.
         let (before, behind) = match record.entry {
             Entry::Sent { .. } => (now, held.collect()),
             _ => (held.collect(), now),
@@ -296,7 +296,7 @@ impl Chart {
         self.drawn(marks)
     }
 
-    /// What a record adds, by itself.
+    /// Marks that a record adds, by itself.
     #[cfg(feature = "full")]
     pub(crate) fn marks(&mut self, record: &Record) -> Vec<Mark> {
         let ended = self.signs_that_ended(record);
@@ -353,7 +353,7 @@ impl Chart {
         }
     }
 
-    /// What a record adds, and what of it comes after the message that the robot is about to send.
+    /// Marks of a record, and those of them that come after the message that the robot is about to send.
     fn marks_of(&mut self, record: &Record) -> (Vec<Mark>, Vec<Mark>) {
         let mut after = Vec::new();
         if let Entry::Started {
@@ -462,7 +462,7 @@ impl Chart {
         known
     }
 
-    /// What a robot sends to stations without records, which cannot say whether it arrives.
+    /// Messages of a robot to stations without records, which cannot say whether they arrive.
     fn arrows_to_strangers(&mut self, from: usize, heard: &Heard) -> Vec<Mark> {
         let mut marks = Vec::new();
         for to in 0..self.lanes.len() {
@@ -492,7 +492,7 @@ impl Chart {
         arrow.into_iter().chain(shown).collect()
     }
 
-    /// What the sender of a RAM shows to people from now on.
+    /// Signal to people in a RAM, as a note of its sender, where it is new.
     fn shows(&mut self, lane: usize, heard: &Heard) -> Option<Mark> {
         let text = shown_in(heard)?;
         let text = changed(&mut self.lanes[lane].shown, text)?;
@@ -562,7 +562,7 @@ fn changed(known: &mut String, text: String) -> Option<String> {
 
 fn arrow(from: usize, to: Vec<ArrowHead>, heard: &Heard) -> Mark {
     let text = said_in(heard);
-    // What is lost is recorded as a packet, and what is heard without its headers.
+    // A lost message is recorded as a packet, and a heard one without its headers.
     let mut packet = DefaultHasher::new();
     (heard.from, heard.generation_delta_time, &text).hash(&mut packet);
     Mark::Arrow(Arrow {

@@ -1,4 +1,4 @@
-//! What logs tell, fact by fact: states, places, messages, the corridor, drops.
+//! Facts from logs: states, places, messages, the corridor, drops.
 //!
 //! ```text
 //!   records ──► Observer ──► facts ──┬──► JSON lines (for tools: `crossguard export --facts`)
@@ -58,18 +58,18 @@ pub enum Fact {
     Place(Box<Placed>),
     /// A step of the transition function, other than one in which nothing but time has passed.
     Step {
-        /// What it took in.
+        /// Input of the step.
         input: String,
-        /// What it put out, in order.
+        /// Outputs of the step, in order.
         outputs: Vec<String>,
     },
     /// A message that it sent, heard, or should have heard.
     Message(Message),
-    /// What a person who follows the run wants to know.
+    /// Note for a person who follows the run.
     Note {
         /// Whether something went wrong.
         is_warning: bool,
-        /// What.
+        /// Its text.
         text: String,
     },
     /// It lets the pedestrian cross, or no longer does.
@@ -146,7 +146,7 @@ impl Placed {
     }
 }
 
-/// What became of a message at a robot.
+/// Fate of a message at a robot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Direction {
@@ -161,13 +161,13 @@ pub enum Direction {
 /// A message at a robot.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Message {
-    /// What became of it.
+    /// Its fate.
     pub direction: Direction,
     /// Its name: `RAM`, `RMCM`, or that of a message of ETSI.
     pub kind: &'static str,
     /// The station that sent it.
     pub from: StationId,
-    /// What it says, in a few words.
+    /// Its content, in a few words.
     pub text: String,
     /// Why it was sent, or how it was lost; empty where it was heard.
     pub why: String,
@@ -193,7 +193,7 @@ pub(crate) fn shown_if_any<S: Serializer>(
     }
 }
 
-/// What is known of a robot.
+/// State of a robot, as far as its records tell.
 #[derive(Debug, Default)]
 struct Observed {
     name: String,
@@ -253,7 +253,7 @@ impl Observer {
         Some(corridor(false, since_us, why))
     }
 
-    /// What the outputs of a step mean for the sign.
+    /// Facts about the sign, from the outputs of a step.
     fn sign(&mut self, robot: usize, at_us: u64, outputs: &Outputs) -> Vec<Fact> {
         let go_until_us = &mut self.robots[robot].go_until_us;
         let mut facts = Vec::new();
@@ -386,7 +386,7 @@ impl Observer {
         facts
     }
 
-    /// What is new about the robot's part in a session.
+    /// Facts about the robot's part in a session, where it is new.
     fn view(&mut self, robot: usize, state: &Robot) -> Vec<Fact> {
         let (view, observed) = (View::of(state), &mut self.robots[robot]);
         if observed.view.as_ref() == Some(&view) {
@@ -510,7 +510,7 @@ fn unread(
     }
 }
 
-/// What a CAM or VAM says: its service, its sender, and where that is.
+/// Content of a CAM or VAM: its service, its sender, and the sender's place.
 fn of_etsi(identifiers: &Identifiers, octets: &[u8]) -> Option<(Service, StationId, String)> {
     let message = ItsMessage::decode(identifiers, octets).ok()?.message;
     let service = service_of(&message).filter(|it| !matches!(it, Service::Ram | Service::Rmcm))?;

@@ -1,4 +1,4 @@
-//! What judges robots, and what is drawn of them.
+//! Judges of robots, and drawings of their runs.
 //!
 //! ```
 //! use crossguard_judge::sim::Fuzz;

@@ -32,7 +32,7 @@ use crate::timing::Timing;
 use messages::Messages;
 use tracks::Track;
 
-/// How many records and robots are kept. What is left out is counted.
+/// How many records and robots are kept. The others are counted.
 const RECORDS_MAX: u64 = 3_000_000;
 const ROBOTS_MAX: usize = 32;
 
@@ -57,7 +57,7 @@ pub struct Playback {
 pub type Metres = [f64; 2];
 
 impl Playback {
-    /// What `logs` tell. A log that cannot be read to its end is taken as far as it goes, and
+    /// The run in `logs`. A log that cannot be read to its end is taken as far as it goes, and
     /// [`Overview::troubles`] says why it ends there.
     #[must_use]
     pub fn of(mut logs: Merged, street: Option<SiteFile>) -> Self {
@@ -143,7 +143,7 @@ impl Reading {
         Some(place)
     }
 
-    /// What no fact tells: timers, and until when the sign shows go.
+    /// Takes in state that no fact tells: timers, and until when the sign shows go.
     fn step(&mut self, robot: u16, at_us: u64, record: &Record) {
         let Entry::Step { outputs, state, .. } = &record.entry else {
             return;

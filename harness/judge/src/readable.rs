@@ -31,7 +31,7 @@ pub struct Decoded {
     /// The headers of the packet, if it was one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub packet: Option<Headers>,
-    /// Who signed the packet, and whether that was verified.
+    /// Signer of the packet, and whether the signature was verified.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub signature: Option<Signature>,
     /// The message.
@@ -81,7 +81,7 @@ impl Unreadable {
 }
 
 impl Decoded {
-    /// What `octets` say: a message, or a packet with one, whose signature is looked at.
+    /// Content of `octets`: a message, or a packet with one, whose signature is looked at.
     ///
     /// # Errors
     /// Why they say nothing.
@@ -121,10 +121,10 @@ pub enum Unwritable {
     /// It is no JSON.
     #[error("not JSON: {0}")]
     NotJson(serde_json::Error),
-    /// What stands for the headers are none.
+    /// The JSON in place of the headers describes none.
     #[error("not the headers of a packet: {0}")]
     NotHeaders(serde_json::Error),
-    /// What stands for the message is none.
+    /// The JSON in place of the message describes none.
     #[error("not a message: {0}")]
     NotAMessage(serde_json::Error),
     /// It stands for a signed packet.

@@ -1,4 +1,4 @@
-//! Who signed a packet that somebody listened in to, and whether that can be relied on.
+//! Signer of a packet that somebody listened in to, and whether the signature can be relied on.
 
 use crossguard_codec::geonet::{BasicHeader, Headers, NextHeader, origin};
 use crossguard_codec::security::{

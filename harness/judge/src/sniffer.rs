@@ -1,4 +1,4 @@
-//! What is on the channel, for people who listen in: every packet as one line or one JSON object.
+//! Packets on the channel, for people who listen in: each one as a line or a JSON object.
 //!
 //! Whether a packet is signed is said; signatures are verified where roots are given.
 
@@ -31,12 +31,12 @@ pub struct Seen {
     pub octets: usize,
     /// Whether it has a security envelope.
     pub is_signed: bool,
-    /// Who signed it, and whether that was verified.
+    /// Its signer, and whether the signature was verified.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub signature: Option<Signature>,
-    /// What the message says, or why there is none.
+    /// Content of the message, or why there is none.
     pub text: String,
-    /// Who is on the road, as the message tells.
+    /// Road users, as the message tells.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub road_users: Vec<RoadUser>,
     /// The whole message under its kind, with the names and numbers of its ASN.1 module, where it is decoded.
@@ -158,7 +158,7 @@ impl Sniffer {
         Ok(())
     }
 
-    /// What a message says, in a few words.
+    /// Content of a message, in a few words.
     fn describe(
         &self,
         message: &ItsMessage,

@@ -5,8 +5,8 @@
 //! acknowledgement is a time of its own here, the round trip. A command that is repeated counts from its first
 //! transmission to its first reception. A `block` takes as long as it is held.
 //!
-//! Both times of the negotiation are taken from the clocks of two robots. Those of robots that share a log are one;
-//! between logs the difference is [estimated](Offset) from the messages that went both ways, taken off, and stated
+//! Both times of the negotiation are taken from the clocks of two robots. Robots that share a log share a clock.
+//! Between logs the difference is [estimated](Offset) from the messages that went both ways, taken off, and stated
 //! with its bound. The round trip needs no other clock.
 
 mod clocks;
@@ -75,7 +75,7 @@ pub struct Summary {
     pub t_exec_s: Statistic,
     /// Total maneuver coordination time, in seconds.
     pub t_tmct_s: Statistic,
-    /// What the paper measured, if it did.
+    /// The paper's measurement, if it has one.
     pub paper: Option<Paper>,
 }
 
@@ -301,7 +301,7 @@ pub struct ClockDifference {
 }
 
 impl Times {
-    /// Those of logs with these names.
+    /// Times of logs with these names.
     #[must_use]
     pub fn of(timing: &Timing, logs: &[String]) -> Self {
         let name = |log: usize| logs.get(log).map_or("?", String::as_str).to_owned();
@@ -321,7 +321,7 @@ impl Times {
     }
 }
 
-/// What [`Timing::offsets`] says of logs with these names, a line for each pair.
+/// Text of [`Timing::offsets`] for logs with these names, a line for each pair.
 #[must_use]
 pub fn offsets_in_words(timing: &Timing, logs: &[String]) -> Vec<String> {
     let name = |log: usize| logs.get(log).map_or("?", String::as_str);

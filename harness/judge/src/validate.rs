@@ -34,8 +34,8 @@
 //! thread vouches for; I10 between robots with logs of their own. Where receptions do not say when they arrived,
 //! how many is counted.
 //!
-//! A log that ends in the middle is what a killed process leaves. What others heard from it after its
-//! end cannot be matched, and is counted.
+//! A log that ends in the middle is from a process that was killed. Receptions of its messages after its
+//! end cannot be matched, and are counted.
 
 mod clock;
 mod crossing;
@@ -68,7 +68,7 @@ use crossing::Crossing;
 use road::Crossings;
 use robot::Follow;
 
-/// What valid logs hold.
+/// Content of valid logs.
 #[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Validated {
@@ -96,7 +96,7 @@ pub struct Validated {
     pub cut_off: Vec<String>,
     /// The properties that had something to say, and were kept.
     pub properties: Vec<String>,
-    /// What was not judged, and why.
+    /// Properties that were not judged, and why.
     pub not_judged: Vec<String>,
     /// How often P1 to P4 were judged, and within what, or why they were not.
     pub crossing: Vec<String>,
@@ -111,7 +111,7 @@ pub struct Invalid {
     pub line: usize,
     /// The robot, where the line says one.
     pub robot: Option<String>,
-    /// What does not fit.
+    /// The fault.
     pub fault: Box<Fault>,
 }
 
@@ -329,11 +329,11 @@ impl LoggedRobots {
             let judged = clock.take(at_us, &robot, line, deed);
             judged.map_err(Refusal::Clock)?;
         }
-        // What does not fit in the record itself goes before.
+        // A fault in the record itself goes before.
         crossed.map_err(|fault| Refusal::Record(robot, fault))
     }
 
-    /// What the robot did, for who judges the robots of a clock.
+    /// Takes in an entry. Returns what the judge of the robots of a clock needs of it.
     fn take_entry(
         &mut self,
         robot: &str,

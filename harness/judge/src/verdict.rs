@@ -1,11 +1,11 @@
-//! What validation says of logs, in words: for the terminal, for the report and for the studio.
+//! Verdict of validation on logs, in words: for the terminal, for the report and for the studio.
 
 use crossguard_model_check::properties::PropertyId;
 use serde::Serialize;
 
 use crate::validate::{Fault, Invalid, Validated};
 
-/// What became of a property in a run.
+/// Verdict on a property in a run.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct PropertyVerdict {
@@ -13,11 +13,11 @@ pub struct PropertyVerdict {
     pub id: String,
     /// Whether a step broke it.
     pub is_broken: bool,
-    /// What it says.
+    /// Its statement.
     pub statement: &'static str,
 }
 
-/// What became of each property that had something to say; empty where the logs could not be judged by them.
+/// Verdict on each property that had something to say; empty where the logs could not be judged by them.
 #[must_use]
 pub fn properties(verdict: Result<&Validated, &Invalid>) -> Vec<PropertyVerdict> {
     let broken = verdict.err().and_then(|invalid| match *invalid.fault {
@@ -37,7 +37,7 @@ pub fn properties(verdict: Result<&Validated, &Invalid>) -> Vec<PropertyVerdict>
     PropertyId::ALL.into_iter().filter_map(verdict_of).collect()
 }
 
-/// What valid logs hold and lack, a sentence for each.
+/// Contents of valid logs, and their gaps, a sentence for each.
 #[must_use]
 pub fn sentences(valid: &Validated) -> Vec<String> {
     let mut sentences = vec![format!(

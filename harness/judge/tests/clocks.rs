@@ -1,4 +1,4 @@
-//! What `validate` says of time: lateness is counted, I10 is judged among robots that share a clock.
+//! Judgement of time by `validate`: lateness is counted, I10 is judged among robots that share a clock.
 
 use std::io::Cursor;
 

@@ -116,7 +116,7 @@ fn of_two_logs_the_difference_of_the_clocks_is_taken_off_and_bounded() {
     }
 }
 
-/// Nobody can tell a slow way from a clock that is apart; the bound says by how much that matters.
+/// No method can tell a slow way from a clock that is apart; the bound says by how much that matters.
 #[test]
 fn where_one_way_is_slower_the_error_is_within_the_bound() {
     let timing = on_two_clocks(&records(&pair(120, 20)), 1_000_000, 0);

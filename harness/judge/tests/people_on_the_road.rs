@@ -129,7 +129,7 @@ impl Crossing {
             let seen = |place: &Degrees| Seen {
                 place: *place,
                 class: VruClass::Pedestrian,
-                // What a robot makes of people is not what it is judged by.
+                // A robot is not judged by what it makes of people.
                 conduct: Conduct::Elsewhere,
             };
             let sight = Sight {
@@ -227,7 +227,7 @@ impl Crossing {
         validate::one(&*log).map_err(|invalid| invalid.to_string())
     }
 
-    /// What is said of valid logs of a property.
+    /// Statement on a property of valid logs.
     fn kept(&self, id: &str) -> String {
         let validated = self.judged().unwrap_or_else(|refusal| panic!("{refusal}"));
         let said = validated.crossing.into_iter().find(|it| it.starts_with(id));
@@ -246,7 +246,7 @@ impl Crossing {
     }
 }
 
-/// Somebody walks from one kerb to the other at the side of the escort, as far as the escort has come.
+/// A person walks from one kerb to the other at the side of the escort, as far as the escort has come.
 fn beside(escort: &[(u64, Degrees)], go_us: u64) -> Vec<(u64, Vec<Degrees>)> {
     let ways = escort.iter().filter(|(at_us, _)| *at_us > go_us);
     ways.map(|(at_us, place)| (*at_us, vec![*place])).collect()
@@ -299,7 +299,7 @@ fn hazard_b_a_person_who_saw_go_and_was_out_of_sight_is_on_the_road_without_guar
         log
     };
     steps_after(S / 10).is_refused("P1");
-    // Who steps on the road long after go was not let across.
+    // A person who steps on the road long after go was not let across.
     assert!(steps_after(5 * S).kept("P1").starts_with("P1 kept"));
 }
 

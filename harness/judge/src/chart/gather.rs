@@ -28,7 +28,7 @@ pub(crate) struct Arrow {
     pub(crate) from: usize,
     /// Its receivers.
     pub(crate) to: Vec<ArrowHead>,
-    /// What it says.
+    /// Its text.
     pub(crate) text: String,
 }
 

@@ -1,4 +1,4 @@
-//! What happens, in a few words.
+//! Events of a run, in a few words.
 
 use crossguard_codec::{Heard, Kind, SignalsShown};
 use crossguard_protocol::{Event, Input, Notice, Output};
@@ -29,10 +29,10 @@ fn shown(heard: &Heard) -> Option<SignalsShown> {
     heard.state.as_ref()?.slow.as_ref()?.signals
 }
 
-/// What a robot shows to people that shows nothing.
+/// Text for a robot that shows nothing to people.
 pub(super) const SHOWS_NOTHING: &str = "~ shows nothing to people";
 
-/// What the sender of a RAM shows to people, if it says so.
+/// Text of the signal to people in a RAM, if it has one.
 pub(super) fn shown_in(heard: &Heard) -> Option<String> {
     let shown = shown(heard)?;
     Some(if shown.is_anything() {

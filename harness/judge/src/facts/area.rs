@@ -14,10 +14,10 @@ pub struct Area {
     /// The maneuver.
     #[serde(serialize_with = "shown")]
     pub id: ManeuverId,
-    /// What it is.
+    /// Its task.
     #[serde(serialize_with = "shown")]
     pub task: TaskType,
-    /// Who is to do it.
+    /// The station that carries it out.
     pub follower: StationId,
     /// Whether a pedestrian is guarded by it.
     pub guards: bool,

@@ -18,7 +18,7 @@ pub struct ClusterView {
 }
 
 impl ClusterView {
-    /// That of a RAM from a known place.
+    /// Cluster of a RAM from a known place.
     pub(super) fn of(heard: &Heard) -> Option<Self> {
         let cluster = heard.cluster.as_ref()?;
         let shape = cluster.cluster_bounding_box_shape.as_ref()?;

@@ -24,20 +24,20 @@ pub struct View {
     pub session: Option<SessionId>,
     /// The followers of a leader.
     pub followers: Vec<FollowerView>,
-    /// What a follower executes.
+    /// The task that a follower executes.
     #[serde(serialize_with = "shown_if_any")]
     pub executes: Option<TaskType>,
     /// Whether the pedestrian may cross, as far as this robot says.
     pub corridor_open: bool,
     /// The crossing that a requester or leader asks help for, empty where it is not known.
     pub place: String,
-    /// What it still has to do on the road, empty where that is nothing.
+    /// Its duty on the road, empty where it has none.
     pub duty: String,
     /// Whether it is available, and if not, why.
     pub availability: String,
 }
 
-/// What a leader knows of a follower.
+/// A follower, as its leader knows it.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct FollowerView {
@@ -53,7 +53,7 @@ pub struct FollowerView {
 }
 
 impl View {
-    /// That of `robot`.
+    /// The view of `robot`.
     #[must_use]
     pub fn of(robot: &Robot) -> Self {
         let leading = match robot.phase() {

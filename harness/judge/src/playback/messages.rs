@@ -16,7 +16,7 @@ const TEXT_MAX: usize = 200;
 /// How many stations without logs get a column; the others share one.
 const STRANGERS_MAX: usize = 8;
 
-/// What a robot's RAM says before it has a part in anything.
+/// Text of a robot's RAM before it has a part in anything.
 const NOTHING: &str = "none";
 
 #[derive(Default)]
@@ -27,15 +27,14 @@ pub(super) struct Messages {
     texts: HashSet<Arc<str>>,
     /// The newest row of a message, by the hash of its octets.
     by_octets: HashMap<u64, usize>,
-    /// What a robot's RAM said last.
+    /// Last text of the RAM of each robot.
     said: HashMap<u16, Arc<str>>,
-    /// What a robot last knew of what a station's RAM says.
+    /// Last text of a station's RAM that a robot knew, by both.
     known: HashMap<(StationId, u16), Arc<str>>,
     /// Stations without logs, in the order in which they were heard.
     pub(super) strangers: Vec<StationId>,
     /// Whether there were more of them.
     pub(super) has_others: bool,
-    /// What stations are called.
     pub(super) names: Names,
 }
 
@@ -304,7 +303,7 @@ pub struct Rows {
     pub previous: Option<u64>,
     /// The time of the one after the time.
     pub next: Option<u64>,
-    /// Those next to the time.
+    /// The rows next to the time.
     pub rows: Vec<MessageRow>,
 }
 
@@ -318,7 +317,7 @@ pub struct MessageRow {
     pub from: usize,
     /// The message; `None` of a note.
     pub kind: Option<&'static str>,
-    /// What it says.
+    /// Its text.
     pub text: String,
     /// Why it was sent.
     pub why: String,

@@ -25,7 +25,7 @@ const SAVED_STEPS: u64 = 500;
 const SAVED_MOMENTS_MAX: usize = 2_000;
 const SAVED_ROWS_MAX: usize = 20_000;
 
-/// What a page shows of a run that has nobody to ask: the moments at which something was said and others between them,
+/// A run for a page without a server: the moments at which something was said and others between them,
 /// and all messages and notes, without RAM that repeat what is known.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -77,9 +77,9 @@ pub struct RobotMoment {
     pub role: String,
     /// The session that it has a part in.
     pub session: String,
-    /// What it executes.
+    /// The task that it executes.
     pub executes: String,
-    /// What it still has to do on the road.
+    /// Its duty on the road.
     pub duty: String,
     /// Whether it is available, and if not, why.
     pub availability: String,
@@ -106,7 +106,7 @@ pub struct RobotMoment {
     pub drops: Vec<u64>,
 }
 
-/// What a leader knows of a follower.
+/// A follower, as its leader knows it.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct FollowerMoment {
@@ -141,7 +141,7 @@ pub struct BodyMoment {
 pub struct PersonMoment {
     /// Where.
     pub place: Metres,
-    /// What it does at the crossing.
+    /// Its conduct at the crossing.
     pub conduct: Conduct,
 }
 
@@ -159,7 +159,7 @@ pub struct VehicleMoment {
 pub struct ClusterMoment {
     /// How many.
     pub count: u8,
-    /// What bounds them.
+    /// Corners of the area around them.
     pub corners: Vec<Metres>,
 }
 
@@ -167,9 +167,9 @@ pub struct ClusterMoment {
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct AreaMoment {
-    /// What it is to do.
+    /// Its task.
     pub task: String,
-    /// Who.
+    /// The follower.
     pub follower: StationId,
     /// Whether people are escorted along the way to it.
     pub is_escort: bool,
@@ -200,7 +200,7 @@ impl Playback {
         }
     }
 
-    /// What a page shows of the run that has nobody to ask.
+    /// The run for a page without a server.
     #[must_use]
     pub fn saved(&self) -> SavedRun {
         let whole = (self.from_us, self.to_us);
@@ -359,7 +359,7 @@ fn timers(names: &Names, track: &Track, at_us: u64) -> Vec<(String, u64)> {
     shown.collect()
 }
 
-/// What the sign has left, and what it was told.
+/// Time that the sign has left, and time that it was told, in ms.
 fn sign(track: &Track, at_us: u64) -> Option<[u64; 2]> {
     let (since_us, told) = track.sign.at(at_us)?;
     let told = u64::from((*told)?);

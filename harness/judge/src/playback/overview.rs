@@ -44,7 +44,7 @@ pub struct Overview {
     pub trials: Vec<Trial>,
     /// The times of maneuvers, beside the paper's.
     pub times: Vec<Summary>,
-    /// What else is to be said of the times.
+    /// Notes on the times.
     pub notes_on_times: Vec<String>,
     /// The street.
     pub street: Street,
@@ -81,7 +81,7 @@ pub struct StateSpan {
     pub to: u64,
     /// The state; of states too short to be seen, the one of the highest stage.
     pub state: State,
-    /// What it did in it.
+    /// Its activity in that state.
     pub text: String,
 }
 
@@ -91,9 +91,9 @@ pub struct StateSpan {
 pub struct Trial {
     /// Its id.
     pub session: String,
-    /// Who led it, or asked.
+    /// Its leader, or the robot that asked.
     pub leader: String,
-    /// Who else had a part in it.
+    /// The other robots with a part in it.
     pub team: Vec<String>,
     /// From when, in µs.
     pub from: u64,

@@ -1,4 +1,4 @@
-//! What is known of a run while it goes on: the last minute in full, and of the time before what still holds.
+//! A run while it goes on: the last minute in full, and of the time before what still holds.
 
 use std::collections::{HashMap, VecDeque};
 use std::mem::{Discriminant, discriminant};

@@ -1,4 +1,4 @@
-//! What is known of a robot over time.
+//! Facts of a robot over time.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::facts::{Area, ClusterView, Fact, Placed, View};
 /// How many causes of drops of a robot are kept.
 const CAUSES_MAX: usize = 200;
 
-/// What something was from when on.
+/// Values of something, each with the time from which it holds.
 pub(super) struct Series<T>(Vec<(u64, T)>);
 
 impl<T> Default for Series<T> {
@@ -27,13 +27,13 @@ impl<T> Series<T> {
         self.0.push((at_us.max(newest), what));
     }
 
-    /// What it was at a time, and since when.
+    /// Its value at a time, and since when.
     pub(super) fn at(&self, at_us: u64) -> Option<&(u64, T)> {
         let next = self.0.partition_point(|(since, _)| *since <= at_us);
         next.checked_sub(1).map(|place| &self.0[place])
     }
 
-    /// What it became in a stretch of time.
+    /// Its new values in a stretch of time.
     pub(super) fn within(&self, from_us: u64, to_us: u64) -> &[(u64, T)] {
         let first = self.0.partition_point(|(since, _)| *since < from_us);
         let end = self.0.partition_point(|(since, _)| *since <= to_us);
@@ -61,7 +61,7 @@ pub(super) struct Open {
     pub(super) why: String,
 }
 
-/// What is known of a robot.
+/// Facts of a robot over time.
 #[derive(Default)]
 pub(super) struct Track {
     pub(super) name: String,

@@ -13,7 +13,7 @@ impl Drifting {
         Self { ppm }
     }
 
-    /// What the clock shows at a true time, both in microseconds since the run began.
+    /// Time of the clock at a true time, both in microseconds since the run began.
     pub(super) fn shows_us(self, true_us: u64) -> u64 {
         scale(true_us, MILLION + self.ppm, MILLION)
     }

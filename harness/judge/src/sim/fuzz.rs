@@ -13,7 +13,7 @@ use super::swarm::{Hazard, Swarm};
 use super::times::Worst;
 use super::world::{Finding, Outcome, Waits, run_with};
 
-/// What is to be run.
+/// Setup of the runs.
 #[derive(Clone, Copy, Debug)]
 pub struct Fuzz<'a> {
     /// The first seed.
@@ -24,7 +24,7 @@ pub struct Fuzz<'a> {
     pub robots: usize,
     /// The faults of every way, in place of drawn ones.
     pub faults: Option<&'a Faults>,
-    /// What every leader does, in place of a drawn plan.
+    /// The plan of every leader, in place of a drawn one.
     pub plan: Option<&'a Planned>,
     /// In which share of the seeds, from 0 to 1, robots see people by sensors of their own.
     pub sensors: f64,
@@ -67,12 +67,12 @@ pub struct Planned {
 pub struct Failure {
     /// The seed.
     pub seed: u64,
-    /// What was wrong.
+    /// The fault.
     #[serde(flatten)]
     pub finding: Finding,
 }
 
-/// What the runs amount to.
+/// Totals of the runs.
 #[derive(Clone, Debug, Default, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Totals {

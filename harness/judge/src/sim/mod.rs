@@ -15,7 +15,7 @@
 //! drawn from the seed, so one number names the whole run; the same program takes the same steps in every run.
 //!
 //! The robots run the code that real ones run: [`Machine`](crossguard_robot::machine::Machine), codec and ITS
-//! station included. What the simulator has of its own is a clock, an order of events and a radio.
+//! station included. The simulator's own parts are a clock, an order of events and a radio.
 
 mod clock;
 mod fuzz;

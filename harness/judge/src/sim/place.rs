@@ -1,4 +1,4 @@
-//! What happened at a place with streams of people and vehicles, and its measures: waiting, delay and conflicts.
+//! Record of a place with streams of people and vehicles, and its measures: waiting, delay and conflicts.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -40,7 +40,7 @@ pub(super) enum End {
     GaveUp,
 }
 
-/// Somebody on foot.
+/// A person on foot.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PersonLog {
     pub(super) since_us: u64,
@@ -79,7 +79,7 @@ pub(super) struct Sample {
     pub(super) comes_back: bool,
 }
 
-/// What happened.
+/// Record of a run.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PlaceLog {
     pub(super) people: Vec<PersonLog>,
@@ -136,7 +136,7 @@ pub struct Measured {
     pub shortest_s: Vec<f64>,
     /// People hit.
     pub hit: usize,
-    /// Those of them who had stepped on the road at a sign.
+    /// People hit who had stepped on the road at a sign.
     pub hit_at_sign: usize,
     /// Vehicles that drove into robots.
     pub robots_hit: usize,

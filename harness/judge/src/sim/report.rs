@@ -1,4 +1,4 @@
-//! What is written of a run that went wrong: its log and its packets.
+//! Files of a run that went wrong: its log and its packets.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -12,7 +12,7 @@ use crossguard_robot::trace::{self, Record};
 use super::fuzz::{Failure, Fuzz};
 use super::world::{Watch, run};
 
-/// What was written.
+/// Files that were written.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Files {
     /// The log, one JSON object per line.
@@ -34,13 +34,13 @@ impl Files {
 /// Runs a failed seed once more and writes what it did into `folder`.
 ///
 /// # Errors
-/// Those of the files.
+/// Errors of the files.
 pub fn write_failure(folder: &Path, fuzz: &Fuzz, failure: &Failure) -> std::io::Result<Files> {
     std::fs::create_dir_all(folder)?;
     let files = Files::of(folder, failure.seed);
     let swarm = fuzz.swarm(failure.seed);
     let mut recorder = Recorder::new(&files)?;
-    // What panicked before does so again; what it did up to there is what is wanted.
+    // A run that panicked before does so again; its record up to there is wanted.
     let _ = catch_unwind(AssertUnwindSafe(|| run(&swarm, Some(&mut recorder))));
     recorder.finish()?;
     Ok(files)

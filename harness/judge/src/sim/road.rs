@@ -1,4 +1,4 @@
-//! What happens on the road: who guards it, what signs show, and how long that goes on after something failed.
+//! State of the road: who guards it, what signs show, and how long that goes on after something failed.
 //!
 //! ```text
 //!   sign of a leader ───┐
@@ -18,7 +18,7 @@ use super::times::{Longest, Measure, Worst};
 /// For how long a position counts.
 const FRESH: Millis = Millis(1_000);
 
-/// What is seen of a robot after something happened to it.
+/// Observation of a robot after something happened to it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sight {
     /// When its sign ends by itself, if it shows *go*.
@@ -31,7 +31,7 @@ pub(super) struct Sight {
     pub(super) is_awake: bool,
 }
 
-/// What a robot is to the road.
+/// Post of a robot at the road.
 #[derive(Clone, Debug)]
 pub(super) struct Post {
     /// The corner at which it leads.
@@ -112,7 +112,7 @@ struct Meeting {
     heard: [bool; 2],
 }
 
-/// What was wrong, and at which robot.
+/// The time that was too long, and its robot.
 pub(super) type Overdue = (Measure, usize);
 
 /// The road of a run.
@@ -287,7 +287,7 @@ impl Road {
         });
     }
 
-    /// Ends stop-watches. What took too long, if anything did.
+    /// Ends stop-watches. Fails with the time that was too long, if there is one.
     fn end(&mut self, at_us: u64, is_over: impl Fn(&Stopwatch) -> bool) -> Result<(), Overdue> {
         let mut late = Ok(());
         let worst = &mut self.worst;
@@ -420,9 +420,9 @@ impl Road {
         shows.map(|(place, _)| place).collect()
     }
 
-    /// Somebody steps on the road at the sign of a leader (W1): every required guard is in place, or it has not
-    /// been for less than the lease of the leader. So many of its followers are `liars`, which are nowhere. The session, how many guards it requires, and the places of
-    /// the guards that are gone.
+    /// A person steps on the road at the sign of a leader (W1). Every required guard is in place, or has been away for
+    /// less than the leader's lease. So many of its followers are `liars`, which are nowhere. Returns the session, how
+    /// many guards it requires, and the places of the guards that are gone.
     pub(super) fn step_on_road(
         &mut self,
         now_us: u64,
@@ -457,7 +457,7 @@ impl Road {
         Ok(Some((session, required, gone)))
     }
 
-    /// Somebody who waited since the network was healed is across, and the crossing is completed (W7).
+    /// A person who waited since the network was healed is across, and the crossing is completed (W7).
     pub(super) fn complete(&mut self, took_us: u64, bound_ms: u32) {
         let ms = u32::try_from(took_us.div_ceil(1_000)).unwrap_or(u32::MAX);
         let observed = Longest { ms, bound_ms };

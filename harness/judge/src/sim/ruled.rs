@@ -8,7 +8,7 @@ use crossguard_protocol::{Config, Input, Outputs, Robot, StateMachine};
 pub struct Ruled {
     /// The robot.
     pub robot: Robot,
-    /// What it does in place of a step of the protocol.
+    /// Rules in place of a step of the protocol.
     pub rules: &'static dyn Rules,
 }
 

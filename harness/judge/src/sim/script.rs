@@ -1,4 +1,4 @@
-//! What happens to robots in a run, and when.
+//! Events of robots in a run, and their times.
 
 use crossguard_protocol::Event;
 
@@ -13,7 +13,7 @@ pub struct Happening {
     pub deed: Deed,
 }
 
-/// What can happen to a robot.
+/// Event that can happen to a robot.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Deed {
     /// It detects a pedestrian.
@@ -28,7 +28,7 @@ pub enum Deed {
     Event(Event),
     /// It changes its pseudonym, if it may.
     ChangeIdentity,
-    /// Its process hangs for this many milliseconds. What arrives waits for it.
+    /// Its process hangs for this many milliseconds. Packets that arrive wait for it.
     Hang(u32),
     /// Its body is pushed so far to the east and to the north, in metres.
     Push([f64; 2]),

@@ -1,4 +1,4 @@
-//! What is drawn for each seed.
+//! Draws for each seed.
 //!
 //! Every seed has some of the faults and not others, each in a strength of its own: a run with few
 //! faults goes far into a session, one with many goes astray in every way. A run that has a little of
@@ -45,7 +45,7 @@ pub struct Swarm {
     pub robots: Vec<RobotDraw>,
     /// The faults of each way, `from * robots + to`.
     pub ways: Vec<Faults>,
-    /// What happens, in order of time.
+    /// Events, in order of time.
     pub script: Vec<Happening>,
     /// When the network is healed, in microseconds.
     pub heals_us: u64,
@@ -57,7 +57,7 @@ pub struct Swarm {
     pub replays: Vec<Replay>,
     /// Whether robots sign what they send, and take in nothing without a signature.
     pub is_secured: bool,
-    /// What robots sense by themselves; without it, they know everybody on the road.
+    /// Sensing by the robots themselves; without it, they know everybody on the road.
     pub sensing: Option<Sensing>,
     /// The streams of people and vehicles, if there are any.
     pub demand: Option<Demand>,
@@ -67,7 +67,7 @@ pub struct Swarm {
     pub waits_at: Option<usize>,
 }
 
-/// What is drawn for one robot.
+/// Draw for one robot.
 #[derive(Clone, Debug)]
 pub struct RobotDraw {
     /// Its name in logs.
@@ -78,7 +78,7 @@ pub struct RobotDraw {
     pub boot: u16,
     /// Its configuration.
     pub config: Config,
-    /// What it does when it leads.
+    /// Its plan for leading.
     pub plan: Plan,
     /// The corner at which it notices people, by number. The same crossing has the same number, whatever its
     /// reference says.
@@ -191,7 +191,7 @@ impl Swarm {
         corners.find(|corner| self.who_can_lead(*corner).len() >= enough)
     }
 
-    /// Draws apart from all others, in this share of the seeds. Those of a seed are the same for every share.
+    /// Draws apart from all others, in this share of the seeds. The draws of a seed are the same for every share.
     fn draws_of(&self, salt: u64, share: f64) -> Option<ChaCha8Rng> {
         let mut draws = ChaCha8Rng::seed_from_u64(self.seed ^ salt);
         // `random_bool` draws nothing for a share of 1.

@@ -8,7 +8,7 @@ use serde::Serialize;
 /// A table of measures: the property that bounds each, what is measured, and what must come to pass within the bound.
 macro_rules! measures {
     ($($measure:ident $property:literal $name:literal: $statement:literal;)*) => {
-        /// What is measured.
+        /// A time that is measured.
         #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
         #[serde(rename_all = "camelCase")]
         pub enum Measure {
@@ -25,13 +25,13 @@ macro_rules! measures {
                 [$($property),*][self as usize]
             }
 
-            /// What must come to pass within the bound.
+            /// Statement that the bound is kept.
             #[must_use]
             pub const fn statement(self) -> &'static str {
                 [$($statement),*][self as usize]
             }
 
-            /// What is measured, for a person.
+            /// Name of the time, for a person.
             #[must_use]
             pub const fn name(self) -> &'static str {
                 [$($name),*][self as usize]
@@ -75,7 +75,7 @@ measures! {
 pub struct Longest {
     /// In milliseconds.
     pub ms: u32,
-    /// What the timers allow in the run in which it was observed, as the timed model has it: see
+    /// The bound by the timers in the run in which it was observed, as the timed model has it: see
     /// [`Limits`]. It depends on the longest delay of the run's messages.
     pub bound_ms: u32,
 }
@@ -149,7 +149,7 @@ pub(super) struct Times {
     limits: Vec<Limits>,
     judged: Judged,
     worst: Worst,
-    /// Who hangs: nothing in time is asked of such a robot.
+    /// Robots that hang: nothing in time is asked of such a robot.
     hung: Vec<bool>,
     running: Vec<Stopwatch>,
 }
@@ -162,7 +162,7 @@ struct Stopwatch {
     since_us: u64,
 }
 
-/// What is open at a robot, and must not be for too long.
+/// Matter that is open at a robot, and must not be for too long.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Open {
     /// Its request has no roles.
@@ -283,7 +283,7 @@ impl Times {
         }
     }
 
-    /// Looks at a robot after a step. What took too long, if anything did.
+    /// Looks at a robot after a step. Returns the time that was too long, if there is one.
     pub(super) fn look(&mut self, now_us: u64, place: usize, node: &Node) -> Option<Measure> {
         let (limits, worst) = (&self.limits[place], &mut self.worst);
         let mut late = None;
@@ -313,7 +313,7 @@ impl Times {
     }
 }
 
-/// What a robot has opened itself: a request without roles, and commands that are not acknowledged.
+/// Matters that a robot has opened itself: a request without roles, and commands that are not acknowledged.
 fn opened_by(node: &Node) -> Vec<Open> {
     let Some(robot) = &node.robot else {
         return Vec::new();

@@ -64,13 +64,13 @@ const REST_US: u64 = 120_000_000;
 /// were still under way may set something off.
 const QUIET_US: u64 = 1_000_000;
 
-/// What a run has shown to be wrong.
+/// A fault that a run has shown.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Finding {
     /// Id of the property.
     pub property: String,
-    /// What it says.
+    /// Its statement.
     pub statement: String,
     /// When it was broken, in milliseconds since the run began.
     pub at_ms: u64,
@@ -86,10 +86,10 @@ impl fmt::Display for Finding {
     }
 }
 
-/// What came of a run.
+/// Outcome of a run.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Outcome {
-    /// What was wrong, if anything was. The run ended there.
+    /// The fault, if there was one. The run ended there.
     pub finding: Option<Finding>,
     /// How long the run was, in milliseconds of virtual time.
     pub virtual_ms: u64,
@@ -101,9 +101,9 @@ pub struct Outcome {
     pub packets: u64,
     /// The properties whose premise was met, or of which a time was measured.
     pub premises: BTreeSet<String>,
-    /// What made the run hard.
+    /// Hazards of the run.
     pub hazards: Vec<Hazard>,
-    /// What was not judged, because the run's own faults leave it open.
+    /// Properties that were not judged, because the run's own faults leave them open.
     pub left_out: Vec<&'static str>,
     /// The longest times.
     pub worst: Worst,
@@ -111,7 +111,7 @@ pub struct Outcome {
     pub waits: [Waits; 2],
 }
 
-/// Who sees what happens in a run.
+/// Observer of a run.
 pub trait Watch {
     /// A robot did something.
     fn record(&mut self, record: Record);
@@ -181,7 +181,7 @@ fn finish(world: &mut World<'_>) -> Outcome {
     }
 }
 
-/// What the faults of a run leave open, so that it is not judged.
+/// Properties that the faults of a run leave open, so that they are not judged.
 fn left_out(swarm: &Swarm) -> Vec<&'static str> {
     let mut left_out = Vec::new();
     if !swarm.is_in_time() {
@@ -199,7 +199,7 @@ fn left_out(swarm: &Swarm) -> Vec<&'static str> {
     left_out
 }
 
-/// What happens next somewhere.
+/// Next event somewhere.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum Next {
     /// Something of the script, by its place there.
@@ -210,7 +210,7 @@ enum Next {
     Arrives(Arrival),
     /// Recorded packets are sent once more, by the place in the swarm's list.
     Replays(usize),
-    /// Somebody who waits at a corner looks at the signs.
+    /// A person who waits at a corner looks at the signs.
     Looks(usize),
     /// Something happens to a robot whose team lets people cross.
     Strikes(usize),
@@ -242,7 +242,7 @@ struct Seat<'a> {
     /// Its newest boot counter: what its boot file holds.
     boot: u16,
     machine: Option<Machine<Ruled>>,
-    /// What people see of it; that of a robot that is down ends by itself.
+    /// The sign that people see; that of a robot that is down ends by itself.
     sign: Sign,
     /// Whether it has asked for the next boot counter.
     is_to_renew: bool,
@@ -252,7 +252,7 @@ struct Seat<'a> {
     wakes_us: Option<u64>,
     /// Until when it hangs.
     hangs_until_us: Option<u64>,
-    /// What has arrived meanwhile.
+    /// Arrivals while it hangs.
     inbox: Vec<Next>,
     /// The people in the newest frames of its sensors.
     newest: Newest,
@@ -291,7 +291,7 @@ struct World<'a> {
     times: Times,
     /// Whether the packet that arrived last was understood as a RAM.
     has_heard_ram: bool,
-    /// What was sent so far, with its sender, where it is to be sent once more.
+    /// Packets that were sent so far, with their senders, where they are to be sent once more.
     aired: Vec<(usize, Rc<[u8]>)>,
     is_healed: bool,
     insider: Option<Insider>,

@@ -18,7 +18,7 @@ use crossguard_robot::trace::{HELD_US, SAME_CLOCK_US};
 
 use super::fault::Fault;
 
-/// What a robot did.
+/// Entry of a robot, for the judge of its clock.
 pub(super) enum ClockEntry {
     Boot {
         robot: Box<Robot>,

@@ -8,7 +8,7 @@
 //! | P4 | An escort that moves is no further than [`AHEAD_M`] ahead of a person in its sight on the carriageway. | an escort sends a RAM while it sees somebody on the carriageway |
 //! | P9 | No robot steps on the road while a vehicle has been in its sight for a while that could no longer stop. | RAM of a robot that has vehicles in sight are beside the road first, and then on it, and nobody has been on it for a minute |
 //!
-//! What people do is worked out of their [places](super::ground) alone, never of what a robot made of them. Guards are
+//! Acts of people are worked out of their [places](super::ground) alone, never of what a robot made of them. Guards are
 //! judged by what bodies are told (start, stop, fall back), positions by the robots' own RAM, to which the error that
 //! they state is added. Clocks of several machines are taken as they are.
 //!
@@ -242,7 +242,7 @@ impl Crossing {
         })
     }
 
-    /// What a step means for the sign.
+    /// Follows the sign through a step.
     fn show(&mut self, robot: &str, at_us: u64, outputs: &Outputs, state: &Robot, config: &Config) {
         for output in outputs.iter() {
             if let (Some(time_us), Some(session)) = (go_for(output), state.session()) {
@@ -263,7 +263,7 @@ impl Crossing {
         }
     }
 
-    /// What a step means for a body that guards, or begins to (P1).
+    /// Follows a body that guards, or begins to, through a step (P1).
     fn guard(
         &mut self,
         robot: &str,
@@ -336,7 +336,7 @@ impl Crossing {
         Ok(())
     }
 
-    /// Somebody is seen on the road who saw go, and whose guards have left since (P1).
+    /// Fails where a person on the road saw go, and the guards have left since (P1).
     fn freed_too_early(&self, at_us: u64) -> Result<(), Fault> {
         let Some((left, until_us)) = &self.freed else {
             return Ok(());
@@ -440,7 +440,7 @@ impl Crossing {
         })
     }
 
-    /// What was judged, and what was not.
+    /// Judged and unjudged properties, a sentence for each.
     pub(super) fn verdict(&self) -> Vec<String> {
         let people = match (self.ground.has_sights(), self.ground.has_road()) {
             (false, _) => Some("no sight in the log"),

@@ -1,4 +1,4 @@
-//! What may be wrong with a record.
+//! Faults of a record.
 
 use crossguard_endpoint::counters::CauseName;
 use crossguard_model_check::properties::PropertyId;
@@ -9,7 +9,7 @@ use crossguard_robot::trace::Unreadable;
 
 use super::traffic::Coming;
 
-/// What does not fit in a record. Each reads on after the robot's name.
+/// Fault of a record. Each reads on after the robot's name.
 #[derive(Debug, thiserror::Error)]
 pub enum Fault {
     /// The log cannot be read on.
@@ -27,17 +27,17 @@ pub enum Fault {
     /// The robot's clock went back.
     #[error("has a clock that went back from {before_us} µs to {at_us} µs")]
     ClockWentBack {
-        /// What it showed before.
+        /// Its time before, in µs.
         before_us: u64,
-        /// What it shows.
+        /// Its time, in µs.
         at_us: u64,
     },
     /// The robot was told of more time than has passed.
     #[error("was told that {told_ms} ms passed since it was started, and it was {passed_ms} ms")]
     TimeFromNowhere {
-        /// What it was told.
+        /// Time that it was told, in ms since its start.
         told_ms: u64,
-        /// What has passed.
+        /// Time that has passed, in ms.
         passed_ms: u64,
     },
     /// The robot was told of less time than had passed when its record before was written.
@@ -45,9 +45,9 @@ pub enum Fault {
         "was told that {told_ms} ms passed since it was started, and it had been {passed_ms} ms at its record before"
     )]
     TimeLost {
-        /// What it was told.
+        /// Time that it was told, in ms since its start.
         told_ms: u64,
-        /// What had passed.
+        /// Time that had passed, in ms.
         passed_ms: u64,
     },
     /// The robot took in a message without having been told of the time before it.
@@ -81,17 +81,17 @@ pub enum Fault {
     /// A step puts out something else.
     #[error("on '{input}' put out [{found}]; the protocol puts out [{expected}]")]
     Outputs {
-        /// What it took in.
+        /// Input of the step.
         input: String,
-        /// What the log says that it put out.
+        /// Outputs in the log.
         found: String,
-        /// What the transition function puts out.
+        /// Outputs of the transition function.
         expected: String,
     },
     /// A step leads into another state.
     #[error("on '{input}' went into a state that the protocol does not lead to")]
     State {
-        /// What it took in.
+        /// Input of the step.
         input: String,
     },
     /// A message was put out and not sent.
@@ -100,9 +100,9 @@ pub enum Fault {
     /// A message was sent that the state does not say.
     #[error("sent {found}, where its state says {expected}")]
     SentOther {
-        /// What was sent.
+        /// The message that was sent.
         found: String,
-        /// What is to be sent.
+        /// The message that is to be sent.
         expected: String,
     },
     /// A message was heard and not taken in.
@@ -111,9 +111,9 @@ pub enum Fault {
     /// A message was taken in that was not heard.
     #[error("took in '{found}', which is not what it heard ({heard})")]
     NotHeard {
-        /// What was taken in.
+        /// The message that was taken in.
         found: String,
-        /// What was heard.
+        /// The message that was heard.
         heard: String,
     },
     /// The octets of a message are not what the record says of them.
@@ -137,7 +137,7 @@ pub enum Fault {
         /// How far apart the places are.
         metres: f64,
     },
-    /// What was counted is not what happened.
+    /// A counter differs from the log.
     #[error("counted '{cause}' {counted} times, and its log has it {logged} times")]
     Counter {
         /// The cause.
@@ -155,7 +155,7 @@ pub enum Fault {
     GuardLeft {
         /// The guard.
         robot: String,
-        /// What an application said.
+        /// The word of an application.
         word: String,
         /// The robot that saw the person.
         by: String,

@@ -5,7 +5,7 @@
 //!   outlines ──► carriageway: the road, and beside it between its kerbs ─┴─► who is on it
 //! ```
 //!
-//! Somebody is on the carriageway who is inside the outline of a road of any robot. A person who leaves it sideways,
+//! A person inside the outline of a road of any robot is on the carriageway. A person who leaves it sideways,
 //! between the lines of its kerbs, is still on it. Kerbs are the edges of the road at which people wait. A robot
 //! may lose a person from sight: that person stays in the last place for [`STAYS_US`].
 
@@ -43,7 +43,7 @@ pub(super) struct Ground {
     speed: f64,
 }
 
-/// What a robot sees.
+/// A robot, and the people that it sees.
 #[derive(Debug, Default)]
 struct Watcher {
     /// When it did something last.
@@ -61,7 +61,7 @@ struct Person {
     sighted_us: u64,
 }
 
-/// Somebody on the carriageway.
+/// A person on the carriageway.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OnRoad<'a> {
     pub(super) at: Metres,
@@ -210,7 +210,7 @@ impl Ground {
         person.sighted_us.saturating_sub(way_us as u64)
     }
 
-    /// Who is on the carriageway.
+    /// People on the carriageway.
     pub(super) fn on_road(&self, at_us: u64) -> impl Iterator<Item = OnRoad<'_>> {
         self.watchers.iter().flat_map(move |(by, watcher)| {
             let is_there = move |person: &&Person| {

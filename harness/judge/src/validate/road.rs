@@ -34,7 +34,7 @@ impl Crossings {
         }
     }
 
-    /// A robot has put this out, and is in the state `after`. What is broken by stepping on the road now.
+    /// Takes in outputs that lead to the state `after`. Returns the property that a step on the road breaks now.
     pub(super) fn shown(
         &mut self,
         outputs: &Outputs,
@@ -62,7 +62,7 @@ mod tests {
     use super::super::tests::{records, text};
     use super::*;
 
-    /// What the first leader to show go puts out then, and its state.
+    /// Outputs of the first leader to show go, and its state then.
     fn first_go() -> (Outputs, Robot) {
         let gos = (1..100)
             .flat_map(records)

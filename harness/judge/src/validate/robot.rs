@@ -27,7 +27,7 @@ enum Owed {
     Rmcm(Rmcm),
 }
 
-/// What is known of a robot up to a record.
+/// State of a robot up to a record.
 #[derive(Debug)]
 pub(super) struct Follow {
     pub(super) place: usize,
@@ -43,7 +43,7 @@ pub(super) struct Follow {
     heard: VecDeque<Input>,
     counted: Counts,
     targets: Targets,
-    /// What the robot asked a vehicle last.
+    /// Last question of the robot to a vehicle.
     asked: Option<Command>,
 }
 
@@ -134,7 +134,7 @@ impl Follow {
         Ok(late)
     }
 
-    /// What was heard is taken in at once.
+    /// Takes in the next message that was heard, which has to be this input.
     fn take_in(&mut self, input: Input) -> Result<(), Fault> {
         let heard = self.heard.pop_front();
         if heard.map(without_distance) == Some(without_distance(input)) {
@@ -292,7 +292,7 @@ impl Follow {
         self.settle_hearing()?;
         self.settle_sending()?;
         let missing = counters.of(&Cause::LogFull.into());
-        // What these count has no record of its own.
+        // Drops of these causes have no records of their own.
         let silent = [
             Cause::LogFull,
             Cause::OutputFull,

@@ -83,7 +83,7 @@ fn a_sign_that_goes_on_after_its_guard_has_failed_is_found() {
     for failure in [GONE, HUNG] {
         let mut road = open(60_000);
         road.see(2_000 * MS, 2, failure).unwrap();
-        // What the leader's application has to know is another matter.
+        // The knowledge of the leader's application is another matter.
         road.tell_gone(2_000 * MS, 0, Some(2)).unwrap();
         road.pass((2_000 + LEASE_MS) * MS).unwrap();
         let late = road.pass((2_000 + LEASE_MS) * MS + 1);

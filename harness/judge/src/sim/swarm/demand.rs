@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::{Ids, RobotDraw, SECOND_US, Sensing, SourceDraw, Swarm};
 use crate::sim::script::{Deed, Happening};
 
-/// Somebody who comes: a person on foot, or a vehicle.
+/// A road user who comes: a person on foot, or a vehicle.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Arrival {
     /// When, in microseconds.
@@ -30,7 +30,7 @@ pub struct Arrival {
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Habits {
-    /// What drivers want to drive, on average, in m/s.
+    /// Mean of the speeds that drivers want, in m/s.
     pub speed_limit_mps: f64,
     /// The share of vehicles that hear RAM and VAM, and send CAM.
     pub connected_share: f64,
@@ -56,7 +56,7 @@ pub struct Habits {
     pub hope_s: f64,
     /// After which time people give up: shortest and longest, in seconds.
     pub patience_s: [f64; 2],
-    /// What people add to their time across for a gap that is long enough, in seconds.
+    /// Time that people add to their time across for a gap that is long enough, in seconds.
     pub start_up_s: f64,
     /// The deviation of people's critical gaps, as a share of the mean.
     pub gap_spread: f64,
@@ -136,7 +136,7 @@ impl Default for Habits {
     }
 }
 
-/// Somebody on foot.
+/// A person on foot.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(in crate::sim) struct PersonDraw {
     pub(in crate::sim) arrival: Arrival,
@@ -153,7 +153,7 @@ pub(in crate::sim) struct PersonDraw {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(in crate::sim) struct DriverDraw {
     pub(in crate::sim) arrival: Arrival,
-    /// What he or she wants to drive.
+    /// Wanted speed.
     pub(in crate::sim) speed_mps: f64,
     pub(in crate::sim) is_connected: bool,
     pub(in crate::sim) yields: bool,

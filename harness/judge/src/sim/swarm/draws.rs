@@ -28,7 +28,7 @@ pub(super) const PATIENCE_MS: u32 = 40_000;
 /// The references of two crossings, by their corners.
 pub(super) const CROSSINGS: [protocol::Place; 2] = [protocol::Place(7), protocol::Place(8)];
 
-/// What all robots of a run have in common.
+/// Draws that all robots of a run have in common.
 struct CommonDraw {
     settings: Settings,
     /// Whether each robot has timers of its own.
@@ -269,7 +269,7 @@ impl Draws {
             let task = *tasks.choose(&mut self.0).expect("there are tasks");
             stages.push(Stage::everybody(Leg::new(task, self.place())));
         }
-        // Who escorts for the second time has to come back first.
+        // A robot that escorts for the second time has to come back first.
         if let [stage] = &stages[..]
             && stage
                 .parts
@@ -393,7 +393,7 @@ impl Draws {
             add(self.time(heals_us), any(self), deed);
         }
         for place in 0..robots.len() {
-            // What was broken is repaired in the end.
+            // All that was broken is repaired in the end.
             add(heals_us, place, available(Availability::Available));
         }
         script

@@ -1,4 +1,4 @@
-//! What was drawn for a run, by name: so that totals say how often each was tried.
+//! Hazards that were drawn for a run, by name: so that totals say how often each was tried.
 
 use std::fmt;
 
@@ -135,7 +135,7 @@ impl fmt::Display for Hazard {
 }
 
 impl Swarm {
-    /// What makes this run hard.
+    /// Hazards of this run.
     pub fn hazards(&self) -> impl Iterator<Item = Hazard> + '_ {
         let all = Hazard::ALL.into_iter();
         all.filter(|hazard| hazard.is_in(self))

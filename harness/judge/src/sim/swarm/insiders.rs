@@ -1,4 +1,4 @@
-//! What is drawn for a station that lies.
+//! Draws for a station that lies.
 
 use crossguard_model_check::scenario::LyingPart;
 use crossguard_protocol::StationId;
@@ -8,12 +8,12 @@ use rand::seq::IndexedRandom;
 
 use super::Swarm;
 
-/// What is drawn for the insider of a run.
+/// Draw for the insider of a run.
 #[derive(Clone, Debug)]
 pub struct InsiderDraw {
     /// Its station id.
     pub station: StationId,
-    /// What it mostly lies as.
+    /// The part in which it mostly lies.
     pub part: LyingPart,
     /// How long it is silent at most after it has said something, in milliseconds.
     pub pause_ms: u32,

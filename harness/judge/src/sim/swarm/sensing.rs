@@ -1,4 +1,4 @@
-//! What is drawn of people, of the sensors that see them, of bodies that are pushed away, and of vehicles.
+//! Draws of people, of the sensors that see them, of bodies that are pushed away, and of vehicles.
 
 use crossguard_protocol::{self as protocol, Config, Event, Millis, Settings, TaskSet, TaskType};
 use crossguard_robot::plan::{Leg, Plan, Stage, Who};
@@ -12,7 +12,7 @@ use super::draws::{CROSSINGS, PATIENCE_MS};
 use super::{SECOND_US, Swarm};
 use crate::sim::script::{Deed, Happening};
 
-/// What robots sense by themselves, and what else moves on the street.
+/// Sensors of the robots, and vehicles on the street.
 #[derive(Clone, Debug)]
 pub struct Sensing {
     /// The assumption of the robots: somebody is in at least one of any so many consecutive frames.
@@ -21,11 +21,11 @@ pub struct Sensing {
     pub sources: Vec<Vec<SourceDraw>>,
     /// The vehicles.
     pub cars: Vec<CarDraw>,
-    /// What robots assume amiss, in a test of the judges.
+    /// Wrong assumption of the robots, in a test of the judges.
     pub weakening: fn(&mut Zone),
 }
 
-/// What is drawn for one sensor.
+/// Draw for one sensor.
 #[derive(Clone, Debug)]
 pub struct SourceDraw {
     /// Time from a frame to the next, in milliseconds.
@@ -36,9 +36,9 @@ pub struct SourceDraw {
     pub misses: f64,
     /// Largest error of a place on each axis, in metres.
     pub error_m: f64,
-    /// What ids are worth.
+    /// Reliability of its ids.
     pub ids: Ids,
-    /// What it covers: from where to where along the road, in metres to the east; `None` for everything.
+    /// The stretch that it covers: from where to where along the road, in metres to the east; `None` for everything.
     pub covers: Option<[f64; 2]>,
     /// How probable it is that a frame arrives as something that is none.
     pub garbled: f64,
@@ -59,7 +59,7 @@ pub enum Ids {
     Shuffled,
 }
 
-/// What is drawn for a vehicle.
+/// Draw for a vehicle.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct CarDraw {
     /// When it comes.

@@ -35,7 +35,7 @@ pub(super) struct Promise {
     pub(super) line_m: f64,
 }
 
-/// What a vehicle hears and says.
+/// The station of a vehicle, and the state of its messages.
 #[derive(Debug)]
 pub(super) struct Connection {
     stack: Stack,

@@ -1,4 +1,4 @@
-//! What happens to robots: they notice people, fail, hang, lose power and boot again.
+//! Events of robots: they notice people, fail, hang, lose power and boot again.
 
 use crossguard_codec::{Identifiers, SignalMeans, TaskParameters};
 use crossguard_protocol::{Availability, Event, Robot, StationId};
@@ -67,14 +67,14 @@ impl World<'_> {
         }
     }
 
-    /// What a robot that is up is told.
+    /// Event for a robot that is up.
     fn event(&mut self, place: usize, deed: Deed) -> Option<Event> {
         let corner = self.seats[place].corner;
         let is_clear = self.corners[corner].street.is_clear()
             && self.nobody_walks_on_road()
             && !self.shows_go(place);
         if deed == Deed::Detect && self.swarm.sensing.is_some() {
-            // Who sees them calls.
+            // The robots that see them call.
             self.walkers_come();
             return None;
         }

@@ -68,7 +68,6 @@ impl Sent {
     }
 }
 
-/// Somebody who drives.
 #[derive(Debug)]
 pub(super) struct Driver {
     pub(super) number: usize,
@@ -112,7 +111,7 @@ impl Driver {
     }
 }
 
-/// What drivers look out for.
+/// People, robots and signs that drivers look out for.
 struct Ahead {
     /// Places of people on the road, the side that they go to, and whether stations tell of them.
     on_road: Vec<(Place, bool, bool)>,
@@ -313,7 +312,7 @@ impl World<'_> {
         }
     }
 
-    /// What drivers look out for now.
+    /// People, robots and signs that drivers look out for now.
     fn ahead(&self, demand: &Demand) -> Ahead {
         let is_told = self.is_fresh(self.flow.told_us);
         let is_known = |it: &Walker| is_told || demand.people[it.id as usize].has_phone;

@@ -21,13 +21,13 @@ const LOOKS_EVERY_HEALED_US: u64 = 100_000;
 /// A crossing.
 #[derive(Debug, Default)]
 pub(super) struct Corner {
-    /// What the robots there know.
+    /// The street, as the robots there know it.
     pub(super) street: Street,
     /// How long the one who waits takes to cross, in microseconds.
     waiting_us: Option<u64>,
 }
 
-/// Somebody on the road.
+/// A person on the road.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OnRoad {
     /// At whose sign.
@@ -42,7 +42,7 @@ pub(super) struct OnRoad {
 #[derive(Debug)]
 pub(super) struct Progress {
     corner: usize,
-    /// Who may notice that somebody waits.
+    /// Robots that may notice that somebody waits.
     leaders: Vec<usize>,
     is_across: bool,
     pub(super) is_done: bool,
@@ -55,7 +55,7 @@ pub(super) fn corners(swarm: &Swarm) -> Vec<Corner> {
 }
 
 impl World<'_> {
-    /// Somebody comes to a corner, unless somebody waits there.
+    /// A person comes to a corner, unless somebody waits there.
     pub(super) fn come_to_cross(&mut self, corner: usize, crossing_us: u64) {
         let Corner { street, waiting_us } = &mut self.corners[corner];
         if waiting_us.is_none() {
@@ -75,7 +75,7 @@ impl World<'_> {
         self.at(at_us, Next::Looks(corner));
     }
 
-    /// Who waits at a corner steps on the road if a sign there shows go.
+    /// A person who waits at a corner steps on the road if a sign there shows go.
     pub(super) fn look(&mut self, corner: usize) -> Result<(), Finding> {
         let Some(crossing_us) = self.corners[corner].waiting_us else {
             return Ok(());
@@ -100,7 +100,7 @@ impl World<'_> {
         Ok(())
     }
 
-    /// Somebody steps on the road at the sign of a leader: in which session, if it shows go.
+    /// A person steps on the road at the sign of a leader. Returns the session, if the sign shows go.
     pub(super) fn step_on(&mut self, leader: usize) -> Result<Option<SessionId>, Finding> {
         let stepped = self
             .road
@@ -121,7 +121,7 @@ impl World<'_> {
         Ok(Some(session))
     }
 
-    /// Who has had the time is across.
+    /// People who have had the time are across.
     pub(super) fn get_across(&mut self) {
         let now_us = self.now_us;
         for corner in &self.corners {
@@ -217,7 +217,7 @@ impl World<'_> {
         }
     }
 
-    /// What a step of a robot means to the road.
+    /// Tells the road of a step of a robot.
     pub(super) fn tell_road(
         &mut self,
         place: usize,

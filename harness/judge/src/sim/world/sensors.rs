@@ -1,4 +1,4 @@
-//! What robots see and hear of people and vehicles: frames of sensors, and CAM.
+//! Perception of people and vehicles by robots: frames of sensors, and CAM.
 
 use std::collections::BTreeMap;
 
@@ -103,7 +103,7 @@ impl World<'_> {
         self.at(now_us + latency_us, Next::Sees(robot, frame));
     }
 
-    /// What a sensor makes of the people now.
+    /// Frame of a sensor, of the people now.
     fn frame(&mut self, sensor: usize, draw: &SourceDraw) -> SensorFrame {
         let now_us = self.now_us;
         let miss_max = self.swarm.sensing.as_ref().map_or(0, |it| it.miss_max);

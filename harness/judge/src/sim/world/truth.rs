@@ -32,7 +32,7 @@ const STOPS_M: f64 = 1.0;
 /// For how long after somebody was on the road robots may have them there, as with sensors that fail.
 const LINGERS_US: u64 = 60_000_000;
 
-/// What a driver needs to stop: time of reaction in s, and deceleration in m/s²; comfortably, and by hard braking.
+/// Needs of a driver to stop: time of reaction in s, and deceleration in m/s²; comfortably, and by hard braking.
 const COMFORT: [f64; 2] = [2.0, 3.0];
 const HARD: [f64; 2] = [1.0, 6.0];
 
@@ -66,7 +66,7 @@ const P10: Judged = (
     "where vehicles are asked, go does not begin while one that is heard and soon there has not said that it will stop",
 );
 
-/// What is seen of a body from one moment to the next.
+/// Observation of a body from one moment to the next.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ObservedBody {
     /// Where its maneuver leads.

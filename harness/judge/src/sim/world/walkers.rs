@@ -24,10 +24,10 @@ pub(super) const GOES_TO: f64 = 12.0;
 /// Most people who wait.
 const WAITING_MAX: usize = 4;
 
-/// Somebody on the street.
+/// A person on the street.
 #[derive(Clone, Debug)]
 pub(super) struct Walker {
-    /// Who.
+    /// Their number.
     pub(super) id: u32,
     /// Since when they wait.
     pub(super) since_us: u64,
@@ -43,7 +43,7 @@ pub(super) struct Walker {
 }
 
 impl Walker {
-    /// Somebody who comes from a place to the kerb, at a speed in m/s, and waits there for as long as it takes.
+    /// A person who comes from a place to the kerb, at a speed in m/s, and waits there for as long as it takes.
     pub(super) fn comes(id: u32, now_us: u64, [from, to]: [Place; 2], speed_mps: f64) -> Self {
         let mut way = vec![(now_us, from)];
         walk(&mut way, to, speed_mps);
@@ -233,7 +233,7 @@ impl World<'_> {
         Ok(())
     }
 
-    /// Somebody steps on the road.
+    /// A person steps on the road.
     fn sets_out(&mut self, number: usize, session: SessionId) {
         let (now_us, draw) = (self.now_us, self.seats[0].draw);
         let most_us = longest_us(draw.config.settings());
@@ -247,7 +247,7 @@ impl World<'_> {
         self.is_on_road(number, session);
     }
 
-    /// Somebody is on the road, at the sign of a session, until the last leg of their way, which leads from a kerb on.
+    /// A person is on the road, at the sign of a session, until the last leg of their way, which leads from a kerb on.
     pub(super) fn is_on_road(&mut self, number: usize, session: SessionId) {
         let way = &self.walkers[number].way;
         self.people.push(OnRoad {
