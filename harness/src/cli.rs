@@ -138,7 +138,7 @@ enum Failure {
     Input(String),
     /// It was cut off before it could tell; what is known has been printed.
     Incomplete,
-    /// Nobody reads the output any more.
+    /// The reader of the output is gone.
     NobodyReads,
 }
 
@@ -148,7 +148,7 @@ impl Failure {
         Self::Input(error.to_string())
     }
 
-    /// What is wrong with this file or folder.
+    /// Makes an error the fault of this file or folder.
     fn at<E: std::fmt::Display>(path: &Path) -> impl Fn(E) -> Self {
         move |error| Self::Input(format!("{}: {error}", path.display()))
     }
@@ -225,7 +225,7 @@ fn create_capture(path: Option<&Path>) -> Result<Option<Capture>, Failure> {
     created.map(Some).map_err(Failure::at(path))
 }
 
-/// What the operating system says, where an error has that as its source, and does not say it itself.
+/// Text of the operating system, where an error has that as its source, and does not say it itself.
 fn cause(error: &dyn std::error::Error) -> String {
     let source = error.source().map(ToString::to_string);
     source.unwrap_or_else(|| error.to_string())

@@ -50,10 +50,10 @@ const LOG: usize = 65_536;
 /// How often a crossing that did not succeed is begun again within one trial.
 const ATTEMPTS: usize = 5;
 
-/// What a demonstration is like.
+/// Options of a demonstration.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// What happens.
+    /// The scenario.
     pub scenario: Scenario,
     /// How many followers a team has.
     pub followers: u8,
@@ -61,7 +61,7 @@ pub struct Options {
     pub trials: usize,
     /// How many times as fast as real the robots move.
     pub time_scale: f64,
-    /// What happens to datagrams on the way to each robot.
+    /// Faults of datagrams on the way to each robot.
     pub faults: Faults,
     /// Seed of faults and gait.
     pub seed: u64,
@@ -82,11 +82,11 @@ pub struct Options {
     pub stop: Arc<AtomicBool>,
 }
 
-/// What came of a demonstration.
+/// Outcome of a demonstration.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Outcome {
-    /// What happened.
+    /// The scenario.
     pub scenario: Scenario,
     /// Times by kind of maneuver.
     pub maneuvers: Vec<Summary>,
@@ -94,7 +94,7 @@ pub struct Outcome {
     pub teams: Vec<TeamSummary>,
     /// Whether the log, replayed through the transition function, is what the robots did.
     pub trace_valid: bool,
-    /// What the log holds.
+    /// Content of the log.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trace: Option<Validated>,
     /// Why the log is not valid, where it is not.
@@ -110,7 +110,7 @@ pub struct Outcome {
     pub retries: usize,
     /// How many times as fast as real the robots moved.
     pub speed: f64,
-    /// What happened to datagrams on the way to each robot.
+    /// Faults of datagrams on the way to each robot.
     pub faults: String,
     /// Seed of faults and gait.
     pub seed: u64,
@@ -118,7 +118,7 @@ pub struct Outcome {
     pub security: Mode,
     /// The state of each robot in the end.
     pub final_states: BTreeMap<String, String>,
-    /// What was dropped or ignored, by robot and cause.
+    /// Dropped and ignored inputs, by robot and cause.
     pub counters: BTreeMap<String, Counts>,
 }
 
@@ -161,7 +161,7 @@ struct Demo<'a> {
     watch: &'a mut dyn FnMut(Seen<'_>),
 }
 
-/// What can be watched of a demonstration.
+/// Event of a demonstration that can be watched.
 #[derive(Clone, Copy, Debug)]
 pub enum Seen<'a> {
     /// A robot has made a record.
@@ -396,7 +396,7 @@ impl Demo<'_> {
         (self.watch)(Seen::Record(record));
     }
 
-    /// What a robot logged before it lost power may be read after.
+    /// Whether the robot has lost power. Its records from before may be read after that.
     fn is_dead(&self, robot: &str) -> bool {
         self.has_struck && self.scenario.victim() == Some(robot)
     }

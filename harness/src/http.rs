@@ -26,13 +26,13 @@ const REQUEST_MAX: usize = 8_192;
 /// How many clients are served at once; the next one is turned away.
 pub(crate) const CLIENTS_MAX: usize = 32;
 
-/// What a client asks for.
+/// Request of a client.
 pub(crate) struct Request<'a> {
     /// The path, as it was sent.
     pub(crate) path: &'a str,
-    /// What stands after the question mark.
+    /// The text after the question mark.
     pub(crate) query: &'a str,
-    /// What is sent along with POST; nothing with GET.
+    /// The body of a POST; empty with GET.
     pub(crate) body: &'a [u8],
     content_type: Option<&'a str>,
     client: &'a TcpStream,
@@ -50,7 +50,7 @@ impl Request<'_> {
     }
 }
 
-/// What it gets.
+/// Answer to a client.
 pub(crate) struct Answer {
     /// Code and words.
     pub(crate) status: &'static str,

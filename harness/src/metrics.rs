@@ -1,4 +1,4 @@
-//! What Prometheus wants to know of a running robot: text over HTTP, at an address that nobody but this
+//! Metrics of a running robot for Prometheus: text over HTTP, at an address that nobody but this
 //! machine reaches unless another one is given.
 
 use std::fmt::{Display, Write as _};
@@ -115,7 +115,7 @@ pub fn text(tally: &Tally) -> String {
     page.text
 }
 
-/// Who was heard, and who is on the map.
+/// Stations that were heard, and road users on the map.
 fn around(page: &mut Page, tally: &Tally) {
     let help = "How many stations were heard since it booted.";
     let mut heard = page.gauge("stations_heard", help);

@@ -17,12 +17,12 @@ pub use site::Edited;
 
 use shell::View;
 
-/// What a studio shows.
+/// Content of a studio.
 #[derive(Default)]
 pub struct Studio {
     /// A run after it happened.
     pub run: Option<Studied>,
-    /// What reads logs that somebody opens on the page; without it none are taken.
+    /// Reader of logs that somebody opens on the page; without it none are taken.
     pub study: Option<Box<Study>>,
     /// Logs of robots that run.
     pub live: Option<Followed>,

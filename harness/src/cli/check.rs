@@ -242,7 +242,7 @@ fn write_charts(report: &ScenarioReport, folder: &Path) -> Result<(), Failure> {
         };
         let name = format!("{}-{}", report.name, property.id);
         let mut forms = vec![("txt", chart.text()), ("mmd", chart.mermaid())];
-        // What is no run of the protocol cannot be followed.
+        // A run that is none of the protocol cannot be followed.
         if !paper::made(report)
             && let Some(replay) = Replay::of(report, property)
         {
@@ -344,7 +344,7 @@ fn print_report(report: &ScenarioReport, verbose: bool) -> Result<(), Failure> {
     print("")
 }
 
-/// What the properties assume of senders: properties that assume the same in one line.
+/// Prints the properties' assumptions on senders: properties that assume the same in one line.
 fn print_authentication(report: &ScenarioReport) -> Result<(), Failure> {
     let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
     for property in &report.properties {

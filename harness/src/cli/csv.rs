@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::Failure;
 
-/// Writes rows to the file that was asked for, if one was. What is in a field of a field has both names for its column.
+/// Writes rows to the file that was asked for, if one was. A nested field has both names for its column.
 pub(super) fn write<R: Serialize>(path: Option<&Path>, rows: &[R]) -> Result<(), Failure> {
     let Some(path) = path else { return Ok(()) };
     let failed = |error: csv::Error| Failure::Input(format!("{}: {error}", path.display()));

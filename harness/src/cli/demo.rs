@@ -97,7 +97,7 @@ fn names() -> PossibleValuesParser {
     PossibleValuesParser::new(values)
 }
 
-/// What happens.
+/// Scenario that the arguments name.
 fn scenario(arguments: &Arguments) -> Result<Scenario, Failure> {
     let site = super::site::or_street(arguments.site.as_deref())?;
     let shipped = Path::new(&arguments.scenario);
@@ -412,12 +412,12 @@ fn report(outcome: &Outcome) -> Result<(), Failure> {
     }
 }
 
-/// What else can be looked at.
+/// Commands for a further look.
 const NEXT: &str = "
 Next: --report crossing.html makes a page of a run; --log crossing.jsonl keeps it, and
 `crossguard studio crossing.jsonl` shows it step by step. --scenario has others: --help.";
 
-/// What the columns of [`times`] mean.
+/// Meaning of the columns of [`times`].
 const LEGEND: &str = "\
 T_neg: from the leader's first transmission of the command to its reception at the follower, one way; the paper's \
 went\nover IEEE 802.11p. Round trip: from that transmission to the acknowledgement at the leader. T_exec: the motion, \

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use super::Failure;
 
-/// Whether these files can be written. What is in them stays.
+/// Whether these files can be written. Their content stays.
 pub(super) fn files<'a>(
     paths: impl IntoIterator<Item = &'a Option<PathBuf>>,
 ) -> Result<(), Failure> {
@@ -48,7 +48,7 @@ pub(super) fn folders<'a>(
         .try_for_each(|path| folder(path))
 }
 
-/// Whether a file can be written. What is in it stays.
+/// Whether a file can be written. Its content stays.
 pub(super) fn file(path: &Path) -> Result<(), Failure> {
     if path.as_os_str().is_empty() {
         return Err(Failure::input("'' is no name of a file to write"));

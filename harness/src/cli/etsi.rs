@@ -19,7 +19,7 @@ impl EtsiArguments {
         self.cluster_vam || self.cam
     }
 
-    /// What is wanted besides what is configured.
+    /// Adds these options to the configured ones.
     pub(super) fn add_to(&self, configured: Awareness) -> Awareness {
         let interval_ms = self.cluster_vam.then_some(CLUSTER_INTERVAL_MS);
         Awareness {

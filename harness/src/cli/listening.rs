@@ -1,4 +1,4 @@
-//! What commands that read packets and messages of others have to be told.
+//! Arguments of commands that read packets and messages of others.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use super::Failure;
 
-/// What no header tells, and who is trusted.
+/// Facts that no header tells, and certificates to trust.
 #[derive(clap::Args)]
 pub(super) struct ListeningArguments {
     /// The common data dictionary that VAM and CPM are built on; no header tells. [default: 2.4.1, or that of
@@ -57,7 +57,7 @@ pub(super) fn identifiers_of(file: Option<&Path>) -> Result<Identifiers, Failure
 }
 
 impl ListeningArguments {
-    /// What no standard has assigned, as the channel has it.
+    /// Identifiers that no standard has assigned, as the channel has them.
     pub(super) fn identifiers(&self) -> Result<Identifiers, Failure> {
         let mut identifiers = identifiers_of(self.config.as_deref())?;
         if let Some(version) = self.dictionary {
@@ -69,7 +69,7 @@ impl ListeningArguments {
         Ok(identifiers)
     }
 
-    /// What looks at signatures.
+    /// Checker of signatures.
     pub(super) fn signatures(&self) -> Result<Signatures, Failure> {
         let Some(folder) = &self.trust else {
             return Ok(Signatures::default());

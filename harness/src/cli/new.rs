@@ -49,7 +49,7 @@ const FILES: [(&str, &str, &str); 5] = [
     ),
 ];
 
-/// What is otherwise than in the examples.
+/// Texts of the examples, and their replacements.
 const CHANGES: [(&str, &str); 4] = [
     (
         "[link]\n",

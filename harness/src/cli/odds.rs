@@ -62,7 +62,7 @@ command at every follower, its acknowledgement, the open corridor; that the corr
 before the maneuver is over. Numbers are solved from the transition function that robots run, on a grid of time, not \
 sampled. Nobody crashes in it, clocks do not drift, and every message takes the same time.";
 
-/// What is worked out, and what came of it.
+/// Setup of the calculation, and its results.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct OddsReport {
@@ -116,7 +116,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 impl Arguments {
-    /// What is asked about with these settings.
+    /// Setup of the calculation with these settings.
     fn setup(&self, config: &Config) -> Result<OddsSetup, Failure> {
         let mut grid = TimeGrid::coarsest(config, Millis(self.delay));
         if let Some(tick) = self.tick {

@@ -82,7 +82,7 @@ pub(super) struct Form {
     json: bool,
 }
 
-/// What pseudonyms are for.
+/// Number, validity and parts of pseudonyms.
 #[derive(clap::Args)]
 pub(super) struct Pseudonyms {
     /// How many.

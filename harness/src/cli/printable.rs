@@ -1,4 +1,4 @@
-//! What comes from elsewhere, on a terminal: names in logs and certificates are other people's, and a terminal obeys
+//! Text from elsewhere, on a terminal: names in logs and certificates are other people's, and a terminal obeys
 //! the control characters in what it shows.
 
 use std::fmt::{self, Display, Formatter, Write as _};

@@ -107,7 +107,7 @@ pub(super) fn write_page(
     is_json: bool,
 ) -> Result<(), Failure> {
     let name = "the log of this run".to_owned();
-    // What it says of the log is what the command says of it, too.
+    // The page says the same of the log as the command does.
     let studied = study_octets(&[(name, log)], Some(street.clone()))?;
     write(path, &studied)?;
     if is_json {

@@ -51,7 +51,7 @@ use super::ranges::{any, group, station};
 use super::writing::Lines;
 use super::{Failure, destinations, print};
 
-/// What a robot says when a duty begins.
+/// Text of a robot when a duty begins.
 const ON_DUTY: &str =
     "on duty: it helps nobody else before the road is clear; type clear once nobody is on the road";
 
@@ -256,7 +256,7 @@ struct OpenPort {
 }
 
 impl OpenPort {
-    /// That of a robot file, if it has one.
+    /// Opens the port of a robot file, if it has one.
     fn of(file: &RobotFile, outputs: &mut Outputs) -> Result<Option<Self>, Failure> {
         let Some(address) = &file.operator_port else {
             return Ok(None);
@@ -269,7 +269,7 @@ impl OpenPort {
     }
 }
 
-/// What a check of the configuration says.
+/// Text of a check of the configuration.
 fn can_be_run(config: &Path, file: &RobotFile) -> String {
     let (config, name, station) = (config.display(), &file.name, file.station);
     format!("{config}: {name}, station {station}, can be run with this configuration")
@@ -280,7 +280,7 @@ fn named(text: &str) -> Result<(StationId, String), String> {
     Ok((station(id)?, name.to_owned()))
 }
 
-/// What stations are called: by `--named` and the plan, and this robot by its own name.
+/// Names of stations: by `--named` and the plan, and this robot by its own name.
 fn names(arguments: &Arguments, file: &RobotFile, station: StationId) -> Names {
     if arguments.wording.verbose {
         return Names::short();
@@ -374,7 +374,7 @@ struct Console<'a> {
     missing: u64,
 }
 
-/// What the next line waits for.
+/// Time or state that the next line waits for.
 enum Hold {
     Time(Instant),
     State(State, Instant),
@@ -514,7 +514,7 @@ impl Console<'_> {
         texts
     }
 
-    /// What is new among the people that a RAM announces.
+    /// News about the people that a RAM announces.
     fn announced(&mut self, record: &Record) -> Option<String> {
         let Entry::Sent {
             message: Service::Ram,

@@ -1,4 +1,4 @@
-//! What commands that run robots have for security.
+//! Security of commands that run robots.
 
 use std::path::{Path, PathBuf};
 

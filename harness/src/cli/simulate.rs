@@ -91,7 +91,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// What a matrix says.
+/// Report of a matrix.
 #[derive(Serialize)]
 struct SimulateReport<'a, C> {
     preset: Option<&'a str>,
@@ -99,9 +99,9 @@ struct SimulateReport<'a, C> {
     documented: bool,
     parameters: &'a Assumptions,
     cells: &'a [C],
-    /// What the paper states of its simulation.
+    /// The paper's statements on its simulation.
     paper: &'a PaperSimulation,
-    /// What the paper states, beside what was measured.
+    /// The paper's statements, beside the measurements.
     statements: &'a [Comparison],
 }
 
@@ -162,7 +162,7 @@ fn cbr(arguments: &Cbr) -> Result<(), Failure> {
     )
 }
 
-/// What a matrix was made by.
+/// Inputs of a matrix.
 struct Measured<'a> {
     chosen: &'a Parameters,
     axes: &'a Axes,

@@ -14,7 +14,7 @@ pub(super) enum Command {
     Check(Files),
 }
 
-/// What is looked at.
+/// Files to check.
 #[derive(clap::Args)]
 pub(super) struct Files {
     /// The site; by default the street of the demonstrations.
@@ -31,7 +31,7 @@ pub(super) fn run(command: &Command) -> Result<(), Failure> {
     print(said(&site, files.plan.as_deref()).map_err(Failure::Input)?)
 }
 
-/// What is said of a site that fits, alone or with a plan; the error says why it does not.
+/// Verdict on a site that fits, alone or with a plan; the error says why it does not.
 pub(super) fn said(site: &SiteFile, plan: Option<&Path>) -> Result<String, String> {
     let (name, lanes, places) = (&site.name, site.lanes.len(), site.places.len());
     let site_said = format!("site {name}: {lanes} lanes, {places} places");

@@ -1,4 +1,4 @@
-//! What a small build does not have: it builds the rest, where cargo started it.
+//! Commands that a small build does not have: it builds the rest, where cargo started it.
 
 use std::env::{args_os, var_os};
 use std::os::unix::process::CommandExt;

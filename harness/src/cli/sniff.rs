@@ -38,7 +38,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for captured in capture::read(&arguments.file).map_err(Failure::input)? {
         let captured = match captured.map_err(Failure::input) {
             Ok(captured) => captured,
-            // What was seen before the file turns bad is summed up.
+            // Packets before the file turns bad are summed up.
             Err(failure) => {
                 is_read = Err(failure);
                 break;
@@ -66,7 +66,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     is_read
 }
 
-/// What each kind of message costs the channel.
+/// Load of the channel by each kind of message.
 #[derive(Default)]
 struct Load {
     kinds: BTreeMap<&'static str, Share>,

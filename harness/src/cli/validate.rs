@@ -56,7 +56,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Err(invalid) = &result
         && matches!(*invalid.fault, Fault::Unreadable(_))
     {
-        // What cannot be read at all is bad input, and not a robot that went wrong.
+        // A log that cannot be read at all is bad input, and not a robot that went wrong.
         return result.map(|_| ()).map_err(Failure::input);
     }
     if arguments.json {

@@ -26,7 +26,7 @@ fn address(text: &str) -> Result<SocketAddr, String> {
     })
 }
 
-/// What is known of a running robot.
+/// Tally and metrics of a running robot.
 pub(super) struct Watch {
     tally: Shared,
     /// Where metrics are served.
@@ -53,7 +53,7 @@ impl Watch {
         self.tally.with(|tally| tally.record(record));
     }
 
-    /// What was heard of other stations, and who is around.
+    /// Other stations that were heard, and road users around.
     pub(super) fn surroundings(&self) -> String {
         self.tally.with(|tally| tally.surroundings())
     }

@@ -1,4 +1,4 @@
-//! What is written by threads of their own: nobody who does not read holds anything else up, nor the hearing of signals.
+//! Output by threads of their own: a reader that does not read holds up nothing else, nor the hearing of signals.
 
 use std::io::{ErrorKind, Write, stderr};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError};
@@ -17,7 +17,7 @@ const LINES: usize = 1_024;
 /// How long the end of the program waits for what is still to be written.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// What is told on standard error, from the start of the program to its end.
+/// Queue and thread of standard error, from the start of the program to its end.
 static TOLD: Mutex<Option<(Lines, Writing)>> = Mutex::new(None);
 
 /// Complaints are told on standard error until this is dropped.
@@ -62,7 +62,7 @@ pub(super) fn complain(what: impl std::fmt::Display) {
 
 /// A thread that writes what comes out of a queue.
 pub(super) struct Writing {
-    /// What it writes to.
+    /// Name of its destination.
     name: String,
     result: Receiver<std::io::Result<()>>,
 }
@@ -97,7 +97,7 @@ impl Writing {
     pub(super) fn finish(self) -> Result<(), Failure> {
         match self.result.recv_timeout(PATIENCE) {
             Ok(Ok(())) => Ok(()),
-            // Who stops reading has had enough.
+            // A reader that stops reading has had enough.
             Ok(Err(error)) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
             Ok(Err(_)) | Err(RecvTimeoutError::Disconnected) => Err(Failure::Incomplete),
             Err(RecvTimeoutError::Timeout) => {

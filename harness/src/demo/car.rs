@@ -163,7 +163,7 @@ impl Drive {
     fn send(&mut self, service: Service, message: &[u8], state: &RobotState, now_its: u64) {
         let ego = EgoPosition::of(state, now_its);
         if let Ok(packet) = self.stack.packet(&ego, service, message) {
-            // What is lost is told again.
+            // A message that is lost is told again.
             let _ = self.link.sender.send(&packet);
         }
     }

@@ -30,7 +30,7 @@ impl Links {
     }
 }
 
-/// What opens so many ports in a row: from the port given, or from the first at which all are free.
+/// Opens so many ports in a row: from the port given, or from the first at which all are free.
 fn from_a_free_port<T>(
     port: Option<u16>,
     robots: usize,

@@ -1,4 +1,4 @@
-//! What a demonstration can show: plan files of the kit or of the user, and who takes part.
+//! Scenarios of demonstrations: plan files of the kit or of the user, and who takes part.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use crossguard_robot::site_file::SiteFile;
 
 pub(super) use crossguard_robot::plan_file::Ending;
 
-/// What happens: a plan file whose roles all name their robots.
+/// A plan file whose roles all name their robots.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Scenario(PlanFile);
 
@@ -26,7 +26,7 @@ pub struct Participant {
     pub station: StationId,
     pub(super) build: Build,
     pub(super) place: Place,
-    /// What it does when it leads; it detects the pedestrian if it has one.
+    /// Its plan for leading; it detects the pedestrian if it has one.
     pub(super) plan: Option<Plan>,
 }
 
@@ -84,7 +84,7 @@ impl Scenario {
         &self.0.name
     }
 
-    /// Who wants to cross, in a sentence.
+    /// People who want to cross, in a sentence.
     #[must_use]
     pub fn who_waits(&self) -> &'static str {
         match self.0.plan(StationId(0), self.0.followers).sides() {
@@ -93,7 +93,7 @@ impl Scenario {
         }
     }
 
-    /// What happens, in a sentence.
+    /// Summary of its events, in a sentence.
     #[must_use]
     pub fn summary(&self) -> &str {
         &self.0.summary

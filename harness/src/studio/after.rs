@@ -34,11 +34,11 @@ pub struct Studied {
     pub playback: Playback,
     /// The names of its logs.
     pub logs: Vec<String>,
-    /// What validation says of them.
+    /// The result of their validation.
     pub validated: Result<Validated, Invalid>,
     /// When the first record that does not fit was written, in µs since 1970, where one does not.
     pub invalid_us: Option<u64>,
-    /// What was found to be wrong while it ran.
+    /// Faults that were found while it ran.
     pub findings: Vec<String>,
 }
 
@@ -48,7 +48,7 @@ pub type Study = dyn Fn(&[(String, &[u8])]) -> Result<Studied, String> + Send + 
 /// How many logs a page may send.
 const LOGS_MAX: usize = 64;
 
-/// What the page gets first.
+/// First data of the page.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Opening {
@@ -60,7 +60,7 @@ struct Opening {
     overview: Overview,
 }
 
-/// What validation says.
+/// Verdict of validation.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Verdict {
@@ -104,7 +104,7 @@ impl Studied {
     }
 }
 
-/// What a saved page has in it.
+/// Data in a saved page.
 #[derive(Serialize)]
 struct SavedPage {
     opening: Opening,

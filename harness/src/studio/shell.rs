@@ -1,6 +1,6 @@
 //! The server of the views.
 //!
-//! Pages, style and scripts are in the program, and load nothing from elsewhere. What logs say reaches
+//! Pages, style and scripts are in the program, and load nothing from elsewhere. Text of logs reaches
 //! a page as JSON and is put into it as text, never as markup; the browser runs no other script
 //! (see the policy in the head of each answer). Only clients that name this machine are answered, so that a page of a
 //! stranger whose name is made to lead here reads nothing.
@@ -13,7 +13,7 @@ use std::path::Path;
 use super::Studio;
 use crate::http::{self, Answer, Request};
 
-/// What goes with each answer: the page may run and load what this server has, and nothing else.
+/// Headers of each answer: the page may run and load what this server has, and nothing else.
 const HEADERS: &str = "Content-Security-Policy: default-src 'none'; script-src 'self'; style-src 'self'; \
     img-src 'self'; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n\
     X-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\nCross-Origin-Resource-Policy: same-origin\r\n\
@@ -28,10 +28,10 @@ const LOGS_MAX: usize = 1 << 26;
 const TEXT: &str = "text/plain; charset=utf-8";
 const HTML: &str = "text/html; charset=utf-8";
 
-/// What all pages have around their content.
+/// Frame of all pages around their content.
 const FRAME: &str = include_str!("shell/page.html");
 
-/// What is in front of the content of each view.
+/// Text in front of the content of each view.
 const SCRIPTED: &str = "<noscript><p class=\"trouble\">This page needs its scripts, which come from this server \
     alone.</p></noscript>\n<div id=\"troubles\" role=\"alert\"></div>\n";
 
@@ -60,11 +60,11 @@ pub(super) struct Page {
     pub(super) name: &'static str,
     /// How it is called on pages.
     pub(super) title: &'static str,
-    /// What is seen there, in a sentence.
+    /// Its purpose, in a sentence.
     pub(super) about: &'static str,
     /// Where its first link leads.
     pub(super) skip: Skip,
-    /// What is on it below the header.
+    /// Its content below the header.
     pub(super) content: &'static str,
     /// The style that it shares with another view.
     pub(super) shared_style: Option<&'static str>,
@@ -94,9 +94,9 @@ pub(super) trait View: Send + Sync {
 
 /// A link past the header, for who goes by keys.
 pub(super) struct Skip {
-    /// What gets the focus.
+    /// The element that gets the focus.
     pub(super) to: &'static str,
-    /// What the link says.
+    /// The text of the link.
     pub(super) words: &'static str,
 }
 
@@ -255,7 +255,7 @@ pub fn publish(folder: &Path, studio: Studio) -> std::io::Result<()> {
     Ok(())
 }
 
-/// What a published page may run and load: what is beside it.
+/// Policy of a published page: it may run and load what is beside it.
 const PUBLISHED: &str = "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; img-src 'self'; \
     connect-src 'self'; base-uri 'none'; form-action 'none'";
 
@@ -300,7 +300,7 @@ pub(super) fn saved(view: &dyn View, shown: &str) -> String {
         )
 }
 
-/// What a saved page may run and load: what is in it.
+/// Policy of a saved page: it may run and load what is in it.
 const SAVED: &str = "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; base-uri 'none'; \
     form-action 'none'";
 

@@ -35,7 +35,7 @@ pub(super) type Check = dyn Fn(&SiteFile) -> Result<String, String> + Send + Syn
 pub struct Edited {
     /// The file.
     pub file: PathBuf,
-    /// What has to take the site before it is written.
+    /// The check that the site has to pass before it is written.
     pub check: Box<Check>,
 }
 
@@ -43,7 +43,7 @@ pub struct Edited {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Question {
-    /// That of the file which the page has shown.
+    /// The version of the file that the page has shown.
     version: String,
     /// Points by name, in metres to the east and to the north.
     moved: BTreeMap<String, [f64; 2]>,
@@ -83,7 +83,7 @@ impl Edited {
         Draft::read(&self.file).map_err(|cause| Trouble::File(cause.to_string()))
     }
 
-    /// What the page gets first: the points, and a run without records, whose street has them in the same order.
+    /// First data of the page: the points, and a run without records, whose street has them in the same order.
     fn opening(&self) -> Result<Value, Trouble> {
         let draft = self.read()?;
         let points: Vec<_> = draft.points().collect();
@@ -94,7 +94,7 @@ impl Edited {
         )
     }
 
-    /// What is said of the site as it would be, and the new version of a file that was written.
+    /// Verdict on the site as it would be, and the new version of a file that was written.
     fn answer(&self, question: &[u8]) -> Result<Value, Trouble> {
         let question: Question = serde_json::from_slice(question)?;
         let draft = self.read()?;

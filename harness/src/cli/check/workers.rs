@@ -99,7 +99,7 @@ fn scenario(name: &str) -> Result<Scenario, Failure> {
     }
 }
 
-/// What was lost is told as such; the rest is bad input.
+/// Failure for an error: lost work is told as such; the rest is bad input.
 fn refused(error: WorkersError) -> Failure {
     if error.is_incomplete() {
         complain(error);

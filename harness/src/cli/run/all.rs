@@ -130,7 +130,7 @@ pub(super) fn run(folder: &Path) -> Result<(), Failure> {
         if let Ok(line) = lines.try_recv() {
             let robot_names = files.iter().map(|(_, file)| &*file.name);
             let (to, command) = typed::addressed(&line, robot_names);
-            // What has a meaning has one for all robots, and a robot is told nothing else: it takes its pipe for a script.
+            // A line with a meaning has one for all robots. A robot is told nothing else: it takes its pipe for a script.
             match typed::understood(command, &files[to.unwrap_or(0)].1, typed::is_by_person()) {
                 Ok(Ok(_)) => {
                     let told = robots.iter_mut().enumerate();

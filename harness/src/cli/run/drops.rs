@@ -34,7 +34,7 @@ impl Drops {
         }
     }
 
-    /// What is to be said of instants that are over by this time.
+    /// Lines to say of instants that are over by this time.
     pub(super) fn over(&mut self, at_us: u64) -> Vec<String> {
         let is_over = |said: &mut Said| at_us >= said.at_us + INSTANT_US;
         let over = self.0.extract_if(.., is_over).filter(|said| said.more > 0);
@@ -58,7 +58,7 @@ mod tests {
         // Another cause in the same instant takes nothing away.
         let other = Cause::InboxFull.into();
         assert!(drops.is_news(28, &other));
-        // Those without a record count as well.
+        // Drops without a record count as well.
         drops.add(29, &late, 1_000);
         assert_eq!((said, drops.over(999_999)), (vec![0], vec![]));
         let over = drops.over(1_000_000);

@@ -1,4 +1,4 @@
-//! What `crossguard run` writes, from threads of their own: nobody who does not read holds the robot up.
+//! Outputs of `crossguard run`, from threads of their own: a reader that does not read does not hold the robot up.
 
 use std::io::{Stdout, Write};
 use std::path::Path;
@@ -15,13 +15,13 @@ use super::super::Failure;
 use super::super::printable::Printable;
 use super::super::writing::{Lines, Writing, complain};
 
-/// What standard output is called.
+/// Name of standard output.
 const STDOUT: &str = "standard output";
 
 /// Where a robot's records go.
 pub(super) struct Outputs {
     pub(super) journal: Journal,
-    /// Those for the console, which need not have all.
+    /// Records for the console, which need not have all.
     pub(super) records: Receiver<Arc<Record>>,
     /// Where the console says something to people; nowhere, when standard output is the log.
     pub(super) lines: Option<Lines>,

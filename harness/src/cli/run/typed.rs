@@ -34,8 +34,8 @@ pub(super) fn is_by_person() -> bool {
     stdin().is_terminal()
 }
 
-/// What a line means to this robot, or why it means nothing to it, which a person is told and tries again. What a person
-/// types is held back by nothing: an emergency stop must not wait. Fails where a script has it wrong: it is wrong from
+/// Meaning of a line to this robot, or why it means nothing. A person is told why, and tries again. Lines that a person
+/// types are held back by nothing: an emergency stop must not wait. Fails where a script has it wrong: it is wrong from
 /// there on.
 pub(super) fn understood(
     text: &str,

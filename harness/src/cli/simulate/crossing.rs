@@ -28,7 +28,7 @@ const ROBOTS_MAX: i128 = 1 + crossguard_protocol::MAX_FOLLOWERS as i128;
 /// The crossing of the school street that comes along, in metres of its net.
 const SCHOOL_M: [f64; 2] = [241.5, 20.0];
 
-/// Who comes within so far to the east or west of the crossing, and to the north or south, crosses there, in metres.
+/// Distance from the crossing within which people cross there, to the east or west and to the north or south, in m.
 const NEAR_M: [f64; 2] = [10.0, 30.0];
 /// From where to where vehicles come to the street, in metres from the crossing.
 const STREET_M: std::ops::RangeInclusive<f64> = 30.0..=1_000.0;
@@ -61,7 +61,7 @@ pub(super) struct Crossing {
     output: Output,
 }
 
-/// Who comes in a run.
+/// People and vehicles that come in a run.
 struct Comers {
     seed: u64,
     people: Vec<Arrival>,
@@ -69,7 +69,7 @@ struct Comers {
     elsewhere: usize,
 }
 
-/// What a number of robots comes to.
+/// Results for a number of robots.
 #[derive(Serialize)]
 struct Cell {
     robots: usize,
@@ -126,7 +126,7 @@ impl Row for Cell {
     }
 }
 
-/// What the results depend on.
+/// Assumptions of the results.
 #[derive(Serialize)]
 struct Assumed {
     seeds: usize,
@@ -278,7 +278,7 @@ impl Comers {
     }
 }
 
-/// Somebody on foot, from when they are near the crossing on.
+/// A person on foot, from when they are near the crossing on.
 fn person(track: &Track, sample_ms: u64, at: [f64; 2]) -> Option<Arrival> {
     let is_near =
         |place: [f64; 2]| (0..2).all(|axis| (place[axis] - at[axis]).abs() <= NEAR_M[axis]);
@@ -382,7 +382,7 @@ fn busy_us(run: &Measured, sizes: &Sizes) -> u64 {
 mod tests {
     use super::*;
 
-    /// Somebody who waits at the kerb, somebody elsewhere, and vehicles from either side.
+    /// A person who waits at the kerb, one elsewhere, and vehicles from either side.
     #[test]
     fn people_and_vehicles_of_floating_car_data_come_when_they_are_first_there() {
         let ways = [82.0, 83.2, 84.4, 85.6, 85.6, 85.6];

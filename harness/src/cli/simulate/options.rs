@@ -1,4 +1,4 @@
-//! What `crossguard simulate` can be told on the command line, and what its results depend on.
+//! Options of `crossguard simulate` on the command line, and assumptions of its results.
 
 use std::ops::Not;
 use std::path::PathBuf;
@@ -114,7 +114,7 @@ impl Output {
     }
 }
 
-/// What the results depend on besides robots, people and radius.
+/// Assumptions of the results besides robots, people and radius.
 #[derive(Serialize)]
 pub(super) struct Assumptions {
     #[serde(flatten)]
@@ -144,7 +144,7 @@ fn one_or_all<S: Serializer>(numbers: &[usize], to: S) -> Result<S::Ok, S::Error
 }
 
 impl Assumptions {
-    /// What the results on these traces depend on.
+    /// Assumptions of the results on these traces.
     pub(super) fn of(axes: &Axes, traces: &[Traces], behaviour: Option<Behaviour>) -> Self {
         let first = traces.first();
         let streets = first.map_or_else(
@@ -189,7 +189,7 @@ impl Assumptions {
         self.seeds
     }
 
-    /// What statements of the paper are compared with.
+    /// Setting with which statements of the paper are compared.
     pub(super) fn setting<'a>(&'a self, axes: &'a Axes) -> Setting<'a> {
         Setting {
             streets: &self.streets,
@@ -213,7 +213,7 @@ pub(super) struct Output {
     pub(super) csv: Option<PathBuf>,
 }
 
-/// What goes over the air.
+/// Messages on the air.
 #[derive(clap::Args, Serialize)]
 #[command(next_help_heading = "Air")]
 pub(super) struct Air {

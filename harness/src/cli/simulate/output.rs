@@ -102,7 +102,7 @@ fn at_seed(value: &Value, seed: usize) -> Value {
     }
 }
 
-/// What the paper states beside what was measured, one line each.
+/// Prints the paper's statements beside the measurements, one line each.
 pub(super) fn print_statements(
     is_documented: bool,
     statements: &[Comparison],
@@ -126,7 +126,7 @@ pub(super) fn print_statements(
     print(table)
 }
 
-/// What the results depend on, one line each.
+/// Prints the assumptions of the results, one line each.
 pub(super) fn print_parameters(head: &str, parameters: &impl Serialize) -> Result<(), Failure> {
     let value = serde_json::to_value(parameters).map_err(Failure::input)?;
     print(head)?;

@@ -93,7 +93,7 @@ const ALONE: [(&str, &[&str]); 3] = [
 ];
 
 impl Parameters {
-    /// What is in a file, then in these lines, then in the flags: a later one wins.
+    /// Parameters of a file, then of these lines, then of the flags: a later one wins.
     pub(super) fn of(file: Option<&Path>, lines: &[String], flags: Table) -> Result<Self, Failure> {
         let mut all = Table::new();
         if let Some(path) = file {

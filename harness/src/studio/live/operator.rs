@@ -46,7 +46,7 @@ struct Order {
     line: String,
 }
 
-/// What the page offers.
+/// Ports, commands and keys that the page offers.
 #[derive(Serialize)]
 pub(super) struct Offered {
     ports: Vec<String>,
@@ -54,14 +54,14 @@ pub(super) struct Offered {
     keys: [[&'static str; 3]; 2],
 }
 
-/// What a robot says, as lines of its port.
+/// Answer of a robot, as lines of its port.
 #[derive(Serialize)]
 struct Answer {
     robot: String,
     boot: u64,
     /// The newest `state`, if one came.
     state: Option<Value>,
-    /// What else came after an order.
+    /// Other lines after an order.
     said: Vec<Value>,
 }
 

@@ -1,4 +1,4 @@
-//! What is known now, of all logs together.
+//! Present state of all logs together.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -16,7 +16,7 @@ use super::tail::{Tail, TailState, Taken};
 const ROBOTS_MAX: usize = 32;
 const CAUSES_MAX: usize = 256;
 
-/// What the logs have said so far.
+/// State of the logs so far.
 pub(super) struct State {
     street: Option<SiteFile>,
     names: Vec<String>,
@@ -28,7 +28,7 @@ pub(super) struct State {
     newest: Option<(u64, Instant)>,
 }
 
-/// What there is of one robot.
+/// Records of one robot: the time of the last one, and drops.
 struct Heard {
     /// When something of it came last.
     last: Instant,
@@ -44,7 +44,7 @@ struct Dropped {
     since: u64,
 }
 
-/// What the page gets.
+/// Data of the page.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Now {
@@ -59,7 +59,7 @@ pub(super) struct Now {
 #[derive(Clone, Serialize)]
 pub(super) struct LogNow {
     name: String,
-    /// What is wrong with it; empty where it is followed.
+    /// Its fault; empty where it is followed.
     trouble: String,
     /// How often it began anew.
     restarts: u32,

@@ -42,7 +42,7 @@ pub(super) enum TailState {
     Broken(String),
 }
 
-/// What came since the last look.
+/// Records since the last look.
 pub(super) struct Taken {
     pub(super) records: Vec<Timed>,
     /// How long ago it was written, as far as the file says.
