@@ -1,4 +1,4 @@
-//! What other programs make of what the kit writes for them. `harness/judges/run` installs them and runs
+//! Judgement of the kit's outputs by other programs. `harness/judges/run` installs them and runs
 //! this.
 
 use std::fs::File;

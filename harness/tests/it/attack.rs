@@ -1,4 +1,4 @@
-//! What does not belong on the channel while the robots cross: garbage, other versions, and hundreds of packets a second
+//! Foreign traffic on the channel while the robots cross: garbage, other versions, and hundreds of packets a second
 //! of other stations.
 
 use std::net::UdpSocket;

@@ -38,7 +38,7 @@ fn a_timed_check_reports_the_longest_times_beside_their_bounds() {
         let (ms, bound_ms) = (figure["ms"].as_u64(), figure["boundMs"].as_u64());
         assert!(ms.is_some() && ms <= bound_ms, "{figure}");
     }
-    // What was found before the limit, and by which timers it is bounded.
+    // Findings before the limit, and the timers that bound them.
     let output = run_line("check timed-hang -v --max-states 1000");
     assert_code(&output, 3);
     let text = stdout(&output);

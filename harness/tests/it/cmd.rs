@@ -1,4 +1,4 @@
-//! What commands say, in the pages `tests/cmd/*.md`. `cargo xtask bless` writes what they say now.
+//! Outputs of commands, in the pages `tests/cmd/*.md`. `cargo xtask bless` writes the present ones.
 
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -160,7 +160,7 @@ fn a_pki_is_made_whole_or_not_at_all() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("pki");
     let pki = path.to_str().unwrap();
-    // What a try that was killed has left behind is in nobody's way.
+    // The remains of a try that was killed are in nobody's way.
     std::fs::create_dir_all(path.join(".unfinished/robots")).unwrap();
     let early = run(&["pki", "init", pki, "--start-in", "-5", "--json"]);
     assert_code(&early, 0);

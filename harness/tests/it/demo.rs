@@ -130,7 +130,7 @@ fn nulls(name: &str, value: &Value, found: &mut BTreeSet<String>) {
     }
 }
 
-/// What robots sent, decoded by the command, with the sender's name.
+/// Messages that robots sent, decoded by the command, with the sender's name.
 fn sent(log: &str, kind: &str) -> Vec<(String, Value)> {
     let mut sent = records(log);
     sent.retain(|it| it["entry"] == "sent" && it["message"] == kind);
@@ -312,7 +312,7 @@ fn a_team_is_told_how_all_of_it_gets_certificates() {
         let security = format!("--security enforce --pki {pki} --json");
         demo(&format!("--scenario {scenario} --speed 40 {security}"))
     };
-    // What is told is done, to the letter.
+    // The commands that are told are carried out, to the letter.
     let follow = |output: &Output| {
         let told = stderr(output);
         let commands = told.split("crossguard pki ").skip(1);

@@ -1,5 +1,5 @@
-//! A disk that is full: without a boot counter on it a robot does not start, and does when there is room again. What it writes
-//! besides is incomplete.
+//! A disk that is full: without a boot counter on it a robot does not start, and does when there is room again. Its other
+//! files are incomplete.
 
 use std::fs;
 use std::io::Read as _;

@@ -70,7 +70,7 @@ fn point_6_another_user_reads_no_key_of_a_pki() {
     assert_eq!(stdout(&stranger.output().unwrap()), "");
 }
 
-/// What a needle is hidden by, so that the search does not find itself.
+/// Mask that hides a needle, so that the search does not find itself.
 const MASK: u8 = 0x5a;
 
 /// A part of a file that is not in this process's memory but hidden.
@@ -101,7 +101,7 @@ fn count_in_memory(needle: &[u8]) -> Option<usize> {
         if memory.read_exact_at(&mut octets, from).is_err() {
             continue;
         }
-        // What is looked through is hidden at once: the copy would be found in the next region.
+        // Octets that were searched are hidden at once: the copy would be found in the next region.
         for octet in &mut octets {
             *octet ^= MASK;
         }

@@ -1,4 +1,4 @@
-//! What commands answer, and what the repository's pages say.
+//! Answers of commands, and statements of the repository's pages.
 
 mod attack;
 mod check;

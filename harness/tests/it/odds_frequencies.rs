@@ -1,4 +1,4 @@
-//! What `crossguard odds` says against what happens: real endpoints with real packets in virtual time, and a radio that
+//! Results of `crossguard odds` against frequencies: real endpoints with real packets in virtual time, and a radio that
 //! loses packets by the throw of a die. Nothing of the Markov model has a part in it.
 
 use crossguard_codec::{Identifiers, RobotState};
@@ -14,7 +14,7 @@ use serde_json::Value;
 
 const LOSS: f64 = 0.4;
 
-/// What packets and clocks do.
+/// Behaviour of packets and clocks.
 #[derive(Clone, Copy)]
 struct Air {
     /// The shortest time of a packet, too; the longest is that of the model.

@@ -67,7 +67,7 @@ fn anchors(text: &str) -> BTreeSet<String> {
     headings.map(slug).collect()
 }
 
-/// What a page links, but for the web.
+/// Links of a page, but for the web.
 fn links(text: &str) -> Vec<String> {
     let prose: Vec<_> = lines(text, false).collect();
     let prose = prose.join("\n");
@@ -107,7 +107,7 @@ fn every_link_leads_somewhere() {
     }
 }
 
-/// What stands between backticks in the prose of a page, in one line.
+/// Texts between backticks in the prose of a page, each in one line.
 fn quoted(text: &str) -> Vec<String> {
     let prose: Vec<_> = lines(text, false).collect();
     let prose = prose.join(" ");
@@ -196,7 +196,7 @@ fn assert_is(path: &Path, text: &str) {
     assert!(is_current, "{page}; run: cargo xtask bless {page}");
 }
 
-/// What the README says has been explored is what the scenario files pin.
+/// The README's number of explored states is that of the scenario files.
 #[test]
 fn the_readmes_sum_of_states_is_that_of_the_scenarios() {
     let sizes = Scenario::shipped().map(|name| {

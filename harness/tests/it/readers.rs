@@ -52,7 +52,7 @@ impl Run {
         records(&std::fs::read_to_string(self.path("log")).unwrap())
     }
 
-    /// What `sniff --json` says of the packets, with more arguments.
+    /// Output of `sniff --json` for the packets, with more arguments.
     fn sniffed(&self, arguments: &str) -> Vec<Value> {
         sniffed(&self.path("pcap"), arguments)
     }
@@ -214,7 +214,7 @@ fn a_packet_is_decoded_and_a_message_comes_back(of: &Run) {
     refused(&format!("09{}", &digits[2..]), version);
 }
 
-/// What tshark prints of these fields with the kit's dissector, line by line; `None` where it is not installed.
+/// Output of tshark for these fields with the kit's dissector, line by line; `None` where it is not installed.
 fn tshark(pcap: &str, filter: &str, fields: &[&str]) -> Option<Vec<String>> {
     let lua = concat!(
         "lua_script:",
@@ -287,7 +287,7 @@ fn a_station_that_does_not_know_ram_sees_a_robot_that_sends_cam() {
         }
         kinds
     };
-    // Who stands still sends one a second. Its RAM are known by those who have its identifiers.
+    // A robot that stands still sends one a second. Its RAM are known by stations that have its identifiers.
     let strangers = count(&sniffed(&pcap, ""));
     let friends = count(&sniffed(&pcap, &format!("--config {config}")));
     assert!((3..=5).contains(&strangers["CAM"]), "{strangers:?}");

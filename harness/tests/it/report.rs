@@ -22,7 +22,7 @@ fn report(logs: &[&Path], page: &Path) -> Output {
     command.arg(page).args(logs).output().unwrap()
 }
 
-/// What a page has in it of its run.
+/// Data of the run in a page.
 fn inside(page: &Path) -> Value {
     let page = std::fs::read_to_string(page).unwrap();
     let (_, data) = page.split_once("id=\"saved\">").unwrap();

@@ -271,7 +271,7 @@ fn each_mode_takes_what_it_says() {
         station(&pki, StationId(5), mode, ticket, pki::now())
     };
     let (mut sign, mut enforce) = (of(Mode::Sign), of(Mode::Enforce));
-    // What was signed before they started would be refused for that.
+    // Packets that were signed before they started would be refused for that.
     let plain = say(&mut Stack::of_robot(identifiers(), GUEST), &message);
     let signed = say(&mut guest(&pki), &message);
     let mut forged = signed.clone();

@@ -55,7 +55,7 @@ fn coverage_is_what_python_computes_from_the_same_traces() {
     assert_eq!(code, Some(1), "{said}");
 }
 
-/// What a judge in Python says of results on its standard input; `None` where there is no Python.
+/// Verdict of a judge in Python on results on its standard input; `None` where there is no Python.
 fn judge(arguments: &[&str], results: &[u8]) -> Option<(Option<i32>, String)> {
     let mut python = Command::new("python3");
     python.current_dir(env!("CARGO_MANIFEST_DIR"));
@@ -71,7 +71,7 @@ fn judge(arguments: &[&str], results: &[u8]) -> Option<(Option<i32>, String)> {
     Some((said.status.code(), stdout(&said) + &stderr(&said)))
 }
 
-/// Who was silent, and who wrongly so, judged by an independent program from the traces.
+/// Silent stations, and wrongly silent ones, judged by an independent program from the traces.
 #[test]
 fn silence_is_what_python_computes_from_the_same_traces() {
     let folder = tempfile::tempdir().unwrap();

@@ -35,7 +35,7 @@ const WRITTEN: [[&str; 2]; 3] = [
     ["[[[-3.0, 0.0]", "[[[-3.5, 0.0]"],
 ];
 
-/// What stands in the place of the file, and what is said of it.
+/// Unfit contents of the file, and the error for each.
 const UNFIT: [(&[u8], &str); 4] = [
     (b"# \xff", "is no text in UTF-8"),
     (&[b'#'; 1 + (1 << 20)], "longer than"),

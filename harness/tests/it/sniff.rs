@@ -41,7 +41,7 @@ fn pcap(frames: &[Vec<u8>]) -> Vec<u8> {
     file
 }
 
-/// What `sniff` prints of a capture.
+/// Output of `sniff` for a capture.
 fn sniff(capture: &[u8], arguments: &[&str]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("capture");

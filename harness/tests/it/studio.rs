@@ -1,4 +1,4 @@
-//! Which requests the studio's server answers. What its pages show in a browser is in `tests/studio/pages.py`.
+//! Requests that the studio's server answers. Its pages in a browser are tested in `tests/studio/pages.py`.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};
@@ -29,7 +29,7 @@ impl Studio {
         }
     }
 
-    /// What it answers to a request, by its own name or another one.
+    /// Its answer to a request, by its own name or another one.
     pub(crate) fn ask(&self, request: &str, host: &str, rest: &str) -> String {
         self.send(request, host, rest, &[])
     }

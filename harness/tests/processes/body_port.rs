@@ -130,7 +130,7 @@ fn two_bodies_in_python_do_a_whole_crossing() {
     }
 }
 
-/// What happens to the corridor when a body is lost in the middle of the road, by this signal.
+/// Loses a body in the middle of the road by this signal, and checks the end of the corridor.
 fn lose(victim: usize, how: &str) {
     let street = Street::begin(1.5, 500);
     let opened = street.until(0, "\"corridorOpened\"", 0);
@@ -161,7 +161,7 @@ fn the_corridor_closes_when_the_body_of_the_leader_or_escort_is_killed_or_stops(
     }
 }
 
-/// What the kit says next, beats left out.
+/// Next line of the kit, beats left out.
 fn hears(from: &mut impl BufRead) -> Value {
     read_until(from, |line| line["type"] != "beat")
 }

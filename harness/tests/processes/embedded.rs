@@ -51,7 +51,7 @@ impl Embedded {
         let (said, errors) = (self.said("embedded.out"), self.said("embedded.err"));
         assert_eq!(status.code(), Some(0), "{said}{errors}");
         assert!(said.ends_with("crossing completed\n"), "{said}");
-        // What a sanitizer finds stands here.
+        // Findings of a sanitizer stand here.
         assert_eq!(errors, "");
         self.said("embedded.log")
     }

@@ -1,4 +1,4 @@
-//! What is lost in the middle of a crossing, and what each log must have then: the sign ends before a guard falls back,
+//! Losses in the middle of a crossing, and what each log must have then: the sign ends before a guard falls back,
 //! and whatever is left comes to rest.
 
 use std::fs;
@@ -16,7 +16,7 @@ struct Row {
     /// Happens while the corridor is open and Go2 walks.
     lose: fn(&mut Street),
     guard_leaves: bool,
-    /// What the logs of ARI and Go2 have, and what they lack.
+    /// Entries that the logs of ARI and Go2 have, and entries that they lack.
     has: [&'static [&'static str]; 2],
     lacks: [&'static [&'static str]; 2],
 }

@@ -42,7 +42,7 @@ fn packet(file: &'static str, name: &str, port: u16, station: u32) -> Vec<u8> {
     packet
 }
 
-/// What a robot sends that was given the same station id.
+/// Packet of a robot that was given the same station id.
 fn of_namesake() -> Vec<u8> {
     let mut namesake = Stack::of_robot(Identifiers::default(), StationId(ROBOT));
     let packet = namesake.packet(&EgoPosition::default(), Service::Ram, &[0; 8]);
@@ -169,7 +169,7 @@ fn in_log(log: &str) {
     let vam = heard.iter().find(|it| it["from"] == 300).unwrap();
     let octets = golden::vector(golden::VAM, "V3").replacen("075bcd15", "0000012c", 1);
     assert_eq!(vam["octets"], octets);
-    // What goes by the robot's own station id is not heard, and counted.
+    // Messages by the robot's own station id are not heard, and counted.
     let dropped = of("dropped").into_iter();
     let dropped: Vec<_> = dropped.map(|it| it["cause"].as_str().unwrap()).collect();
     let both = [

@@ -16,7 +16,7 @@ use crate::street::{ARI, PATIENCE, Street};
 /// The crossing between the kerbs of the shipped street, with the pavements behind them.
 const ZONE: &str = "\n[zone]\npavement_m = 2.5\n";
 
-/// Somebody in front of ARI, and the street.
+/// A person in front of ARI, and the street.
 struct Person {
     pipe: File,
     /// Of Go2, whose sensors have no frames.
@@ -124,6 +124,6 @@ fn a_person_at_the_kerb_is_helped_across_and_nobody_types() {
         "\"onRoad\"",
         "\"across\"",
     ]);
-    // What tracks a person stays in the robot.
+    // The track number of a person stays in the robot.
     assert!(!people.contains("\"id\""));
 }

@@ -19,7 +19,7 @@ pub(crate) const GO2: usize = 1;
 /// By how much the times of two logs may differ on a busy machine.
 pub(crate) const CLOCKS_MS: f64 = 20.0;
 
-/// What ARI is told for a crossing by its autopilot.
+/// Lines for ARI for a crossing by its autopilot.
 pub(crate) const CROSS: &str = "wait 0.5\ndetect\nuntil maneuver-executing 30\nuntil idle 30\n";
 
 pub(crate) struct Street {

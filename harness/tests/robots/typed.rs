@@ -1,4 +1,4 @@
-//! What a person types to a robot, reads of it, and is told when something is wrong.
+//! Lines that a person types to a robot, and texts that the robot tells.
 
 use std::net::TcpListener;
 
