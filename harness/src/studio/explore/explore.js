@@ -14,7 +14,7 @@ const EVENTS = [["somebody is on the road", "personOnRoad"], ["a sign shows go",
 let scenarios = [], properties = new Map(), runs = [];
 let shown = null, count = 0, chart = null;
 
-// What is on the page: a run, the frames that are known of it, and what may happen after the last of them.
+// Fills the page: a run, the frames that are known of it, and the steps that may follow the last of them.
 async function show(run) {
   shown = run;
   trouble();

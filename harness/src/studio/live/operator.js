@@ -139,7 +139,7 @@ async function offer() {
   });
   choose();
   relabel();
-  // Whose ports they are; who is not there yet is asked again with the next order.
+  // Asks each port for its robot; a port without a robot is asked again with the next order.
   offered.ports.forEach((_, port) => ask({ port }).catch(() => {}));
 }
 

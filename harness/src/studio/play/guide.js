@@ -58,7 +58,7 @@ function placeOf(steps) {
   return { row };
 }
 
-// What a row offers, as steps of the model.
+// Choices of a row, as steps of the model.
 export function choices(row, possible) {
   const ways = Object.entries(ROWS[row]?.[1] ?? {}).map(([kind, [begins]]) => [kind, possible.find((step) => told(step).startsWith(begins))]);
   return Object.fromEntries(ways.filter(([, step]) => step));

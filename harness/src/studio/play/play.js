@@ -135,7 +135,7 @@ async function deliverAll() {
   }
 }
 
-// What happens by itself: the crossing goes on, messages get lost and delayed as often as the sliders say, and now and
+// Asks for the next step: the crossing goes on, messages get lost and delayed as often as the sliders say, and now and
 // then something fails. Nothing more once all are across and idle.
 function next() {
   const number = (name) => Number(id(name).value);

@@ -2,7 +2,7 @@
 
 const MUCH = 200;
 
-// What may happen as often as somebody at the page wants it to.
+// Events that may happen as often as somebody at the page wants them to.
 const BOUNDS = ["detections", "commands", "disturbances", "crashes", "restarts", "hangs"].map((name) => `${name} = ${MUCH}`).join("\n");
 
 // Sections of a file by their heads; what stands before the first has the head "".

@@ -1,10 +1,10 @@
-// What is said in words and numbers: robots, drops, times, trials, verdicts.
+// Facts of a run in words and numbers: robots, drops, times, trials, verdicts.
 
 import { html, id, key, ms, seconds, svg, table } from "../shell/dom.js";
 
 const n = (value) => [value, "n"];
 
-// What was shown of each robot last, and since when it is otherwise than before.
+// Last shown values of each robot, and since when each is otherwise than before.
 const shown = new Map();
 const NEW_US = 1_000_000;
 

@@ -50,7 +50,7 @@ export function trouble(...texts) {
   id("troubles").replaceChildren(...texts.filter(Boolean).map((text) => html("p", { class: "trouble" }, text)));
 }
 
-// What the server said, or that it says nothing.
+// The server's error text, or that the server does not answer.
 export const causeOf = (error) => error instanceof TypeError
   ? "The server does not answer. Was it ended? Start it again, and load this page anew."
   : error.message;

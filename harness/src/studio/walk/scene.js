@@ -1,4 +1,4 @@
-// What is so in one state: robots in words, the street as a scheme, properties that the step touches.
+// One state: robots in words, the street as a scheme, properties that the step touches.
 
 import { html, key, look, marker, svg } from "../shell/dom.js";
 
