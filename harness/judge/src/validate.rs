@@ -471,7 +471,7 @@ impl LoggedRobots {
                 self.monitor.has_strangers();
                 Ok(())
             }
-            // Nobody hears itself: a stranger speaks in its name, and the protocol ignores it.
+            // A robot does not hear itself: a stranger speaks in its name, and the protocol ignores it.
             Some(sender) if sender == robot => {
                 self.validated.from_strangers += 1;
                 Ok(())

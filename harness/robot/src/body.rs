@@ -117,7 +117,7 @@ pub enum BodyAct {
     Start(Maneuver, TaskParameters),
     /// End the maneuver, or its fallback, and stand still.
     Stop(Maneuver, StopReason),
-    /// End the maneuver by a policy. That takes time: see [`Body::fallback`].
+    /// End the maneuver by a policy, which takes time: see [`Body::fallback`].
     FallBack(Maneuver, FallbackPolicy),
     /// Stand still on the way, until it is to go on: the person at its side is behind, or a vehicle has to pass before it
     /// steps on the road.

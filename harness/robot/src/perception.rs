@@ -366,8 +366,8 @@ impl Perception {
 }
 
 impl Feed {
-    /// Opens a file; its times count from now on. A regular file is read at once, a pipe line by line. Nobody waits for the
-    /// writer of a FIFO: times count from when it comes.
+    /// Opens a file; its times count from now on. A regular file is read at once, a pipe line by line. The robot does
+    /// not wait for the writer of a FIFO: times count from when it comes.
     ///
     /// # Errors
     /// When it cannot be opened, or a line of a regular file is no observation: which, and why.

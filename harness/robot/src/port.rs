@@ -29,7 +29,7 @@ const TORN: &str = "the connection ended in the middle of a line";
 /// How many lines may wait; after that who says them has to.
 pub(crate) const LINES: usize = 256;
 
-/// How long a line may wait for room in the socket: who reads has room.
+/// How long a line may wait for room in the socket: a peer that reads has room.
 const WRITE_TIMEOUT: Duration = Duration::from_millis(5);
 
 /// How often a port looks for somebody who connects.
@@ -267,7 +267,7 @@ fn accept(listener: &UnixListener, tell: &SyncSender<Heard>, stop: &AtomicBool) 
         let tell = tell.clone();
         std::thread::spawn(move || {
             read(half, number, &tell);
-            // Nobody may be left who wants to know.
+            // The receiver may be gone.
             let _ = tell.send(Heard::Closed(number));
         });
     }
@@ -430,7 +430,7 @@ mod tests {
         // A process that was killed leaves its socket behind.
         drop(UnixListener::bind(&path).unwrap());
         let port = listen(&address).unwrap();
-        // Somebody else took the place of its file.
+        // Another file took the place of its file.
         std::fs::write(folder.path().join("other"), "kept").unwrap();
         std::fs::rename(folder.path().join("other"), &path).unwrap();
         drop(port);

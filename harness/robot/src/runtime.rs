@@ -270,7 +270,7 @@ impl Loop {
                     self.take(arrival);
                 }
                 Err(RecvTimeoutError::Timeout) => self.handle(Stimulus::Time),
-                // Nobody is left who could order it to stop.
+                // No sender is left that could order it to stop.
                 Err(RecvTimeoutError::Disconnected) => self.begin_to_stop(),
             }
             if self.is_dead {

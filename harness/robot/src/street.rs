@@ -113,8 +113,8 @@ impl Street {
         }
     }
 
-    /// Everybody looks at the signs: who waits steps on the road when one shows *go*, who has had the time is
-    /// across, and walks on to the end of the pavement.
+    /// Everybody looks at the signs: a person who waits steps on the road when one shows *go*. A person who has had the
+    /// time is across, and walks on to the end of the pavement.
     pub fn look(&self, now_us: u64, a_sign_shows_go: bool) {
         let width_m = self.width_m();
         let mut people = self.people();

@@ -332,7 +332,7 @@ fn one_ticket_is_one_robot() {
     assert_eq!(street.dropped(0, TAKEN), 2);
 }
 
-/// Hazard: who holds a ticket gives it another digest, and speaks as two robots.
+/// Hazard: the holder of a ticket gives it another digest, and speaks as two robots.
 #[test]
 fn a_ticket_and_its_mirror_are_one_robot() {
     let mut street = Street::new(&[LEADER]);

@@ -89,7 +89,7 @@ fn says_clear_at(leaves_ms: Option<u32>) -> (u32, bool) {
             "it sees somebody for ever"
         );
         if street.now_ms.is_multiple_of(100) {
-            // Somebody walks on into the other half, where nobody looks.
+            // A person walks on into the other half, where nobody looks.
             let is_near = street.now_ms < began_ms + 500;
             let person = [PerceivedVru::pedestrian(7, [1.0, 1.5])];
             let frame = SensorFrame {

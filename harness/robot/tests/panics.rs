@@ -76,7 +76,7 @@ fn a_robot_that_panics_halts_its_body_and_says_so() {
         std::thread::sleep(Duration::from_millis(5));
     }
     assert!(is_halted.load(Ordering::Relaxed));
-    // Nobody is there to obey, and nobody has to wait.
+    // No robot is there to obey, and nobody has to wait.
     robot.order(Order::Stop);
     assert_eq!(robot.wait(), Err(Panicked));
 }

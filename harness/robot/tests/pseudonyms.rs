@@ -398,6 +398,6 @@ fn the_first_pseudonym_after_a_start_is_any_of_them() {
         tickets[0].certificate().id().0
     });
     let firsts: BTreeSet<_> = starts.collect();
-    // That five or fewer of eight come first in forty starts happens in one of a million times.
+    // Five or fewer of eight come first in forty starts once in a million times.
     assert!(firsts.len() > 5, "{firsts:?}");
 }

@@ -500,7 +500,7 @@ impl Console<'_> {
                 }
             }
             Entry::Hindered { why } => texts.push(format!("people may not cross: {why}")),
-            // That it trusts its clock goes without saying, unless it did not.
+            // A trusted clock goes without saying, unless it was not trusted before.
             Entry::Clock(clock) if self.doubts_clock || !clock.is_trusted() => {
                 texts.push(clock.to_string());
             }

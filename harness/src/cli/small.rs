@@ -10,7 +10,7 @@ use crossguard_robot::site_file::SiteFile;
 
 use super::{Failure, complain};
 
-/// No page is written here: who asks for one gets [all of the command](build_all).
+/// No page is written here: a user who asks for one gets [all of the command](build_all).
 #[expect(clippy::unnecessary_wraps, reason = "as in a full build")]
 pub(super) fn write_page(_: &Path, _: &SiteFile, _: &[u8], _: bool) -> Result<(), Failure> {
     Ok(())

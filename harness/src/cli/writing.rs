@@ -87,7 +87,7 @@ impl Writing {
                     "{of_thread}: {error}; the robot goes on, and nothing more is written there"
                 ));
             }
-            // Nobody may be left who wants to know.
+            // The receiver may be gone.
             let _ = tell.send(result);
         });
         Self { name, result }

@@ -92,7 +92,7 @@ pub(super) trait View: Send + Sync {
     fn ask(&self, what: &str, query: &str, body: &[u8]) -> Result<String, Refusal>;
 }
 
-/// A link past the header, for who goes by keys.
+/// A link past the header, for users of the keyboard.
 pub(super) struct Skip {
     /// The element that gets the focus.
     pub(super) to: &'static str,

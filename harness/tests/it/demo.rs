@@ -110,7 +110,7 @@ const NULL: &[&str] = &[
     "vruMotionPredictionContainer",
     // Only guards face a way that their place does not say.
     "targetHeading",
-    // Nobody asks for them.
+    // No scenario asks for them.
     "minimumPedestrianDistance",
     "validityDuration",
     "estimatedTimeToCompletion",

@@ -15,7 +15,7 @@ use crossguard_testkit::command::*;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// A crossing with signed packets, CAM, and three people whom both robots see and announce in cluster VAM.
+/// A crossing with signed packets, CAM, and three people that both robots see and announce in cluster VAM.
 struct Run {
     folder: TempDir,
     result: Value,

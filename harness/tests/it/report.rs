@@ -1,4 +1,4 @@
-//! The page about a run: what is in it. That a browser shows it without a network is in `tests/studio/pages.py`.
+//! The page about a run: its content. The page in a browser without a network is tested in `tests/studio/pages.py`.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

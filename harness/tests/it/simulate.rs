@@ -117,7 +117,7 @@ fn a_place_of_ones_own_is_measured_and_not_taken_for_the_papers() {
         "net.xml",
         r#"<net><location convBoundary="0,0,90,0"/><junction id="a" type="priority" x="0" y="0"/></net>"#,
     );
-    // Somebody walks 1 m a second for a minute, from the intersection on.
+    // A person walks 1 m a second for a minute, from the intersection on.
     let steps = (0..=60)
         .map(|s| format!(r#"<timestep time="{s}"><person id="p" x="{s}" y="0"/></timestep>"#));
     let steps = steps.collect::<String>();

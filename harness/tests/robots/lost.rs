@@ -50,7 +50,7 @@ const ROWS: [Row; 6] = [
             street.signal(GO2, "-KILL");
             street.until(ARI, "noFollowers");
             street.boot(GO2);
-            // Somebody may have been on the road: it asks nobody before the road is clear.
+            // A person may have been on the road: it asks nobody before the road is clear.
             street.say(ARI, "until idle 30\nwait 6\n");
             street.say(ARI, CROSS);
             street.until(ARI, "taskCompleted");

@@ -9,7 +9,7 @@ use crate::street::{ARI, CROSS, GO2, Street};
 #[test]
 fn a_person_types_every_step_and_reads_what_happens() {
     let street = Street::new(&[]);
-    // Nobody leads by itself here.
+    // No robot leads by itself here.
     edit(&street.configs[ARI], &[("autopilot = true", "")]);
     let mut go2 = Killed(start(&street.configs[GO2]));
     let script = "{\"id\": 1, \"position_m\": [3, 1]}\n{\"id\": 2, \"position_m\": [300, 1]}\n\
@@ -75,7 +75,7 @@ fn two_processes_of_one_robot_are_refused() {
     assert_eq!(counter, "crossguard boot counter 1\n");
 }
 
-/// Hazard: who was stopped by an emergency stop is sent commands all the same.
+/// Hazard: a robot that was stopped by an emergency stop is sent commands all the same.
 #[test]
 fn after_an_emergency_stop_of_a_follower_nothing_more_is_commanded() {
     let mut street = Street::started(&[("speed = 40.0", "speed = 2.0")]);

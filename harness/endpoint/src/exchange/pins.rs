@@ -1,4 +1,4 @@
-//! The tickets of robots that have a part in the robot's session: who joins under one ticket stays under it.
+//! The tickets of robots that have a part in the robot's session: a robot that joins under one ticket stays under it.
 //!
 //! The station id follows from the ticket, by four octets of its digest or by a name in it, so two tickets can have one
 //! id: by chance, by search, or because the authority gave the same name twice. A session believes of its leader and

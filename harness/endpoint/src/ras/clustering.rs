@@ -17,7 +17,7 @@
 //! | clusters of different kinds combine (`maxCombinedClusterDistance`) | a cluster has all kinds from the beginning, and says which |
 //!
 //! So everywhere in the shape of a cluster somebody who is perceived is near, and moves as the cluster is said
-//! to: who is inside and moves so was perceived, or walks in step beside somebody who was.
+//! to: a person inside who moves so was perceived, or walks in step beside somebody who was.
 //!
 //! No identifier of a person leaves the robot: what tracks them is used here only, and a cluster's
 //! random id is not used again for 30 s (`timeClusterUniquenessThreshold`) after the cluster is gone.

@@ -252,7 +252,7 @@ mod tests {
         let parameters = &heard.message.ram.ram_parameters;
         let container = parameters.vru_cluster_information_container.unwrap();
         assert_eq!(ended(&container.vru_cluster_information), Some(7));
-        // Nobody is anywhere by it, and it is no cluster to join.
+        // The end of a cluster places no person, and is no cluster to join.
         assert_eq!(read(&heard.message, &plane), None);
         let cluster = ram_with(None, &plane, [0.0, 0.0]).ram.ram_parameters;
         assert_eq!(cluster.vru_cluster_information_container, None);

@@ -243,8 +243,8 @@ fn breakup_211(ended: Ended, now_ms: u64) -> VruClusterOperationContainer211 {
     VruClusterOperationContainer211::new(None, None, Some(info), None)
 }
 
-/// `DeltaTimeQuarterSecond`: the upper octet of the generation delta time of a moment, 1..254. That of
-/// 0 cannot be said, and 255 is unavailable; both become their neighbour.
+/// `DeltaTimeQuarterSecond`: the upper octet of the generation delta time of a moment, 1..254. The values
+/// 0, which cannot be said, and 255, which is unavailable, become their neighbours.
 #[must_use]
 pub fn quarter_second(at_ms: u64) -> u8 {
     let [upper, _] = crossguard_codec::si::generation_delta_time(at_ms).to_be_bytes();

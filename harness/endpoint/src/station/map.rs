@@ -1,4 +1,4 @@
-//! The local dynamic map: who is around, as heard lately.
+//! The local dynamic map: road users around, as heard lately.
 //!
 //! Each kind of road user has room of its own, so that a flood of one does not push out another; when
 //! the room is full, the user that was heard of longest ago makes place. A user that is not heard of again is

@@ -1,4 +1,4 @@
-//! Messages of other stations than robots: who they put on the map.
+//! Messages of other stations than robots: the road users that they put on the map.
 
 use crossguard_codec::geonet::{EgoPosition, Indication};
 use crossguard_codec::its::ItsMessage;

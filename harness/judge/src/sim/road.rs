@@ -182,7 +182,7 @@ impl Road {
         Ok(())
     }
 
-    /// A sign shows *go* until then. That of a robot that is down shows it for the session that it led.
+    /// A sign shows *go* until then. The sign of a robot that is down shows it for the session that it led.
     fn show(
         &mut self,
         now_us: u64,

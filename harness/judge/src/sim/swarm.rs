@@ -155,7 +155,7 @@ impl Swarm {
         }
     }
 
-    /// The same robots, each of which does what this plan says when it leads. Any robot takes any role. Nobody takes
+    /// The same robots, each of which does what this plan says when it leads. Any robot takes any role. People take no
     /// longer across than `t_cross`, a leader is as patient as a drawn one, and whether it names its crossing stays as drawn.
     #[must_use]
     pub fn with_plan(mut self, plan: &Plan) -> Self {

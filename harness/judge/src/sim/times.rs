@@ -149,7 +149,7 @@ pub(super) struct Times {
     limits: Vec<Limits>,
     judged: Judged,
     worst: Worst,
-    /// Robots that hang: nothing in time is asked of such a robot.
+    /// Whether each robot hangs: nothing in time is asked of one that does.
     hung: Vec<bool>,
     running: Vec<Stopwatch>,
 }

@@ -229,7 +229,7 @@ impl Ground {
     }
 }
 
-/// Where each of the people was before, the nearest pairs first. Nobody walks faster than on foot.
+/// Where each of the people was before, the nearest pairs first. People walk no faster than on foot.
 fn came_from(places: &[Metres], before: &[Person], at_us: u64, pace: f64) -> Vec<Option<usize>> {
     let mut pairs = Vec::new();
     for (now, place) in places.iter().enumerate() {

@@ -9,7 +9,7 @@
 //!        atUs     ≤        started + sum of what was told      ≤    atUs
 //! ```
 //!
-//! A log that breaks one of them contradicts itself, and is refused. That something was done late does not
+//! A log that breaks one of them contradicts itself, and is refused. A late act does not
 //! contradict anything: a process may hang. Lateness is counted.
 
 use crossguard_protocol::{Millis, Settings};

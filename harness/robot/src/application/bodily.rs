@@ -74,7 +74,7 @@ impl Application {
         }
     }
 
-    /// Before anything else that it wants. That it cannot take part outlasts that it can: both may come about in one turn.
+    /// Before anything else that it wants. 'Cannot take part' outlasts 'can': both may come about in one turn.
     pub(super) fn wish_available(&mut self, availability: Availability) {
         let cannot = |it: Availability| it != Availability::Available;
         if cannot(availability) || !self.bodily.untold.is_some_and(cannot) {

@@ -84,7 +84,7 @@ pub(super) struct Said {
 
 impl Application {
     /// The sensors of the robot with this station id have somebody, at a place on the site, now: that adds them, and takes away
-    /// nobody but whom they told of before.
+    /// nobody but people that they told of before.
     pub fn perceive(&mut self, station: StationId, vru: &PerceivedVru) {
         // In a simulation there is nobody else.
         if matches!(self.road, Road::Known(_)) {

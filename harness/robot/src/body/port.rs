@@ -342,7 +342,7 @@ impl Body for Ported {
             BodyAct::GoOn => ToBody::GoOn,
         };
         match (self.presence, act) {
-            // That it is silent was told; it stands still by itself, as it hears nothing either.
+            // Its silence was told; it stands still by itself, as it hears nothing either.
             (Presence::Silent, BodyAct::Stop(..) | BodyAct::FallBack(..) | BodyAct::Wait) => Ok(()),
             _ => self.say(&line),
         }

@@ -204,7 +204,7 @@ impl Pki {
         let its_aids = its_aids(identifiers);
         let root = root_with(keys(), "test root", term, None, &its_aids)?;
         let name = "test authority";
-        // Nobody sends it requests, so nobody needs the private half of the other one.
+        // No station sends it requests, so nobody needs the private half of the other one.
         let keys = (keys(), keys().public_key());
         let authority = authority_with(keys, &root, name, term, None, &its_aids)?;
         Ok(Self { root, authority })

@@ -31,7 +31,7 @@ impl<S: AsFd + AsRawFd> Datagrams<S> {
         }
     }
 
-    /// Waits for the next one, for so long at most: who sent it, what it holds, and when it arrived. Fails by what the
+    /// Waits for the next one, for so long at most: its sender, its content, and when it arrived. Fails by what the
     /// operating system says and will not go away by itself.
     pub(super) fn next(
         &mut self,

@@ -75,7 +75,7 @@ impl Link {
             Self::Multicast { interface, .. } | Self::Ethernet { interface } => {
                 !is_loopback(interface)
             }
-            // That is what a unit is for.
+            // A unit is the way out of this machine.
             Self::Unit { .. } => true,
         }
     }

@@ -38,7 +38,7 @@ pub(super) fn open(
     let address = address.unwrap_or(SocketAddr::new(any, 0));
     let connected = |address| {
         let socket = UdpSocket::bind(address)?;
-        // Nobody else is heard on it then.
+        // No other sender is heard on it then.
         socket.connect(unit)?;
         let (hello, receiver) = (socket.try_clone()?, socket.try_clone()?);
         Ok((socket, hello, receiver))

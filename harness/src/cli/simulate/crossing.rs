@@ -288,7 +288,7 @@ fn person(track: &Track, sample_ms: u64, at: [f64; 2]) -> Option<Arrival> {
         .position(|it| is_near(it.position_m))?;
     let first = track.first_sample() + first;
     let from = track.place_at(first);
-    // Of three steps one after the other the fastest: who waits stands.
+    // The fastest of three successive steps: a person who waits stands.
     let steps = track.samples().windows(4);
     let steps_m = steps.map(|it| distance_m(it[0].position_m, it[3].position_m));
     let way_m = steps_m.fold(0.0, f64::max);

@@ -157,7 +157,7 @@ fn people_who_walk_north_are_not_merged_with_a_cyclist_who_goes_east() {
     let clusters = perceiving(&people).clusters();
     assert_eq!(clusters.len(), 2);
     for cluster in &clusters {
-        // Nobody is told to move as nobody does.
+        // Some member moves as the cluster is said to.
         let is_of_one =
             |it: &PerceivedVru| distance_m(it.velocity_mps, cluster.velocity_mps) < 1e-9;
         assert!(people.iter().any(is_of_one), "{cluster:?}");

@@ -252,7 +252,7 @@ impl Draws {
         if self.0.random_bool(common.knows_place) {
             site.crossing = CROSSINGS[corner];
         }
-        // Nobody takes longer than `t_cross`, on any clock.
+        // People take no longer than `t_cross`, on any clock.
         let t_cross_s = f64::from(common.settings.t_cross.0) / 1_000.0;
         let slowest_s = 0.95 * t_cross_s * common.time_scale;
         let crossing_s = if common.has_slow_people {

@@ -91,7 +91,7 @@ impl World<'_> {
         Some(match deed {
             Deed::Detect => Event::PedestrianDetected(seat.draw.plan.request()),
             Deed::Fail => machine.finish(false)?,
-            // Nobody says that who knows of people on the road.
+            // A robot that knows of people on the road does not say that.
             Deed::Event(Event::TaskCompleted) if !is_clear => return None,
             Deed::Event(event) => event,
             // An id follows from the ticket, which changes in its own time.

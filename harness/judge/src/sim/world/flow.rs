@@ -490,7 +490,7 @@ impl Driver {
         let yields = may_yield && ahead.waiting.is_some_and(|is_told| sees(-STOP_M, is_told));
         if (stops_for_robot || yields) && self.can_stop(-STOP_M) {
             acceleration = acceleration.min(self.stops_at(-STOP_M));
-            // Somebody who stops for people or robots sees them step on the road.
+            // A driver who stops for people or robots sees them step on the road.
             self.saw_us = Some([self.saw_us.map_or(now_us, |[since_us, _]| since_us), now_us]);
         }
         if yields && self.speed_mps < 0.5 {

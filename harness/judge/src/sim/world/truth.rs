@@ -112,7 +112,7 @@ impl World<'_> {
         if self.walkers.iter().any(|it| it.session_is(session)) {
             self.met.insert(P1.0);
         }
-        // Nobody knows of a person who has stepped on the road since the sensors' last chance to show them.
+        // A person who has stepped on the road since the sensors' last chance to show them is not known.
         let seen_us = self.now_us.saturating_sub(self.shows_within_us(place));
         let mut people = self.walkers.iter().filter(|it| it.session_is(session));
         if people.any(|it| it.is_on_road(self.now_us) && it.is_on_road(seen_us)) {

@@ -117,7 +117,7 @@ pub(super) fn walk(way: &mut Vec<(u64, Place)>, to: Place, speed_mps: f64) {
 /// How people have fared.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Waits {
-    /// How long those who were let across had waited at the kerb, in milliseconds.
+    /// How long people who were let across had waited at the kerb, in milliseconds.
     pub waited_ms: Vec<u32>,
     /// How many others went away, or waited still when the run was over.
     pub left: u64,

@@ -274,7 +274,7 @@ fn pose(east: i32, more: &str) -> String {
     format!(r#"{{"type": "pose", "eastM": {east}, "northM": 0{more}}}"#)
 }
 
-/// State of a robot in this state, as its RAM reports it.
+/// State of this robot, as its RAM reports it.
 fn ram_of(state: &RobotState) -> RobotState {
     let ids = Identifiers::default();
     let view = Robot::new(StationId(7), 1).ram();
