@@ -41,7 +41,7 @@ impl Sink for Outputs {
     }
 }
 
-/// What the robot may do about a call.
+/// The robot's part, as far as calls for help depend on it.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 enum Standing {
     /// It may call.
@@ -57,7 +57,7 @@ enum Standing {
     Bound,
 }
 
-/// What a robot waits for with the road: that it is clear.
+/// A duty or a session that waits for a clear road.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 struct Obligation {
     about: About,
@@ -75,7 +75,7 @@ enum About {
     Clearing,
 }
 
-/// What the protocol has the robot's body do.
+/// The maneuver that the protocol has the robot's body do.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a belief of its own")]
 struct Task {
@@ -93,7 +93,7 @@ struct Task {
     had_people: bool,
 }
 
-/// What a robot believes of its crossing, and what it is about to do.
+/// The beliefs of a robot about its crossing, and its next acts.
 #[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a belief of its own")]
 pub struct Crossing<const N: usize = 64> {
@@ -215,7 +215,7 @@ impl<const N: usize> Crossing<N> {
             _ => false,
         };
         self.is_kerbward &= robot.duty().is_some();
-        // What was finished or failed is not told again.
+        // The end of a maneuver is told once.
         let runs = executing(robot);
         self.task = self.task.filter(|task| runs == Some(task.maneuver));
         if let Some(task) = &mut self.task {
@@ -396,7 +396,7 @@ impl<const N: usize> Crossing<N> {
         }
     }
 
-    /// Somebody is on the road. The word of a person that it is clear was said before this.
+    /// A person is on the road. The word of another one that it is clear was said before this.
     fn occupy(&mut self, setup: &Setup) {
         self.occupancy.occupy(setup);
         if let Some(obligation) = &mut self.obligation {
@@ -544,7 +544,7 @@ impl<const N: usize> Crossing<N> {
         } else if task.has_arrived && !task.is_reported {
             out.tell(Event::InPosition(id));
         }
-        // Who guards people that it knows of is not done before they are off the road.
+        // A guard is not done before the people that it knows of are off the road.
         if task.is_completed && !(is_guarding && sees_somebody) {
             out.tell(Event::ManeuverCompleted(id));
         }
@@ -624,7 +624,7 @@ impl<const N: usize> Crossing<N> {
         }
     }
 
-    /// What the robot goes by while it leads, if it has a plan.
+    /// The beliefs that a leader goes by, if it has a plan.
     fn view<'a>(&self, setup: &'a Setup) -> Option<View<'a>> {
         let knows = self.occupancy.has_sources() && setup.ground.waiting.is_some();
         Some(View {
@@ -645,7 +645,7 @@ impl<const N: usize> Crossing<N> {
         })
     }
 
-    /// What keeps people from crossing, besides the plan.
+    /// The cause that keeps people from crossing, besides the plan.
     fn hindrance(&self, setup: &Setup) -> Option<Hindrance> {
         if setup.watches && !self.occupancy.is_covered(setup) {
             return Some(Hindrance::NoSight);
@@ -663,7 +663,7 @@ impl<const N: usize> Crossing<N> {
         self.traffic.unpromised(setup).filter(|_| begins)
     }
 
-    /// What keeps people from crossing now, if anything does.
+    /// The cause that keeps people from crossing now, if there is one.
     #[must_use]
     pub fn hindered(&self, setup: &Setup) -> Option<Hindrance> {
         match (self.view(setup), &self.lead) {
@@ -793,7 +793,7 @@ impl<const N: usize> Crossing<N> {
         &self.tracks
     }
 
-    /// What it knows of the carriageway.
+    /// Its beliefs about the carriageway.
     #[must_use]
     pub const fn occupancy(&self) -> &Occupancy {
         &self.occupancy

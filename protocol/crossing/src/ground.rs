@@ -258,7 +258,7 @@ impl Coverage {
     }
 }
 
-/// The ground of a crossing. What is not known is nowhere.
+/// The ground of a crossing. A shape that is not known has no place in it.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub struct Ground {
     /// The carriageway: between the kerbs, and along the road as far as the site says. Without it the road is never

@@ -1,4 +1,4 @@
-//! What the crossing machine takes in, and what it puts out.
+//! Inputs and outputs of the crossing machine.
 
 use core::fmt::{self, Display, Formatter};
 
@@ -9,7 +9,7 @@ use crossguard_protocol::{
 use crate::ground::{Coverage, Point, Way};
 use crate::plan::Leg;
 
-/// What a road user is.
+/// Kinds of road users.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum RoadUser {
     /// A person on foot.
@@ -26,10 +26,10 @@ pub enum RoadUser {
     Vehicle,
 }
 
-/// Somebody in a frame.
+/// A road user in a frame.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Sighting {
-    /// What the source calls them: a hint.
+    /// The source's number for them: a hint.
     pub id: Option<u32>,
     /// Where they are.
     pub at: Point,
@@ -37,13 +37,13 @@ pub struct Sighting {
     pub error_cm: u16,
     /// Their velocity, in cm/s, where it is known.
     pub velocity: Option<Way>,
-    /// What they are.
+    /// Their kind.
     pub what: RoadUser,
     /// How sure the source is, in percent.
     pub confidence: u8,
 }
 
-/// What a source saw at one time.
+/// The observation of a source at one time.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Frame<'a> {
     /// The source, below [`SOURCES`](crate::occupancy::SOURCES).
@@ -59,7 +59,7 @@ pub struct Frame<'a> {
 /// A vehicle that is heard or seen.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Vehicle {
-    /// What it is known by: a hint. From bit 63 on it is of a sensor's frame.
+    /// Its number: a hint. From bit 63 on it is of a sensor's frame.
     pub key: u64,
     /// The station that it is, if it tells itself where it is: it can be asked to stop.
     pub station: Option<StationId>,
@@ -80,7 +80,7 @@ pub struct Pose {
     pub error_cm: u16,
 }
 
-/// What a body reports of its maneuver.
+/// Reports of a body about its maneuver.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum BodyReport {
     /// It is at the place from which it guards.
@@ -158,7 +158,7 @@ impl FrameDrop {
     }
 }
 
-/// What keeps people from crossing.
+/// Causes that keep people from crossing.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Hindrance {
     /// A guard is not at its place, or nobody knows where it is.
@@ -187,7 +187,7 @@ impl Display for Hindrance {
     }
 }
 
-/// What the crossing machine puts out.
+/// Outputs of the crossing machine.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Output {
     /// To the protocol: an event.

@@ -194,7 +194,7 @@ fn setup(source: &mut impl Source) -> Setup {
     setup
 }
 
-/// What is observed: time, people, vehicles and positions.
+/// An observation: time, people, vehicles and positions.
 fn observation(source: &mut impl Source) -> Told {
     Told::Input(match source.number(8, 0) {
         0..3 => Input::Elapsed(millis(source, 100)),
@@ -227,7 +227,7 @@ fn observation(source: &mut impl Source) -> Told {
     })
 }
 
-/// What is observed of an empty road, most of the time.
+/// An observation, most of the time of an empty road.
 fn calm(source: &mut impl Source, step: u32) -> Told {
     if !source.likely(Some(true)) {
         return observation(source);
@@ -263,7 +263,7 @@ fn anything(source: &mut impl Source) -> Told {
     })
 }
 
-/// What the protocol knows: any robot.
+/// The state of the protocol: any robot.
 fn learn(machine: &mut Machine, setup: &Setup, source: &mut impl Source) -> Outputs {
     let role = match source.number(4, 3) {
         0 => Role::None,
@@ -332,7 +332,7 @@ fn is_clear(machine: &Machine, setup: &Setup) -> bool {
     machine.occupancy().is_clear(setup)
 }
 
-/// Whatever both are told from now on, `less` has no clear road where `more` has none. What one of them would drop
+/// By all later inputs, `less` has no clear road where `more` has none. An input that one of them would drop
 /// because it comes out of order neither is told: it would take something from that one alone.
 fn is_never_safer(
     source: &mut impl Source,

@@ -20,7 +20,7 @@ const AGAIN: Millis = Millis(500);
 /// How long a leader waits before it asks again for an open corridor or an escort.
 const OPENING_PERIOD: Millis = Millis(500);
 
-/// For how long after the first go of a session people step on the road. Who comes later is called for anew: a stream of
+/// For how long after the first go of a session people step on the road. A person who comes later is called for anew: a stream of
 /// people would keep the team, and vehicles, until its execution limit.
 const STEP_ON: Millis = Millis(20_000);
 
@@ -88,7 +88,7 @@ pub(crate) struct Lead {
     ending: Millis,
 }
 
-/// What the leader goes by: its plan, and what it believes besides.
+/// The plan of a leader, and its other beliefs.
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a belief of its own")]
 pub(crate) struct View<'a> {
@@ -97,7 +97,7 @@ pub(crate) struct View<'a> {
     pub corridor: Corridor,
     /// Whether the robot's own body is where the plan wants it.
     pub own: Presence,
-    /// What else keeps people from crossing.
+    /// Another cause that keeps people from crossing.
     pub hindrance: Option<Hindrance>,
     /// Where the vehicle is to stop that is a hindrance until it has said so.
     pub stop_line: Option<Point>,
@@ -420,14 +420,14 @@ impl Lead {
     fn begin_stage(&mut self, view: &View<'_>, stage: u8, out: &mut Outputs) {
         self.stage = stage;
         for seat in 0..self.seats.len() {
-            // Who holds goes on holding unless the stage has something else for it.
+            // A follower that holds its place goes on unless the stage has something else for it.
             if self.is(seat, |it| it.station.is_some()) && self.leg(view.plan, seat).is_some() {
                 self.begin_part(view, seat, out);
             }
         }
     }
 
-    /// What keeps people from crossing, besides that nobody wants to and that the plan is not so far.
+    /// The cause that keeps people from crossing, besides that nobody wants to and that the plan is not so far.
     pub(crate) fn hindrance(&self, view: &View<'_>) -> Option<Hindrance> {
         for (seat, it) in self.seats.iter().enumerate() {
             let Some(station) = it.station else { continue };
@@ -480,7 +480,7 @@ impl Lead {
         }
     }
 
-    /// What a leader does by the clock: it opens the corridor when it did not open before, closes it when nobody wants it any
+    /// The acts of a leader by the clock: it opens the corridor when it did not open before, closes it when nobody wants it any
     /// more, ends the task when everybody is across, and gives up in the end. `false` when the plan is over.
     pub(crate) fn lead_on(&mut self, view: &View<'_>, out: &mut Outputs) -> bool {
         self.command_again(view, out);

@@ -17,7 +17,7 @@
 //! anything safer. It is `no_std`, without heap, clock, floating point and `unsafe`, total, and of fixed capacity. Time is an
 //! input ([`Input::Elapsed`]); places are centimetres on the site.
 //!
-//! What it assumes of sensors is in [`Sensors`].
+//! Its assumptions about sensors are in [`Sensors`].
 #![no_std]
 
 #[cfg(test)]

@@ -20,20 +20,20 @@ pub const SOURCES: usize = 4;
 /// Capacity of a [`Coverage`] for parts.
 const PARTS: usize = 32;
 
-/// What is known of one source.
+/// The beliefs about one source.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 struct Source {
     /// Time since its newest frame was made; `None` before the first.
     age: Option<Millis>,
-    /// What its newest frame covers.
+    /// The parts that its newest frame covers.
     covers: Coverage,
     /// In how many consecutive frames each part was covered and nobody on the road, saturating.
     empty: [u8; PARTS],
-    /// What it covered when it had somebody on the road, until that is empty again.
+    /// The parts that it covered when it had somebody on the road, until they are empty again.
     owed: Coverage,
 }
 
-/// What is known of the carriageway.
+/// The beliefs about the carriageway.
 #[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
 pub struct Occupancy {
     sources: [Source; SOURCES],
@@ -60,7 +60,7 @@ impl Source {
     }
 
     fn elapse(&mut self, sensors: &Sensors, time: Millis) {
-        // What is older than any limit is as old as it gets.
+        // An age beyond any limit stays there.
         let oldest = sensors.gap_max.saturating_add(sensors.age_max);
         let oldest = oldest.saturating_add(Millis(1));
         self.age = self.age.map(|age| age.saturating_add(time).min(oldest));
@@ -163,7 +163,7 @@ impl Occupancy {
         }
     }
 
-    /// Somebody is on the road.
+    /// A person is on the road.
     pub(crate) fn occupy(&mut self, setup: &Setup) {
         self.start_anew();
         self.seen = setup.sensors.linger;
@@ -204,7 +204,7 @@ impl Occupancy {
         let sensors = &setup.sensors;
         let known = || self.sources.iter().filter(|source| source.age.is_some());
         let looked = |it: &Source| it.covers.union(it.owed);
-        // Who looks nowhere sees nobody come and go.
+        // A source that looks nowhere sees nobody come and go.
         known().any(|it| looked(it) != Coverage::NONE)
             && known().all(|it| it.is_fresh(sensors) && it.clear(sensors).has(looked(it)))
     }

@@ -1,4 +1,4 @@
-//! What a leader has its followers do: stage by stage, each follower its part.
+//! The plan of a leader for its followers: stage by stage, each follower its part.
 
 use crossguard_protocol::{List, MAX_FOLLOWERS, Millis, StationId, TaskSet, TaskType};
 
@@ -23,7 +23,7 @@ pub struct Leg {
     pub heading_ddeg: Option<u16>,
 }
 
-/// Who does a part.
+/// The followers that do a part.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Who {
     /// Every follower without a part of its own in the stage, side by side.
@@ -32,11 +32,11 @@ pub enum Who {
     Role(u8),
 }
 
-/// What happens at a time. A stage is over when every part is done; a part that holds a place is when it has begun, and goes
+/// The parts of a time. A stage is over when every part is done; a part that holds a place is when it has begun, and goes
 /// on through the stages that have nothing else for its follower.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Stage {
-    /// Who does what.
+    /// The parts, with their followers.
     pub parts: List<(Who, Leg), MAX_FOLLOWERS>,
 }
 
@@ -50,7 +50,7 @@ impl Stage {
     }
 }
 
-/// What a leader has its followers do.
+/// The plan of a leader for its followers.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub struct Plan {
     /// How many followers it takes.

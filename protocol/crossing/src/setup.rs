@@ -1,13 +1,13 @@
-//! What a crossing machine is set up with: what its sensors are assumed to see, its rules, its ground and its plan.
+//! Settings of a crossing machine: the assumptions about its sensors, its rules, its ground and its plan.
 
 use crossguard_protocol::{Config, HelpRequest, Millis, Place, TaskSet, Urgency};
 
 use crate::ground::{Ground, Point};
 use crate::plan::Plan;
 
-/// What is assumed of sensors (assumption `sees`), and which frames count.
+/// The assumption about sensors (`sees`), and which frames count.
 ///
-/// Somebody who is on a covered part of the carriageway is in at least one of any `miss_max` consecutive frames that
+/// A person on a covered part of the carriageway is in at least one of any `miss_max` consecutive frames that
 /// cover it, within `error_cm`, and nobody walks faster than `speed_max_cmps`.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Sensors {
@@ -108,7 +108,7 @@ impl Default for TrafficRules {
 }
 
 impl TrafficRules {
-    /// What an attentive driver can do who brakes hard: half of the time, twice the deceleration.
+    /// The rules for an attentive driver who brakes hard: half of the time, twice the deceleration.
     pub(crate) const fn urgent(self) -> Self {
         Self {
             reaction: Millis(self.reaction.0 / 2),
@@ -140,14 +140,14 @@ impl Default for PositionRules {
     }
 }
 
-/// What a crossing machine is set up with.
+/// Settings of a crossing machine.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub struct Setup {
     /// Whether the robot has sensors of its own for people: without frames it lets nobody cross then.
     pub watches: bool,
     /// Whether it calls for help when somebody waits, or somebody else tells of them.
     pub calls: bool,
-    /// What is assumed of its sensors.
+    /// The assumptions about its sensors.
     pub sensors: Sensors,
     /// When somebody waits.
     pub waiting: WaitingRules,
@@ -159,9 +159,9 @@ pub struct Setup {
     pub ground: Ground,
     /// Where the body waits when it has no part in a session, off the carriageway. Without it, it stays where it is.
     pub home: Option<Point>,
-    /// What it calls for when somebody waits; the urgency is that of the people.
+    /// Its request when somebody waits; the urgency is that of the people.
     pub request: HelpRequest,
-    /// What it does when it leads; without a plan, somebody else says.
+    /// Its acts as a leader; without a plan, the application commands them.
     pub plan: Option<Plan>,
     /// The maneuvers under which people cross, as in the protocol's settings.
     pub guarding: TaskSet,

@@ -61,7 +61,7 @@ impl Origin {
     }
 }
 
-/// What somebody does at a crossing.
+/// The conduct of a person at a crossing.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
@@ -122,7 +122,7 @@ impl Track {
         self.at
     }
 
-    /// What they are.
+    /// Their kind.
     #[must_use]
     pub const fn what(&self) -> RoadUser {
         self.what
@@ -151,7 +151,7 @@ impl Track {
         self.waits && !self.is_fresh()
     }
 
-    /// What they do.
+    /// Their conduct.
     #[must_use]
     pub fn conduct(&self, setup: &Setup) -> Conduct {
         if self.is_on_road() {
@@ -275,7 +275,7 @@ fn leads_to_road(setup: &Setup, at: Point, velocity: Way) -> bool {
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub struct Tracks<const N: usize> {
     tracks: [Option<Track>; N],
-    /// Somebody in the zone has no track, for there are too many: they are taken to wait.
+    /// A person in the zone has no track, for there are too many: they are taken to wait.
     crowd: Millis,
 }
 
@@ -300,7 +300,7 @@ impl<const N: usize> Tracks<N> {
         self.crowd = self.crowd.saturating_sub(time);
         for slot in &mut self.tracks {
             let Some(track) = slot else { continue };
-            // What is older than any limit is as old as it gets.
+            // An age beyond any limit stays there.
             let oldest = kept.saturating_add(Millis(1));
             track.unseen = track.unseen.saturating_add(time).min(oldest);
             track.across = track.across.saturating_sub(time);
@@ -323,7 +323,7 @@ impl<const N: usize> Tracks<N> {
         mut person: impl FnMut(&Sighting),
     ) {
         let mut taken = [false; N];
-        // Who keeps an id goes first; the others continue the nearest track that is left.
+        // A sighting that keeps its id goes first; the others continue the nearest track that is left.
         for by_id in [true, false] {
             for sighting in sightings {
                 let own = self.with_id(setup, origin, age, sighting);
@@ -378,7 +378,7 @@ impl<const N: usize> Tracks<N> {
             .map(|(place, _)| place)
     }
 
-    /// Whose track goes where there are too many: of somebody who was lost on the road, for occupancy decides whether it is clear; of
+    /// The track to replace where there are too many: of a person who was lost on the road, for occupancy decides whether it is clear; of
     /// somebody elsewhere; and, for somebody in the zone whom the robot sees itself, of those whom others report.
     fn spare(&self, setup: &Setup, origin: Origin, at: Point) -> Option<usize> {
         let is_hearsay = |it: Origin| matches!(it, Origin::Station(_));
@@ -424,7 +424,7 @@ impl<const N: usize> Tracks<N> {
         near.min().map(|(_, place)| place)
     }
 
-    /// Nobody is on the road any more: who was lost on it is not.
+    /// The road is empty: the people who were lost on it are off it.
     pub(crate) fn resolve(&mut self) {
         for slot in &mut self.tracks {
             if slot.is_some_and(|track| track.is_on_road() && !track.is_fresh()) {
@@ -436,7 +436,7 @@ impl<const N: usize> Tracks<N> {
     /// Whether somebody waits, or waited when go was shown and has not been seen since.
     #[must_use]
     pub fn is_waiting(&self) -> bool {
-        // Who was lost on the road is for the occupancy to judge, once nobody is let on it any more.
+        // The occupancy judges about people who were lost on the road, once nobody is let on it any more.
         let waits = |track: &Track| track.waits && (track.is_fresh() || !track.is_on_road());
         self.crowd > Millis::ZERO || self.iter().any(waits)
     }

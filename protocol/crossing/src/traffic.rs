@@ -49,7 +49,7 @@ struct Known {
     promise: Millis,
 }
 
-/// What is known of the vehicles around.
+/// The beliefs about the vehicles around.
 #[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
 pub struct Traffic {
     vehicles: [Option<Known>; VEHICLES],

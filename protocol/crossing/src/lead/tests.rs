@@ -46,11 +46,11 @@ fn escorting() -> Plan {
     plan([Stage::everybody(leg(TaskType::MOVE, PLACE))])
 }
 
-/// A leader. What it says is told in words.
+/// A leader whose outputs are told in words.
 struct Leader {
     lead: Lead,
     view: View<'static>,
-    /// What it has said last.
+    /// Its last output.
     said: Vec<Output>,
 }
 
@@ -135,7 +135,7 @@ impl Leader {
         words.join(", ")
     }
 
-    /// What it has ordered last, if it has said nothing else.
+    /// Its last order, if it has no other output.
     fn ordered(&self) -> Option<(StationId, Leg)> {
         match self.said[..] {
             [Output::Order(station, leg)] => Some((station, leg)),
@@ -163,7 +163,7 @@ fn a_follower_that_reports_from_elsewhere_is_commanded_again_and_in_the_end_give
     }
 }
 
-/// Nobody knows where it is, so nobody crosses.
+/// A guard at an unknown place lets nobody cross.
 #[test]
 fn a_follower_whose_position_nobody_knows_opens_nothing() {
     let mut leader = Leader::of(blocking());

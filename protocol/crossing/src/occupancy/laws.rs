@@ -14,7 +14,7 @@ use crate::input::FrameDrop;
 use crate::laws::{is_newer, millis};
 use crate::setup::Sensors;
 
-/// What happens to a source.
+/// Changes of a source.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Change {
     /// Time passes.
@@ -208,7 +208,7 @@ pub fn late_is_less(source: &mut impl Numbers) -> bool {
     counted.is_ok()
 }
 
-/// Somebody on the road, an empty frame that is stale or out of order, and time are no evidence. Whether it was
+/// A person on the road, an empty frame that is stale or out of order, and time are no evidence. Whether it was
 /// an empty frame, or one with somebody that counted.
 pub fn the_rest_is_none(source: &mut impl Numbers, change: Change) -> bool {
     let sensors = sensors(source);

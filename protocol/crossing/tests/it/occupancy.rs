@@ -210,7 +210,7 @@ fn what_others_report_counts_against_a_clear_road_and_never_for_it() {
     assert!(!scene.is_clear());
 }
 
-/// Somebody waits at the kerb until the road is clear, and says so by a device that knows its place to a metre.
+/// A person waits at the kerb until the road is clear, and says so by a device that knows its place to a metre.
 #[test]
 fn who_waits_at_the_kerb_by_an_inexact_report_does_not_keep_the_road_of_who_sees_occupied() {
     let at_kerb = Sighting {

@@ -1,4 +1,4 @@
-//! What one station, or one odd frame, takes away.
+//! Evidence that one station, or one odd frame, takes away.
 
 use crossguard_crossing::*;
 use crossguard_protocol::{Millis, StationId, TaskType};

@@ -120,7 +120,7 @@ impl Scene {
         self.frame(0, 0, 0b11, people)
     }
 
-    /// Somebody goes on as they do for some time, with this interval between frames. What was urgent after each.
+    /// A person goes on for some time, with this interval between frames. The urgency after each.
     pub(crate) fn sees_at(
         &mut self,
         who: &mut Sighting,
@@ -148,7 +148,7 @@ impl Scene {
         self.sees_at(who, ms, 100, true).into_iter().max().flatten()
     }
 
-    /// What the people do that it knows of.
+    /// The conduct of the people that it knows of.
     pub(crate) fn conducts(&self) -> Vec<tracks::Conduct> {
         let tracks = self.crossing.tracks().iter();
         tracks.map(|track| track.conduct(&self.setup)).collect()

@@ -1,4 +1,4 @@
-//! What a robot does about people by the part that it has in a session: calls, goes home, tells what it sees.
+//! Acts of a robot about people, by its part in a session: it calls, goes home, tells what it sees.
 
 use std::iter::once;
 

@@ -55,7 +55,7 @@ pub(crate) struct Member {
     pub(crate) sees: bool,
     /// Until when its process hangs.
     pub(crate) hangs_until: u32,
-    /// What its machine told the protocol, and put out besides, in order.
+    /// The outputs of its machine, to the protocol and others, in order.
     pub(crate) log: Vec<Output>,
     last: u32,
 }
@@ -73,7 +73,7 @@ pub(crate) struct Team {
     pub(crate) now: u32,
     /// Everybody at the crossing.
     pub(crate) people: Vec<Sighting>,
-    /// What sensors report, if not the people as they are.
+    /// The report of sensors, if not the people as they are.
     pub(crate) sensor: fn(u32, &[Sighting]) -> Option<Vec<Sighting>>,
     /// For how long somebody has been on the road without any guard at its place, in milliseconds.
     pub(crate) alone: u32,
@@ -111,7 +111,7 @@ impl Team {
         }
     }
 
-    /// What a crossing machine is told, and what comes of it.
+    /// An input of a crossing machine, and its effect.
     pub(crate) fn hear(&mut self, robot: usize, input: Input<'_>) {
         self.tell(robot, input);
         self.settle();
@@ -123,7 +123,7 @@ impl Team {
         self.carry_out(robot, &out);
     }
 
-    /// What a robot's application tells it besides its crossing machine.
+    /// Events from a robot's application besides its crossing machine.
     pub(crate) fn event(&mut self, robot: usize, event: Event) {
         self.queue.push_back(Item::Protocol(
             robot,

@@ -1,4 +1,4 @@
-//! Who waits to cross, and who does not, whatever happens to ids (hazards D and E).
+//! People who wait to cross, and people who do not, whatever happens to ids (hazards D and E).
 
 use crossguard_crossing::tracks::*;
 use crossguard_crossing::*;
@@ -310,7 +310,7 @@ fn two_people_of_whom_one_is_hidden_in_turn_both_wait() {
     assert_eq!(scene.conducts(), [Conduct::Waiting; 2]);
 }
 
-/// Who comes to the kerb while somebody steps off it unseen has not crossed.
+/// A person who comes to the kerb while another one steps off it unseen has not crossed.
 #[test]
 fn who_comes_where_somebody_left_for_the_road_is_somebody_else() {
     let mut scene = watch();

@@ -489,7 +489,7 @@ fn a_blind_leader_closes_the_sign_and_keeps_its_guards() {
     assert_eq!(team.alone, 0);
 }
 
-/// Nobody is seen any more while go is shown, and it ends. Somebody who saw it steps on the road two seconds later.
+/// The last person goes out of sight while go is shown, and it ends. A person who saw it steps on the road two seconds later.
 #[test]
 fn somebody_who_saw_go_and_steps_off_the_kerb_late_has_guards() {
     let mut team = blocking();
