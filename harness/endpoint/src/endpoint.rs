@@ -3,7 +3,6 @@
 //! It does no input or output and reads no clock. Its driver says what time it is, hands it datagrams and
 //! events, and carries out the effects in order. The README lists the functions on the way of a RAM.
 
-mod act;
 mod answers;
 #[cfg_attr(not(feature = "foreign"), path = "endpoint/no_others.rs")]
 mod others;
@@ -13,10 +12,10 @@ mod turn;
 
 use crossguard_codec::{Identifiers, RobotState, Service, TaskParameters};
 use crossguard_protocol::{
-    Config, Event, Identity, Input, Outputs, Robot, StateMachine, StationId, TaskType,
+    Config, Event, Identity, Ignored, Input, Output, Outputs, Robot, StateMachine, StationId,
+    TaskType,
 };
 
-pub use self::act::Act;
 use self::answers::Answers;
 use self::others::Others;
 use self::pseudonyms::Pseudonyms;
@@ -101,8 +100,13 @@ pub enum Effect {
         /// The `GeoNetworking` packet with the message, which is what goes out.
         packet: Vec<u8>,
     },
-    /// The application is to do something.
-    Act(Act),
+    /// The application is to do this, or to know it; a maneuver starts with these parameters of its command. Never
+    /// [`Output::SendRam`], [`Output::SendRmcm`] and [`Output::Ignored`].
+    Act(Output, TaskParameters),
+    /// A vehicle says whether it will stop, as it was asked the last time.
+    VehicleAnswered(StationId, bool),
+    /// The event that was told had no effect.
+    Ignored(Event, Ignored),
     /// A datagram was dropped, or a message could not be sent.
     Dropped {
         /// Why.

@@ -5,8 +5,10 @@ use crossguard_codec::{
     Identifiers, Position, Service, TaskParameters, encode, rmcm_from_commands,
 };
 use crossguard_endpoint::cause::Cause;
-use crossguard_endpoint::{Act, Effect, Endpoint, Stimulus};
-use crossguard_protocol::{Command, Phase, Place, RequestId, SessionId, StationId, TaskType};
+use crossguard_endpoint::{Effect, Endpoint, Stimulus};
+use crossguard_protocol::{
+    Command, Output, Phase, Place, RequestId, SessionId, StationId, TaskType,
+};
 
 use crate::support::{detected, endpoint, handle, hear, sent};
 
@@ -80,7 +82,7 @@ fn point_7_another_target_under_the_same_request_id_is_refused() {
         let message = encode(&ids, &rmcm.unwrap()).unwrap();
         let packet = leader.packet(&EgoPosition::default(), Service::Rmcm, &message);
         let effects = hear(&mut follower, now_ms, &packet.unwrap());
-        let starts = |effect: &Effect| matches!(effect, Effect::Act(Act::Start(..)));
+        let starts = |effect: &Effect| matches!(effect, Effect::Act(Output::StartManeuver(_), _));
         let refused = Cause::Contradictory("another command under its requestID");
         let is_refused =
             |effect: &Effect| matches!(effect, Effect::Dropped { cause, .. } if *cause == refused);

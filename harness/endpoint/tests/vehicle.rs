@@ -3,7 +3,7 @@
 use crossguard_codec::geonet::{EgoPosition, Stack};
 use crossguard_codec::{Heard, Identifiers, Position, Service, TaskParameters};
 use crossguard_endpoint::station::vehicle::Question;
-use crossguard_endpoint::{Act, Effect, Endpoint, Stimulus};
+use crossguard_endpoint::{Effect, Endpoint, Stimulus};
 use crossguard_protocol::StationId;
 
 use crate::same_request::team_with_a_command;
@@ -57,7 +57,7 @@ fn the_answer_to_the_newest_question_counts_and_no_other() {
             .filter(|it| matches!(it, Effect::Stepped { .. }))
             .count();
         let answers = effects.iter().find_map(|effect| match effect {
-            Effect::Act(Act::VehicleAnswered(station, promises)) => Some((*station, *promises)),
+            Effect::VehicleAnswered(station, promises) => Some((*station, *promises)),
             _ => None,
         });
         (answers, steps)

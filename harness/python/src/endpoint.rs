@@ -4,10 +4,10 @@ use crossguard_codec::si::timestamp_its;
 use crossguard_codec::{RobotState, Service, TaskParameters};
 use crossguard_endpoint::counters::CauseName;
 use crossguard_endpoint::ras::generation::Trigger;
-use crossguard_endpoint::{Act, Effect, Moment, Stimulus};
+use crossguard_endpoint::{Effect, Moment, Stimulus};
 use crossguard_protocol::{
-    Config, CorridorClosure, Event, FallbackPolicy, Ignored, Maneuver, Millis, Notice, StationId,
-    StopReason,
+    Config, CorridorClosure, Event, FallbackPolicy, Ignored, Maneuver, Millis, Notice, Output,
+    StationId, StopReason,
 };
 use crossguard_robot::trace::{self, Entry, Reception, Record, recorded};
 use pyo3::exceptions::PyValueError;
@@ -81,20 +81,21 @@ impl<'a> Told<'a> {
                 cause: (*cause).into(),
                 detail,
             },
-            Effect::Act(act) => match act {
-                Act::Start(maneuver, parameters) => Self::StartManeuver(maneuver, parameters),
-                Act::Stop(maneuver, why) => Self::StopManeuver(maneuver, why),
-                Act::FallBack(maneuver, policy) => Self::FallBack(maneuver, policy),
-                Act::OpenCorridor(time) => Self::CorridorOpened(time),
-                Act::ExtendCorridor(time) => Self::CorridorExtended(time),
-                Act::CloseCorridor(why) => Self::CorridorClosed(why),
-                // Nobody asks a vehicle here.
-                Act::VehicleAnswered(..) => return None,
-                Act::LockIdentity(true) => Self::LockIdentity,
-                Act::LockIdentity(false) => Self::UnlockIdentity,
-                Act::RenewEpoch => Self::RenewEpoch,
-                Act::Notice(notice) => Self::Notify(notice),
-                Act::Ignored(_, why) => Self::Ignored(why),
+            // Nobody asks a vehicle here.
+            Effect::VehicleAnswered(..) => return None,
+            Effect::Ignored(_, why) => Self::Ignored(why),
+            Effect::Act(output, parameters) => match output {
+                Output::StartManeuver(maneuver) => Self::StartManeuver(maneuver, parameters),
+                Output::StopManeuver(maneuver, why) => Self::StopManeuver(maneuver, why),
+                Output::FallBack(maneuver, policy) => Self::FallBack(maneuver, policy),
+                Output::CorridorOpened(time) => Self::CorridorOpened(time),
+                Output::CorridorExtended(time) => Self::CorridorExtended(time),
+                Output::CorridorClosed(why) => Self::CorridorClosed(why),
+                Output::LockIdentity => Self::LockIdentity,
+                Output::UnlockIdentity => Self::UnlockIdentity,
+                Output::RenewEpoch => Self::RenewEpoch,
+                Output::Notify(notice) => Self::Notify(notice),
+                Output::SendRam | Output::SendRmcm(_) | Output::Ignored(_) => return None,
             },
         })
     }

@@ -18,9 +18,9 @@ use std::net::UdpSocket;
 use std::path::Path;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use crossguard_codec::{Identifiers, Position, RobotState, Target, si};
-use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{Config, Event, ManeuverId, Notice, Robot, StationId, TaskType};
+use crossguard_codec::{Identifiers, Position, RobotState, Target, TaskParameters, si};
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
+use crossguard_protocol::{Config, Event, ManeuverId, Notice, Output, Robot, StationId, TaskType};
 use crossguard_robot::boot;
 use crossguard_robot::trace::{self, Entry, Record};
 
@@ -64,8 +64,8 @@ impl Follower {
                 Effect::Transmit { packet, .. } => Some(packet.clone()),
                 _ => None,
             };
-            if let Effect::Act(act) = &effect {
-                self.act(act);
+            if let Effect::Act(output, parameters) = &effect {
+                self.act(*output, parameters);
             }
             // A packet is logged before it is sent: no receiver logs it before its sender.
             if let Some(entry) = trace::recorded(effect) {
@@ -80,18 +80,18 @@ impl Follower {
     }
 
     /// The body, and the application.
-    fn act(&mut self, act: &Act) {
-        println!("{act:?}");
-        match act {
-            Act::Start(maneuver, parameters) => {
+    fn act(&mut self, output: Output, parameters: &TaskParameters) {
+        println!("{output}");
+        match output {
+            Output::StartManeuver(maneuver) => {
                 let is_escort = maneuver.task == TaskType::MOVE;
                 let takes = if is_escort { ESCORT } else { MANEUVER };
                 self.running = Some((maneuver.id, parameters.target, Instant::now() + takes));
             }
             // A body that falls back takes its time. Until the application tells `Event::RoadClear`, once the
             // body is where the policy wants it and nobody is on the road, the robot helps nobody else.
-            Act::Stop(..) | Act::FallBack(..) => self.running = None,
-            Act::Notice(Notice::Released(..)) => self.is_released = true,
+            Output::StopManeuver(..) | Output::FallBack(..) => self.running = None,
+            Output::Notify(Notice::Released(..)) => self.is_released = true,
             _ => {}
         }
     }

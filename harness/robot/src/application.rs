@@ -20,9 +20,10 @@ use crossguard_crossing::{
     Crossing, FrameDrop, Hindrance, Input, Leg, Output, Outputs, Sensors, Setup,
 };
 use crossguard_endpoint::cause::Cause;
-use crossguard_endpoint::{Act, Stimulus};
+use crossguard_endpoint::{Effect, Stimulus};
 use crossguard_protocol::{
-    Availability, Config, Duty, Event, Millis, Notice, Phase, Robot, StationId, Unavailability,
+    self as protocol, Availability, Config, Duty, Event, Millis, Notice, Phase, Robot, StationId,
+    Unavailability,
 };
 
 use self::bodily::Bodily;
@@ -356,31 +357,37 @@ impl Application {
     }
 
     /// Does what the endpoint says.
-    pub fn act(&mut self, act: &Act) {
-        match act {
-            Act::Start(maneuver, parameters) => {
+    pub fn act(&mut self, effect: &Effect) {
+        let (output, parameters) = match effect {
+            Effect::Act(output, parameters) => (*output, parameters),
+            Effect::Ignored(Event::PedestrianDetected(_), _) => {
+                return self.step(Input::CallIgnored);
+            }
+            Effect::VehicleAnswered(station, promises) => {
+                return self.step(Input::Answered(*station, *promises));
+            }
+            _ => return,
+        };
+        match output {
+            protocol::Output::StartManeuver(maneuver) => {
                 let target = self.target(parameters);
-                self.act_by_body(BodyAct::Start(*maneuver, *parameters));
-                self.step(Input::Started(*maneuver, target));
+                self.act_by_body(BodyAct::Start(maneuver, *parameters));
+                self.step(Input::Started(maneuver, target));
             }
-            Act::Stop(maneuver, why) => {
+            protocol::Output::StopManeuver(maneuver, why) => {
                 self.step(Input::Stopped);
-                self.act_by_body(BodyAct::Stop(*maneuver, *why));
+                self.act_by_body(BodyAct::Stop(maneuver, why));
             }
-            Act::FallBack(maneuver, policy) => {
-                self.step(Input::FellBack(*maneuver, *policy));
-                self.act_by_body(BodyAct::FallBack(*maneuver, *policy));
+            protocol::Output::FallBack(maneuver, policy) => {
+                self.step(Input::FellBack(maneuver, policy));
+                self.act_by_body(BodyAct::FallBack(maneuver, policy));
             }
-            Act::Notice(notice) => self.notice(*notice),
-            Act::OpenCorridor(time) | Act::ExtendCorridor(time) => {
-                self.step(Input::CorridorOpen(*time));
+            protocol::Output::Notify(notice) => self.notice(notice),
+            protocol::Output::CorridorOpened(time) | protocol::Output::CorridorExtended(time) => {
+                self.step(Input::CorridorOpen(time));
             }
-            Act::CloseCorridor(_) => self.step(Input::CorridorClosed),
-            Act::Ignored(Event::PedestrianDetected(_), _) => self.step(Input::CallIgnored),
-            Act::VehicleAnswered(station, promises) => {
-                self.step(Input::Answered(*station, *promises));
-            }
-            Act::LockIdentity(_) | Act::RenewEpoch | Act::Ignored(..) => {}
+            protocol::Output::CorridorClosed(_) => self.step(Input::CorridorClosed),
+            _ => {}
         }
     }
 

@@ -87,9 +87,7 @@ impl<P: StateMachine> Machine<P> {
             self.application.listen(map, robot, moment.now_ms);
         }
         for effect in &effects {
-            if let Effect::Act(act) = effect {
-                self.application.act(act);
-            }
+            self.application.act(effect);
         }
         let (robot, config) = (self.endpoint.robot(), self.endpoint.config());
         self.application.learn(robot, config);

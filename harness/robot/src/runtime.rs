@@ -38,8 +38,8 @@ use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Security;
-use crossguard_endpoint::{Act, Effect, Endpoint, Stimulus};
-use crossguard_protocol::{Config, Event, Phase, Robot, StationId};
+use crossguard_endpoint::{Effect, Endpoint, Stimulus};
+use crossguard_protocol::{Config, Event, Output, Phase, Robot, StationId};
 
 pub use self::clock::Clock;
 use self::clock::{moment_at, seconds, unix_us};
@@ -515,7 +515,7 @@ impl Loop {
             _ => None,
         };
         match &effect {
-            Effect::Act(Act::RenewEpoch) => self.keeper.ask(),
+            Effect::Act(Output::RenewEpoch, _) => self.keeper.ask(),
             Effect::Stepped { state, .. } => {
                 let identifiers = self.machine.endpoint().identifiers();
                 self.waiting.partners.follow(state, identifiers);

@@ -215,7 +215,7 @@ pub fn recorded(effect: Effect) -> Option<Entry> {
             detail,
             octets,
         },
-        Effect::Act(_) => return None,
+        Effect::Act(..) | Effect::VehicleAnswered(..) | Effect::Ignored(..) => return None,
     })
 }
 

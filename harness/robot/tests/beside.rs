@@ -12,8 +12,8 @@ use crossguard_codec::security::{Certificate, Time64};
 use crossguard_codec::{Identifiers, Identity, Kind, Part};
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::station::{Mode, Security};
-use crossguard_endpoint::{Act, Effect, Stimulus};
-use crossguard_protocol::{Millis, StationId};
+use crossguard_endpoint::{Effect, Stimulus};
+use crossguard_protocol::{Millis, Output, StationId};
 use crossguard_robot::body::Build;
 use crossguard_robot::perception::SensorFrame;
 use crossguard_robot::pki::{self, Pki, Term};
@@ -74,8 +74,8 @@ impl Done {
     fn note(&mut self, robot: usize, effect: Effect) {
         match effect {
             _ if robot != LEADER => {}
-            Effect::Act(Act::OpenCorridor(_)) => self.shows_go = true,
-            Effect::Act(Act::CloseCorridor(_)) => self.shows_go = false,
+            Effect::Act(Output::CorridorOpened(_), _) => self.shows_go = true,
+            Effect::Act(Output::CorridorClosed(_), _) => self.shows_go = false,
             Effect::Dropped { cause, .. } => {
                 *self.dropped.entry(cause.reason().to_string()).or_default() += 1;
             }

@@ -6,10 +6,10 @@ mod support;
 mod zone;
 
 use crossguard_codec::{Identity, Kind, RoadUser};
+use crossguard_endpoint::Effect;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::station::{LocalDynamicMap, Security};
-use crossguard_endpoint::{Act, Effect};
-use crossguard_protocol::{EndReason, Event, Input, Millis, Notice, Urgency};
+use crossguard_protocol::{EndReason, Event, Input, Millis, Notice, Output, Urgency};
 use crossguard_robot::body::Build;
 use crossguard_robot::machine::{Machine, is_at_rest};
 use crossguard_robot::perception::SensorFrame;
@@ -50,9 +50,9 @@ impl Done {
                 outputs,
                 ..
             } if outputs.ignored().is_none() => self.calls.push(request.urgency),
-            Effect::Act(Act::Notice(Notice::SessionEnded(_, why))) => self.ends.push(why),
-            Effect::Act(Act::OpenCorridor(_)) => self.go = true,
-            Effect::Act(Act::CloseCorridor(_)) => self.go = false,
+            Effect::Act(Output::Notify(Notice::SessionEnded(_, why)), _) => self.ends.push(why),
+            Effect::Act(Output::CorridorOpened(_), _) => self.go = true,
+            Effect::Act(Output::CorridorClosed(_), _) => self.go = false,
             _ => {}
         }
     }

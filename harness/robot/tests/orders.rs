@@ -6,8 +6,8 @@ use crossguard_codec::{
     Identity, MapPlace, PublicSignal, SignalMeans, SignalsShown, TaskParameters,
 };
 use crossguard_endpoint::station::Security;
-use crossguard_endpoint::{Act, Effect, Stimulus};
-use crossguard_protocol::{Config, Event, Phase, StationId, TaskType};
+use crossguard_endpoint::{Effect, Stimulus};
+use crossguard_protocol::{Config, Event, Output, Phase, StationId, TaskType};
 use crossguard_robot::body::Build;
 use crossguard_robot::machine::Machine;
 use crossguard_robot::plan::{Leg, Plan, Stage};
@@ -31,7 +31,7 @@ fn machine(station: u32) -> Machine {
 fn street() -> Street {
     let robots = vec![Some(machine(1)), Some(machine(FOLLOWER.0))];
     Street::new(robots, |started, _, effect| {
-        if let Effect::Act(Act::Start(maneuver, parameters)) = effect {
+        if let Effect::Act(Output::StartManeuver(maneuver), parameters) = effect {
             started.push((maneuver.task, parameters));
         }
     })

@@ -11,10 +11,10 @@ use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_endpoint::station::{Mode, Secret, Security};
-use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{
-    Availability, Config, Event, Identity, Input, ManeuverId, Phase, Robot, SessionId, StationId,
-    TaskType, Unavailability,
+    Availability, Config, Event, Identity, Input, ManeuverId, Output, Phase, Robot, SessionId,
+    StationId, TaskType, Unavailability,
 };
 use crossguard_robot::pki::{EARLY_S, Pki, Term, new_ticket, robot_permissions};
 use crossguard_robot::plan::Plan;
@@ -106,7 +106,7 @@ impl Street {
                     }
                     identity = state.identity();
                 }
-                Effect::Act(Act::Start(maneuver, _)) => self.started = Some(maneuver.id),
+                Effect::Act(Output::StartManeuver(maneuver), _) => self.started = Some(maneuver.id),
                 Effect::Dropped { cause, .. } if cause.to_string() == "storage: tickets end" => {
                     self.ends[robot] += 1;
                 }

@@ -2,9 +2,9 @@
 //! loses packets by the throw of a die. Nothing of the Markov model has a part in it.
 
 use crossguard_codec::{Identifiers, RobotState};
-use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{
-    Config, Corridor, Event, HelpRequest, Member, Phase, Place, Robot, StationId, TaskSet,
+    Config, Corridor, Event, HelpRequest, Member, Output, Phase, Place, Robot, StationId, TaskSet,
     TaskType, Urgency,
 };
 use crossguard_testkit::command::*;
@@ -90,7 +90,7 @@ impl Street {
                         }
                     }
                 }
-                Effect::Act(Act::FallBack(..)) => self.fell_back = true,
+                Effect::Act(Output::FallBack(..), _) => self.fell_back = true,
                 _ => {}
             }
         }

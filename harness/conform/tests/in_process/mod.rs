@@ -11,10 +11,10 @@ use crossguard_codec::{
 use crossguard_conform::Terms;
 use crossguard_conform::case::Table;
 use crossguard_conform::subject::{Gone, Local, NotTold, Packet, Subject, Telling};
-use crossguard_endpoint::{Act, Effect, Endpoint, Moment, Stimulus};
+use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{
-    Availability, Config, Event, HelpRequest, Maneuver, Place, StateMachine, StationId, TaskSet,
-    TaskType, Urgency,
+    Availability, Config, Event, HelpRequest, Maneuver, Output, Place, StateMachine, StationId,
+    TaskSet, TaskType, Urgency,
 };
 
 /// How long the simulated body takes to a place, in ms. An escort ends when somebody says so.
@@ -114,29 +114,29 @@ impl<P: StateMachine, F: Fn(StationId, u16) -> P> InProcess<P, F> {
                     at_ms: self.now_ms,
                     octets: packet,
                 }),
-                Effect::Act(act) => self.act(&act),
+                Effect::Act(output, _) => self.act(output),
                 _ => {}
             }
         }
     }
 
-    fn act(&mut self, act: &Act) {
+    fn act(&mut self, output: Output) {
         let now_ms = self.now_ms;
-        match *act {
-            Act::Start(maneuver, _) => {
+        match output {
+            Output::StartManeuver(maneuver) => {
                 let arrives = maneuver.task != TaskType::MOVE;
                 self.body.maneuver = Some(maneuver);
                 self.body.arrives_ms = arrives.then_some(now_ms + ON_THE_WAY_MS);
                 self.body.moves = true;
             }
-            Act::Stop(..) | Act::FallBack(..) => {
+            Output::StopManeuver(..) | Output::FallBack(..) => {
                 (self.body.maneuver, self.body.arrives_ms) = (None, None);
                 self.body.moves = false;
             }
-            Act::OpenCorridor(time) | Act::ExtendCorridor(time) => {
+            Output::CorridorOpened(time) | Output::CorridorExtended(time) => {
                 self.body.go_until_ms = now_ms + u64::from(time.0);
             }
-            Act::CloseCorridor(_) => self.body.go_until_ms = 0,
+            Output::CorridorClosed(_) => self.body.go_until_ms = 0,
             _ => {}
         }
     }

@@ -9,7 +9,6 @@ use crossguard_protocol::{
     Coordination, Event, Ignored, Input, Output, Outputs, Phase, Robot, StationId,
 };
 
-use super::act::{Act, act};
 use super::{Around, Effect, others};
 use crate::cause::Cause;
 use crate::exchange::{Arrived, Host, Moment, Outgoing};
@@ -49,7 +48,7 @@ impl<'a> Turn<'a> {
 
     pub(super) fn answer(&mut self, event: Event, outputs: &Outputs) {
         if let Some(reason) = outputs.ignored() {
-            self.effects.push(Effect::Act(Act::Ignored(event, reason)));
+            self.effects.push(Effect::Ignored(event, reason));
         }
     }
 
@@ -139,13 +138,14 @@ impl Host for Turn<'_> {
     }
 
     fn act(&mut self, output: &Output, parameters: TaskParameters) {
-        self.effects
-            .extend(act(*output, parameters).map(Effect::Act));
+        if !matches!(output, Output::Ignored(_)) {
+            self.effects.push(Effect::Act(*output, parameters));
+        }
     }
 
     fn answered(&mut self, vehicle: StationId, promises: bool) {
-        let answered = Act::VehicleAnswered(vehicle, promises);
-        self.effects.push(Effect::Act(answered));
+        self.effects
+            .push(Effect::VehicleAnswered(vehicle, promises));
     }
 
     fn heard(&mut self, me: &Robot, heard: &Heard, arrived: Arrived<'_>) {

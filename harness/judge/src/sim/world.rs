@@ -18,12 +18,12 @@ use std::time::Duration;
 
 use crossguard_codec::Service;
 use crossguard_codec::si::timestamp_its;
-use crossguard_endpoint::{Act, Effect, Moment, Stimulus};
+use crossguard_endpoint::{Effect, Moment, Stimulus};
 use crossguard_model_check::monitor::Monitor;
 use crossguard_model_check::node::{Protocol, Rules};
 use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::timed::Limits;
-use crossguard_protocol::{Event, Phase, Robot, StationId};
+use crossguard_protocol::{Event, Output, Phase, Robot, StationId};
 use crossguard_robot::machine::Machine;
 use crossguard_robot::perception::Newest;
 use crossguard_robot::sign::Sign;
@@ -601,12 +601,12 @@ impl<'a> World<'a> {
                 self.transmit(place, &packet, *kind == Service::Ram);
             }
             Effect::Heard { kind, .. } => self.has_heard_ram |= *kind == Service::Ram,
-            Effect::Act(Act::Start(_, parameters)) => {
+            Effect::Act(Output::StartManeuver(_), parameters) => {
                 let seat = &mut self.seats[place];
                 let site = &seat.draw.plan.site;
                 seat.observed.target = site.place_of(parameters.target);
             }
-            Effect::Act(Act::RenewEpoch) => self.seats[place].is_to_renew = true,
+            Effect::Act(Output::RenewEpoch, _) => self.seats[place].is_to_renew = true,
             _ => {}
         }
         self.log(place, effect);

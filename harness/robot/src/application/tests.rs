@@ -60,9 +60,11 @@ impl Body for Broken {
 fn a_body_that_does_not_take_a_stop_is_a_fault_that_is_told_at_once() {
     let mut application = Application::new(Box::new(Broken::default()), None);
     let maneuver = maneuver(TaskType::MOVE);
-    application.act(&Act::Start(maneuver, TaskParameters::default()));
+    let act = |output| Effect::Act(output, TaskParameters::default());
+    application.act(&act(protocol::Output::StartManeuver(maneuver)));
     assert_eq!(application.next_wish(), None);
-    application.act(&Act::Stop(maneuver, StopReason::Superseded));
+    let stop = protocol::Output::StopManeuver(maneuver, StopReason::Superseded);
+    application.act(&act(stop));
     let fault = Availability::Unavailable(Unavailability::LocalFault);
     let told = Stimulus::Event(Event::AvailabilityChanged(fault));
     assert_eq!(application.next_wish(), Some(told));
