@@ -28,11 +28,7 @@ use crossguard_endpoint::station::Credentials;
 mod files;
 #[cfg(feature = "full")]
 mod issued;
-#[cfg(feature = "full")]
-mod permissions;
 mod revoked;
-#[cfg(feature = "full")]
-mod starts;
 
 pub(crate) use files::unnamed;
 pub use files::{
@@ -41,11 +37,10 @@ pub use files::{
 pub use revoked::{REVOKED_LIST, RevokedList, add_revoked};
 
 #[cfg(feature = "full")]
-pub use issued::{Pki, Term, new_authority, new_root, new_ticket};
-#[cfg(feature = "full")]
-pub use permissions::{its_aids, robot_permissions};
-#[cfg(feature = "full")]
-pub use starts::{drawn_start, early_us};
+pub use issued::{
+    Pki, Term, drawn_ticket, early_us, its_aids, new_authority, new_root, new_ticket,
+    robot_permissions,
+};
 
 /// How long before its time a certificate begins to be valid, in seconds: clocks differ.
 pub const EARLY_S: u64 = 60;

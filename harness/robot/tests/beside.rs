@@ -8,7 +8,7 @@ mod zone;
 
 use std::collections::BTreeMap;
 
-use crossguard_codec::security::{Certificate, Time64};
+use crossguard_codec::security::{Certificate, PrivateKey, Time64};
 use crossguard_codec::{Identifiers, Identity, Kind, Part};
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::station::{Mode, Security};
@@ -99,7 +99,8 @@ fn street(others: &Others) -> Street<Done> {
         let parts = [Part::Lead, Part::Help];
         let permissions = pki::robot_permissions(&identifiers, &parts, Some(StationId(station)));
         let term = Term::hours(now, 1);
-        let ticket = pki::new_ticket(&own.authority, term, None, permissions).unwrap();
+        let ticket =
+            pki::new_ticket(PrivateKey::generate(), &own.authority, term, permissions).unwrap();
         pki::write_ticket(&ticket, folder).unwrap();
         for (certificate, name) in [
             (&own.root.certificate, "root"),

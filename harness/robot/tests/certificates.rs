@@ -58,18 +58,24 @@ const fn is_compressed(point: &base::EccP256CurvePoint) -> bool {
 #[test]
 fn root_authority_and_ticket_have_the_profiles_of_ts_103_097() {
     let encryption = PrivateKey::generate().public_key();
-    let root = pki::new_root("root", Term::hours(NOW, 1_000), None, &its_aids()).unwrap();
-    let authority = pki::new_authority(
-        &root,
-        "below",
-        Term::hours(NOW, 500),
-        None,
+    let root = pki::new_root(
+        PrivateKey::generate(),
+        "root",
+        Term::hours(NOW, 1_000),
         &its_aids(),
-        encryption,
     )
     .unwrap();
+    let keys = (PrivateKey::generate(), encryption);
+    let below = Term::hours(NOW, 500);
+    let authority = pki::new_authority(keys, &root, "below", below, &its_aids()).unwrap();
     let permissions = pki::robot_permissions(&Identifiers::default(), &[Part::Help], None);
-    let ticket = pki::new_ticket(&authority, Term::hours(NOW, 24), None, permissions).unwrap();
+    let ticket = pki::new_ticket(
+        PrivateKey::generate(),
+        &authority,
+        Term::hours(NOW, 24),
+        permissions,
+    )
+    .unwrap();
     let issuer = dot2::IssuerIdentifier::Sha256AndDigest(base::HashedId8(
         authority.certificate.id().0.into(),
     ));

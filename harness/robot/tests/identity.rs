@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use crossguard_codec::geonet::{Address, EgoPosition, Stack};
-use crossguard_codec::security::{Certificate, Permission, Ticket, Time64};
+use crossguard_codec::security::{Certificate, Permission, PrivateKey, Ticket, Time64};
 use crossguard_codec::{
     Identifiers, Part, Position, RobotState, Service, encode, golden, ram_from,
 };
@@ -38,7 +38,8 @@ fn epoch() -> Time64 {
 /// A ticket of the PKI, the key with it.
 fn ticket(pki: &Pki, permissions: Vec<Permission>) -> Ticket {
     let term = Term::hours(epoch(), 1);
-    let holder = pki::new_ticket(&pki.authority, term, None, permissions).unwrap();
+    let holder =
+        pki::new_ticket(PrivateKey::generate(), &pki.authority, term, permissions).unwrap();
     Ticket::new(holder.certificate, holder.key).unwrap()
 }
 
@@ -338,8 +339,13 @@ fn a_ticket_and_its_mirror_are_one_robot() {
     let mut street = Street::new(&[LEADER]);
     let permissions = pki::robot_permissions(&identifiers(), &[Part::Help], None);
     let term = Term::hours(epoch(), 1);
-    let Holder { certificate, key } =
-        pki::new_ticket(&street.pki.authority, term, None, permissions).unwrap();
+    let Holder { certificate, key } = pki::new_ticket(
+        PrivateKey::generate(),
+        &street.pki.authority,
+        term,
+        permissions,
+    )
+    .unwrap();
     let [certificate, mirror] = lower_first(certificate);
     let ids = [first_four(&certificate), first_four(&mirror)];
     let mut packets = |certificate, id| {

@@ -60,7 +60,8 @@ impl Street {
                         },
                     };
                     let may = robot_permissions(&identifiers, &[Part::Lead, Part::Help], None);
-                    let ticket = new_ticket(&pki.authority, term, None, may).unwrap();
+                    let ticket =
+                        new_ticket(PrivateKey::generate(), &pki.authority, term, may).unwrap();
                     Ticket::new(ticket.certificate, ticket.key).unwrap()
                 };
                 credentials.tickets = times.iter().map(ticket).collect();

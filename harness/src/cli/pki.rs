@@ -231,11 +231,12 @@ fn init_in(
         duration: Duration::years(years),
     };
     let its_aids = pki::its_aids(&Identifiers::default());
-    let root = pki::new_root("test root", term(10), None, &its_aids).map_err(Failure::input)?;
+    let root = pki::new_root(PrivateKey::generate(), "test root", term(10), &its_aids);
+    let root = root.map_err(Failure::input)?;
     let below = within(term(3), &root.certificate);
     let encryption = PrivateKey::generate();
-    let public = encryption.public_key();
-    let authority = pki::new_authority(&root, "test authority", below, None, &its_aids, public);
+    let keys = (PrivateKey::generate(), encryption.public_key());
+    let authority = pki::new_authority(keys, &root, "test authority", below, &its_aids);
     let authority = authority.map_err(Failure::input)?;
     pki::write_key(&encryption, folder, "authority-encryption").map_err(Failure::input)?;
     let mut files = vec![
@@ -303,13 +304,8 @@ fn tickets(folder: &Path, robot: &Named, wanted: &Pseudonyms) -> Result<Vec<File
     let mut files = Vec::new();
     // All are made before any is written.
     let ticket = |_| {
-        let from = pki::drawn_start(&authority.certificate, term.from, term.duration);
-        pki::new_ticket(
-            &authority,
-            Term { from, ..term },
-            None,
-            wanted.permissions(robot.station),
-        )
+        let permissions = wanted.permissions(robot.station);
+        pki::drawn_ticket(&PrivateKey::generate(), &authority, term, &permissions)
     };
     let made: Result<Vec<_>, _> = (0..wanted.count).map(ticket).collect();
     let made = made.map_err(|error| {

@@ -47,7 +47,7 @@ fn station(pki: &Pki, id: StationId, mode: Mode, ticket: Holder, now: Time64) ->
 
 fn ticket(pki: &Pki, permissions: Vec<Permission>) -> Holder {
     let term = Term::hours(pki::now(), 1);
-    pki::new_ticket(&pki.authority, term, None, permissions).unwrap()
+    pki::new_ticket(PrivateKey::generate(), &pki.authority, term, permissions).unwrap()
 }
 
 fn both_parts() -> Vec<Permission> {

@@ -2,14 +2,14 @@
 
 use crossguard_codec::security::issue::{self, IssueError, Terms};
 use crossguard_codec::security::{
-    Duration, IssuePermission, Permission, PrivateKey, PublicKey, Region, Ssp, SspRange, Subjects,
-    Ticket, Time64, TrustStore, Untrusted, Validity,
+    Duration, IssuePermission, Permission, PrivateKey, PublicKey, Ssp, SspRange, Subjects, Ticket,
+    Time64, TrustStore, Untrusted, Validity,
 };
-use crossguard_codec::{Identifiers, Part};
+use crossguard_codec::{Identifiers, Part, Service};
 use crossguard_endpoint::station::Credentials;
 use crossguard_protocol::StationId;
 
-use super::{EARLY_S, Holder, PkiError, early_us, its_aids, robot_permissions, starts};
+use super::{EARLY_S, Holder, PkiError};
 
 /// A root and an authority below it.
 #[derive(Clone, Debug)]
@@ -74,24 +74,14 @@ fn all_of(its_aids: &[u32]) -> Vec<(u32, SspRange)> {
     these.collect()
 }
 
-/// A new root, which lets authorities issue pseudonyms for these services (TS 103 097, clause 7.2.3).
+/// A new root with this key, which lets authorities issue pseudonyms for these services (TS 103 097, clause 7.2.3).
 ///
 /// # Errors
 /// Why there can be none.
 pub fn new_root(
-    name: &str,
-    term: Term,
-    region: Option<Region>,
-    its_aids: &[u32],
-) -> Result<Holder, IssueError> {
-    root_with(PrivateKey::generate(), name, term, region, its_aids)
-}
-
-fn root_with(
     key: PrivateKey,
     name: &str,
     term: Term,
-    region: Option<Region>,
     its_aids: &[u32],
 ) -> Result<Holder, IssueError> {
     let (requests, [version, bits]) = CERTIFICATE_REQUEST;
@@ -101,7 +91,6 @@ fn root_with(
     };
     let terms = Terms {
         name: Some(name.to_owned()),
-        region,
         issue_permissions: vec![
             issues(all_of(its_aids), 2),
             issues(vec![(requests, of_authorities)], 1),
@@ -115,34 +104,20 @@ fn root_with(
     Ok(Holder { certificate, key })
 }
 
-/// A new authority below a root, which issues pseudonyms for these services, and with whose `encryption` key requests
-/// can be encrypted for it (TS 103 097, clause 7.2.4).
+/// A new authority with this key below a root, which issues pseudonyms for these services, and with whose `encryption`
+/// key requests can be encrypted for it (TS 103 097, clause 7.2.4).
 ///
 /// # Errors
 /// Why the root cannot have it.
 pub fn new_authority(
-    root: &Holder,
-    name: &str,
-    term: Term,
-    region: Option<Region>,
-    its_aids: &[u32],
-    encryption: PublicKey,
-) -> Result<Holder, IssueError> {
-    let keys = (PrivateKey::generate(), encryption);
-    authority_with(keys, root, name, term, region, its_aids)
-}
-
-fn authority_with(
     (key, encryption): (PrivateKey, PublicKey),
     root: &Holder,
     name: &str,
     term: Term,
-    region: Option<Region>,
     its_aids: &[u32],
 ) -> Result<Holder, IssueError> {
     let terms = Terms {
         name: Some(name.to_owned()),
-        region,
         issue_permissions: vec![issues(all_of(its_aids), 1)],
         encryption_key: Some(encryption),
         ..Terms::of_ticket(term.validity(), vec![signs(CERTIFICATE_REQUEST)])
@@ -151,33 +126,50 @@ fn authority_with(
     Ok(Holder { certificate, key })
 }
 
-/// A new pseudonym.
+/// A new pseudonym with this key.
 ///
 /// # Errors
 /// Why the authority cannot give it.
 pub fn new_ticket(
-    authority: &Holder,
-    term: Term,
-    region: Option<Region>,
-    permissions: Vec<Permission>,
-) -> Result<Holder, IssueError> {
-    ticket_with(PrivateKey::generate(), authority, term, region, permissions)
-}
-
-fn ticket_with(
     key: PrivateKey,
     authority: &Holder,
     term: Term,
-    region: Option<Region>,
     permissions: Vec<Permission>,
 ) -> Result<Holder, IssueError> {
-    let terms = Terms {
-        region,
-        ..Terms::of_ticket(term.validity(), permissions)
-    };
+    let terms = Terms::of_ticket(term.validity(), permissions);
     let holder = key.public_key();
     let certificate = issue::ticket(&authority.certificate, &authority.key, holder, &terms)?;
     Ok(Holder { certificate, key })
+}
+
+/// A new pseudonym with this key, which begins before it is wanted by a time that is drawn, so that the moment does not
+/// tell whose it is: at most by a tenth of its duration, and not before its issuer. The same key gives the same
+/// pseudonym.
+///
+/// # Errors
+/// Why the authority cannot give it.
+pub fn drawn_ticket(
+    key: &PrivateKey,
+    authority: &Holder,
+    term: Term,
+    permissions: &[Permission],
+) -> Result<Holder, IssueError> {
+    let issued = |term| new_ticket(key.clone(), authority, term, permissions.to_vec());
+    // The digest of a first one draws. Nobody else sees that one.
+    let [a, b, c, d, ..] = issued(term)?.certificate.id().0;
+    let drawn = u64::from(u32::from_be_bytes([a, b, c, d])) * 1_000_000;
+    let from_us = term.from.0;
+    let issuer = authority.certificate.content().validity;
+    let earliest_us = issuer.from().0 + EARLY_S * 1_000_000;
+    let span_us = early_us(term.duration).min(from_us.saturating_sub(earliest_us));
+    let from = Time64(from_us - drawn % (span_us + 1));
+    issued(Term { from, ..term })
+}
+
+/// How long before it is wanted a pseudonym that is valid for so long begins at most, in µs: a tenth of that.
+#[must_use]
+pub const fn early_us(duration: Duration) -> u64 {
+    duration.microseconds() / 10
 }
 
 impl Pki {
@@ -202,11 +194,10 @@ impl Pki {
         let from = Time64(now.0.saturating_sub(early_us(pseudonyms)));
         let term = Term::hours(from, 27);
         let its_aids = its_aids(identifiers);
-        let root = root_with(keys(), "test root", term, None, &its_aids)?;
-        let name = "test authority";
-        // No station sends it requests, so nobody needs the private half of the other one.
+        let root = new_root(keys(), "test root", term, &its_aids)?;
+        // Nobody sends it requests, so nobody needs the private half of the other one.
         let keys = (keys(), keys().public_key());
-        let authority = authority_with(keys, &root, name, term, None, &its_aids)?;
+        let authority = new_authority(keys, &root, "test authority", term, &its_aids)?;
         Ok(Self { root, authority })
     }
 
@@ -246,20 +237,12 @@ impl Pki {
         now: Time64,
         keys: &mut dyn FnMut() -> PrivateKey,
     ) -> Result<Credentials, PkiError> {
-        let duration = Duration::hours(23);
+        let term = Term::hours(now, 23);
         let ticket = |nth| {
             let named = named.filter(|_| nth == 0);
             let permissions = robot_permissions(identifiers, &[Part::Lead, Part::Help], named);
-            let key = keys();
-            let issued = |from, permissions| {
-                let term = Term { from, duration };
-                ticket_with(key.clone(), &self.authority, term, None, permissions)
-            };
-            // The digest of a first one draws when it begins, so that the same keys give the same pseudonyms.
-            let [a, b, c, d, ..] = issued(now, permissions.clone())?.certificate.id().0;
-            let drawn = u64::from(u32::from_be_bytes([a, b, c, d])) * 1_000_000;
-            let from = starts::start_of(&self.authority.certificate, now, duration, drawn);
-            let Holder { certificate, key } = issued(from, permissions)?;
+            let Holder { certificate, key } =
+                drawn_ticket(&keys(), &self.authority, term, &permissions)?;
             Ok(Ticket::new(certificate, key)?)
         };
         Ok(Credentials {
@@ -267,4 +250,45 @@ impl Pki {
             tickets: (0..tickets).map(ticket).collect::<Result<_, PkiError>>()?,
         })
     }
+}
+
+/// The ITS-AIDs of all services that the kit knows.
+#[must_use]
+pub fn its_aids(identifiers: &Identifiers) -> Vec<u32> {
+    let its_aids = Service::ALL.map(|service| service.its_aid(identifiers));
+    its_aids.to_vec()
+}
+
+/// Service specific permissions for CAM (EN 302 637-2): version 1, and none of the containers and
+/// causes that only some vehicles may use.
+const CAM_PERMISSIONS: [u8; 3] = [1, 0, 0];
+
+/// Service specific permissions for VAM: version 1 alone.
+const VAM_PERMISSIONS: [u8; 1] = [1];
+
+/// The permissions of a robot that takes these parts in sessions: for RAM and RMCM, and for the CAM and
+/// cluster VAM by which it speaks to stations that know neither. It goes by the station id that is `named`, or else
+/// by one that follows from the ticket.
+#[must_use]
+pub fn robot_permissions(
+    identifiers: &Identifiers,
+    parts: &[Part],
+    named: Option<StationId>,
+) -> Vec<Permission> {
+    let parts = match named {
+        None => Part::bitmap(parts).to_vec(),
+        Some(station) => Part::bitmap_naming(parts, station).to_vec(),
+    };
+    let services: [(Service, &[u8]); 4] = [
+        (Service::Ram, &parts),
+        (Service::Rmcm, &parts),
+        (Service::Cam, &CAM_PERMISSIONS),
+        (Service::Vam, &VAM_PERMISSIONS),
+    ];
+    services
+        .map(|(service, bits)| Permission {
+            its_aid: service.its_aid(identifiers),
+            ssp: Ssp::Bitmap(bits.to_vec()),
+        })
+        .to_vec()
 }
