@@ -371,9 +371,9 @@ impl Demo<'_> {
 
     /// Tells all robots what their sensors report.
     fn tell_perceived(&mut self) {
-        for perception in self.perceived.iter().flat_map(Feed::due) {
+        for perceived in self.perceived.iter().flat_map(Feed::due) {
             for (_, robot) in &self.robots {
-                robot.order(perception.order());
+                robot.order(perceived.clone());
             }
         }
     }

@@ -336,33 +336,10 @@ impl Newest {
     }
 }
 
-/// Item of a feed, with the time of its observation on the clock of this machine.
-#[derive(Clone, PartialEq, Debug)]
-pub enum Perception {
-    /// A source looked.
-    Frame(Arc<SensorFrame>, Instant),
-    /// A person is there.
-    Person(PerceivedVru),
-    /// A line that is no observation, and why.
-    Garbled(String),
-}
-
 /// A file, or a pipe, of observations that are told one after the other, each at its time.
 #[derive(Clone, Debug)]
 pub struct Feed {
-    told: Arc<Mutex<Receiver<Perception>>>,
-}
-
-impl Perception {
-    /// Order that tells a robot of it.
-    #[must_use]
-    pub fn order(&self) -> Order {
-        match self {
-            Self::Frame(frame, taken) => Order::Looked(Arc::clone(frame), *taken),
-            Self::Person(vru) => Order::Perceived(*vru),
-            Self::Garbled(why) => Order::LookedInVain(why.clone()),
-        }
-    }
+    told: Arc<Mutex<Receiver<Order>>>,
 }
 
 impl Feed {
@@ -393,9 +370,9 @@ impl Feed {
         Ok(Self { told })
     }
 
-    /// Items that are due by now.
+    /// What a robot is to be told by now.
     #[must_use]
-    pub fn due(&self) -> Vec<Perception> {
+    pub fn due(&self) -> Vec<Order> {
         let told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
         told.try_iter().take(AHEAD).collect()
     }
@@ -435,7 +412,7 @@ fn observations(
 
 fn tell_in_time(
     observations: impl Iterator<Item = Result<Observation, String>>,
-    tell: &SyncSender<Perception>,
+    tell: &SyncSender<Order>,
 ) {
     let began = Instant::now();
     let wait = |at_s: f64| {
@@ -446,17 +423,17 @@ fn tell_in_time(
     for observation in observations {
         let told = match observation {
             Ok(Observation::Frame(frame, Taken::At(at_s))) => {
-                Perception::Frame(Arc::new(frame), wait(at_s))
+                Order::Looked(Arc::new(frame), wait(at_s))
             }
             Ok(Observation::Frame(frame, Taken::Unix(unix_s))) => match instant_of(unix_s) {
-                Ok(taken) => Perception::Frame(Arc::new(frame), taken),
-                Err(why) => Perception::Garbled(why),
+                Ok(taken) => Order::Looked(Arc::new(frame), taken),
+                Err(why) => Order::LookedInVain(why),
             },
             Ok(Observation::Person(vru, at_s)) => {
                 wait(at_s.unwrap_or(0.0));
-                Perception::Person(vru)
+                Order::Perceived(vru)
             }
-            Err(why) => Perception::Garbled(why),
+            Err(why) => Order::LookedInVain(why),
         };
         if tell.send(told).is_err() {
             return;
@@ -570,7 +547,7 @@ mod tests {
         std::fs::write(&path, "null\n").unwrap();
         let told = feed.told.lock().unwrap();
         let told = told.recv_timeout(Duration::from_secs(30)).unwrap();
-        assert!(matches!(told, Perception::Garbled(why) if why.contains("people:1: ")));
+        assert!(matches!(told, Order::LookedInVain(why) if why.contains("people:1: ")));
     }
 
     #[test]

@@ -405,8 +405,8 @@ impl Console<'_> {
                     Err(mistake) => self.say(&mistake),
                 }
             }
-            for perception in self.perceived.iter().flat_map(Feed::due) {
-                running.order(perception.order());
+            for perceived in self.perceived.iter().flat_map(Feed::due) {
+                running.order(perceived);
             }
             if !quits && (interrupted.load(Ordering::Relaxed) || self.next_line(running)?) {
                 quits = true;
