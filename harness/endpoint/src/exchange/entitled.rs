@@ -4,8 +4,6 @@
 //! its holder cannot speak as another one, or as two, and what a session knows of a member is what the member's
 //! own ticket has said. (Without a signature nobody vouches for anything, and nothing is checked.)
 
-use core::fmt::{self, Display, Formatter};
-
 use crossguard_codec::geonet::{Address, Indication, Permits};
 use crossguard_codec::{Heard, Identifiers, Part};
 use crossguard_protocol::{Input, StationId};
@@ -14,9 +12,10 @@ use super::host::Host;
 use crate::cause::Cause;
 
 /// Why a message of a sender that may be relied on is dropped all the same.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum NotEntitled {
     /// The certificate goes by another station id.
+    #[error("speaks as station {says}, with the certificate of station {is}")]
     Namesake {
         /// The station id in the message.
         says: StationId,
@@ -24,30 +23,14 @@ pub enum NotEntitled {
         is: StationId,
     },
     /// The packet comes from the address of another station.
+    #[error("station {0} has another address")]
     Address(StationId),
     /// The certificate does not permit this part in a session.
+    #[error("the certificate does not permit to {}", .0.name())]
     Part(Part),
     /// The station has its part in the session under another certificate.
+    #[error("station {0} has its part in the session under another certificate")]
     Unpinned(StationId),
-}
-
-impl Display for NotEntitled {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Namesake { says, is } => {
-                write!(
-                    f,
-                    "speaks as station {says}, with the certificate of station {is}"
-                )
-            }
-            Self::Address(station) => write!(f, "station {station} has another address"),
-            Self::Unpinned(station) => write!(
-                f,
-                "station {station} has its part in the session under another certificate"
-            ),
-            Self::Part(part) => write!(f, "the certificate does not permit to {}", part.name()),
-        }
-    }
 }
 
 impl From<NotEntitled> for Cause {
