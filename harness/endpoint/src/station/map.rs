@@ -6,10 +6,8 @@
 
 use std::collections::BTreeMap;
 
-use crossguard_codec::distance;
 use crossguard_codec::si::generation_delta_time;
-use crossguard_codec::{Identity, Kind, Position, RoadUser};
-use crossguard_protocol::Decimetres;
+use crossguard_codec::{Identity, Kind, RoadUser};
 
 /// How many of one kind are remembered.
 pub const USERS_MAX: usize = 128;
@@ -104,22 +102,11 @@ impl LocalDynamicMap {
     pub fn get(&self, identity: Identity) -> Option<&Neighbour> {
         self.kinds.values().find_map(|users| users.get(&identity))
     }
-
-    /// Everybody within a distance of a position, each with how far it is.
-    pub fn within<'a>(
-        &'a self,
-        position: &'a Position,
-        at_most: Decimetres,
-    ) -> impl Iterator<Item = (Decimetres, &'a Neighbour)> {
-        self.iter().filter_map(move |known| {
-            let distance = distance(position, &known.user.position);
-            (distance != Decimetres::UNKNOWN && distance <= at_most).then_some((distance, known))
-        })
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use crossguard_codec::Position;
     use crossguard_codec::si::rebuild_timestamp;
 
     use super::*;
@@ -217,19 +204,5 @@ mod tests {
         map.forget(2_001);
         map.observe(station(1, Kind::Vru), 2_002);
         assert_eq!(map.of_kind(Kind::Vru).count(), 1);
-    }
-
-    #[test]
-    fn neighbours_are_found_by_distance() {
-        let mut map = LocalDynamicMap::default();
-        map.observe(station(1, Kind::Vru), 0);
-        let nowhere = RoadUser {
-            position: Position::default(),
-            ..station(2, Kind::Vru)
-        };
-        map.observe(nowhere, 0);
-        let here = Position::at(49.0, 8.401);
-        let near = |metres: u16| map.within(&here, Decimetres(metres * 10)).count();
-        assert_eq!((near(70), near(80)), (0, 1));
     }
 }
