@@ -12,7 +12,7 @@
 //! virtual time; both do what the effects say.
 
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
-use crossguard_protocol::{Event, Phase, Robot, StateMachine};
+use crossguard_protocol::{Event, ManeuverId, Phase, Robot, StateMachine};
 
 use crate::application::Application;
 
@@ -94,41 +94,27 @@ impl<P: StateMachine> Machine<P> {
         effects
     }
 
-    /// The event that the body holds the place from which the maneuver that runs guards. `None` when none
-    /// runs.
+    /// The maneuver that the body executes as a follower, if one runs.
     #[must_use]
-    pub fn in_position(&self) -> Option<Event> {
-        let Phase::Following(following) = self.endpoint.robot().phase() else {
-            return None;
-        };
-        Some(Event::InPosition(following.executing()?.id))
-    }
-
-    /// The event that the body does not hold that place any more. `None` when no maneuver runs.
-    #[must_use]
-    pub fn out_of_position(&self) -> Option<Event> {
-        let Phase::Following(following) = self.endpoint.robot().phase() else {
-            return None;
-        };
-        Some(Event::OutOfPosition(following.executing()?.id))
+    pub fn executing(&self) -> Option<ManeuverId> {
+        match self.endpoint.robot().phase() {
+            Phase::Following(following) => Some(following.executing()?.id),
+            _ => None,
+        }
     }
 
     /// The event that the maneuver which runs is finished, well or not; the body stops. `None` when
     /// none runs; then a fallback that runs is finished.
     pub fn finish(&mut self, well: bool) -> Option<Event> {
-        let executing = match self.endpoint.robot().phase() {
-            Phase::Following(following) => following.executing(),
-            _ => None,
-        };
-        let Some(maneuver) = executing else {
+        let Some(id) = self.executing() else {
             self.application.finish_fallback();
             return None;
         };
         self.application.stop();
         Some(if well {
-            Event::ManeuverCompleted(maneuver.id)
+            Event::ManeuverCompleted(id)
         } else {
-            Event::ManeuverFailed(maneuver.id)
+            Event::ManeuverFailed(id)
         })
     }
 

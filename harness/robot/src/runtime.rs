@@ -344,8 +344,8 @@ impl Loop {
         let seen: Vec<PerceivedVru>;
         let stimulus = match order {
             Order::Wish(wish) => wish,
-            Order::InPosition => event(self.machine.in_position()),
-            Order::OutOfPosition => event(self.machine.out_of_position()),
+            Order::InPosition => event(self.machine.executing().map(Event::InPosition)),
+            Order::OutOfPosition => event(self.machine.executing().map(Event::OutOfPosition)),
             Order::Clear => {
                 // Where nothing waits for it, the robot says so.
                 let is_awaited = self.machine.application_mut().say_clear();

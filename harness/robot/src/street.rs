@@ -147,12 +147,6 @@ impl Street {
         self.on_road() == 0
     }
 
-    /// Whether everybody who came is across.
-    #[must_use]
-    pub fn everybody_is_across(&self) -> bool {
-        self.is_clear() && self.people().waiting.is_empty()
-    }
-
     fn width_m(&self) -> f64 {
         let [from, to] = self.way;
         (from.distance(to) - 2.0 * PAVEMENT_M).max(0.1)
@@ -288,12 +282,12 @@ mod tests {
         street.arrive(5_000_000, 1);
         street.arrive(5_000_000, 1);
         street.look(1_000_000, false);
-        assert!(street.is_clear() && !street.everybody_is_across());
+        assert!(street.is_clear() && !street.people().waiting.is_empty());
         street.look(2_000_000, true);
         street.look(6_999_999, false);
         assert!(!street.is_clear());
         street.look(7_000_000, true);
-        assert!(street.is_clear() && street.everybody_is_across());
+        assert!(street.is_clear() && street.people().waiting.is_empty());
     }
 
     #[test]
