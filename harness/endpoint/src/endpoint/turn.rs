@@ -66,7 +66,6 @@ impl<'a> Turn<'a> {
     }
 
     /// The people around are announced under other ids from now on.
-    #[cfg(feature = "security")]
     pub(super) fn renew_clusters(&mut self, seed: u64) {
         let surroundings = &mut self.around.surroundings;
         surroundings.renew_ids(self.moment.now_ms, seed);
