@@ -8,7 +8,7 @@ mod zone;
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 
-use crossguard_codec::{IdentifierClash, Identifiers, NoMapPlace, SignalMeans};
+use crossguard_codec::{IdentifierClash, Identifiers, JobRole, NoMapPlace, SignalMeans};
 use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering;
 use crossguard_endpoint::ras::surroundings::{Awareness, CLUSTER_INTERVAL_MS};
@@ -37,7 +37,7 @@ use crate::zone::Zone;
 use self::body::BodyTable;
 pub use self::body::NoBody;
 use self::link::LinkTable;
-use self::traits::{BatteryTable, JobName};
+use self::traits::BatteryTable;
 pub use self::traits::{NoTraits, job_named};
 pub use self::zone::NoZone;
 use self::zone::{ZoneTable, outline};
@@ -102,7 +102,8 @@ struct RobotTable {
     name: String,
     station: u32,
     build: Build,
-    job: Option<JobName>,
+    #[serde(default, deserialize_with = "traits::job")]
+    job: Option<JobRole>,
     dimensions_m: Option<Exact<f64, 3>>,
     #[serde(default)]
     battery: BatteryTable,

@@ -12,9 +12,9 @@
 //! ```
 
 use crossguard_codec::{Battery, Dimensions, JobRole};
-use serde::Deserialize;
 use serde::de::IntoDeserializer;
 use serde::de::value::{Error as Unknown, StrDeserializer};
+use serde::{Deserialize, Deserializer};
 
 use crate::application::Traits;
 use crate::located::{Impossible, Number, possible};
@@ -23,9 +23,9 @@ use crate::located::{Impossible, Number, possible};
 const METRES_MAX: f64 = 102.2;
 
 /// A job as files name it.
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum JobName {
+#[derive(Deserialize)]
+#[serde(remote = "JobRole", rename_all = "kebab-case")]
+enum JobName {
     None,
     TrafficGuard,
     Escort,
@@ -35,25 +35,16 @@ pub(super) enum JobName {
     Other,
 }
 
-impl From<JobName> for JobRole {
-    fn from(name: JobName) -> Self {
-        match name {
-            JobName::None => Self::None,
-            JobName::TrafficGuard => Self::TrafficGuard,
-            JobName::Escort => Self::Escort,
-            JobName::Patrol => Self::Patrol,
-            JobName::Delivery => Self::Delivery,
-            JobName::Maintenance => Self::Maintenance,
-            JobName::Other => Self::Other,
-        }
-    }
-}
-
 /// The job that files and operators call so, like `traffic-guard`; `None` if there is none.
 #[must_use]
 pub fn job_named(name: &str) -> Option<JobRole> {
     let name: StrDeserializer<'_, Unknown> = name.into_deserializer();
-    JobName::deserialize(name).ok().map(JobRole::from)
+    JobName::deserialize(name).ok()
+}
+
+/// The job that a file names, if it names one.
+pub(super) fn job<'de, D: Deserializer<'de>>(from: D) -> Result<Option<JobRole>, D::Error> {
+    JobName::deserialize(from).map(Some)
 }
 
 #[derive(Default, Deserialize)]
@@ -82,7 +73,7 @@ pub enum NoTraits {
 }
 
 pub(super) fn check(
-    job: Option<JobName>,
+    job: Option<JobRole>,
     dimensions_m: Option<[f64; 3]>,
     battery: &BatteryTable,
 ) -> Result<Traits, NoTraits> {
@@ -100,7 +91,7 @@ pub(super) fn check(
     }
     let low = battery.low_percent.unwrap_or(Traits::default().low_percent);
     Ok(Traits {
-        job: job.map(JobRole::from),
+        job,
         dimensions: dimensions_m.map(|[length, width, height]| Dimensions {
             length: Some(length),
             width: Some(width),
