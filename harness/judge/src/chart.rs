@@ -25,8 +25,7 @@ use crossguard_endpoint::station::listen::overhear;
 use crossguard_robot::trace::{Entry, Record};
 
 use crate::seconds;
-pub(crate) use gather::Mark;
-use gather::{Arrow, ArrowHead, Gathering};
+use gather::{Arrow, ArrowHead, Gathering, Mark};
 use lines::LEFT;
 pub use words::text_of;
 use words::{SHOWS_NOTHING, note_of_input, note_of_output, people, road_users, said_in, shown_in};
@@ -173,11 +172,6 @@ impl Chart {
         line.chars().take(self.width - 1).chain(['…']).collect()
     }
 
-    /// The names above the columns.
-    pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.lanes.iter().map(|lane| lane.name.as_str())
-    }
-
     /// The line above the chart.
     #[must_use]
     pub fn header(&self) -> String {
@@ -296,13 +290,18 @@ impl Chart {
         self.drawn(marks)
     }
 
-    /// Marks that a record adds, by itself.
+    /// The notes that a record adds at its robot, by itself.
     #[cfg(feature = "full")]
-    pub(crate) fn marks(&mut self, record: &Record) -> Vec<Mark> {
+    pub(crate) fn notes(&mut self, record: &Record) -> Vec<String> {
         let ended = self.signs_that_ended(record);
         let (now, after) = self.marks_of(record);
-        let marks = ended.into_iter().chain(now).chain(after);
-        marks.map(|mark| self.named(mark)).collect()
+        let own = self.lane_named(&record.robot);
+        let notes = ended.into_iter().chain(now).chain(after);
+        let notes = notes.filter_map(|mark| match mark {
+            Mark::Note { lane, text } if Some(lane) == own => Some(self.names.tell(&text)),
+            Mark::Note { .. } | Mark::Arrow(_) => None,
+        });
+        notes.collect()
     }
 
     /// A message on its way: it is drawn where it was sent if it is heard soon.
@@ -634,11 +633,11 @@ mod tests {
         let mut chart = Chart::growing();
         let mut seen = 0;
         for record in &records {
-            let marks = chart.marks(record);
+            let notes = chart.notes(record);
             if acknowledges_and_starts(record) {
                 seen += 1;
-                let is_start = |mark: &Mark| matches!(mark, Mark::Note { text, .. } if text.starts_with("> start"));
-                assert!(marks.iter().any(is_start), "{marks:?}");
+                let is_start = |note: &String| note.starts_with("> start");
+                assert!(notes.iter().any(is_start), "{notes:?}");
             }
         }
         assert!(seen > 0);

@@ -33,7 +33,7 @@ use crossguard_robot::sight::{Degrees, Outline, Sight};
 use crossguard_robot::trace::{Entry, Record};
 use serde::{Serialize, Serializer};
 
-use crate::chart::{Chart, Mark, text_of};
+use crate::chart::{Chart, text_of};
 use crate::sniffer::place;
 
 /// Something that a record tells about its robot.
@@ -466,21 +466,13 @@ impl Observer {
     }
 
     /// The notes that the sequence chart has at this robot.
-    fn notes(&mut self, record: &Record) -> Vec<Fact> {
-        let is_drop = matches!(
+    fn notes(&mut self, record: &Record) -> impl Iterator<Item = Fact> {
+        let is_warning = matches!(
             record.entry,
             Entry::Dropped { .. } | Entry::Unrecorded { .. }
         );
-        let notes = self.chart.marks(record).into_iter();
-        let own = self.chart.names().position(|name| name == record.robot);
-        let note = |mark| match mark {
-            Mark::Note { lane, text } if Some(lane) == own => Some(Fact::Note {
-                is_warning: is_drop,
-                text,
-            }),
-            Mark::Note { .. } | Mark::Arrow(_) => None,
-        };
-        notes.filter_map(note).collect()
+        let notes = self.chart.notes(record).into_iter();
+        notes.map(move |text| Fact::Note { is_warning, text })
     }
 }
 
