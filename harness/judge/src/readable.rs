@@ -7,7 +7,7 @@
 //!
 //! A signed packet is taken apart as well, with who signed it; what it takes to make one is not in JSON.
 
-use crossguard_codec::geonet::{BasicHeader, Discarded, GeonetError, Headers, NextHeader};
+use crossguard_codec::geonet::{BasicHeader, Discarded, GeonetError, Headers};
 use crossguard_codec::its::ItsMessage;
 use crossguard_codec::{DecodeError, EncodeError, Identifiers};
 use crossguard_endpoint::station::listen::peek;
@@ -59,10 +59,7 @@ const fn is_true(is_so: &bool) -> bool {
 pub enum Unreadable {
     /// They begin like a packet and are none.
     #[error("a GeoNetworking packet: {0}")]
-    Packet(GeonetError),
-    /// They begin like a signed packet and are none.
-    #[error("a signed GeoNetworking packet: {0}")]
-    Signed(Discarded),
+    Packet(Discarded),
     /// They are no message.
     #[error(transparent)]
     Message(#[from] DecodeError),
@@ -73,8 +70,7 @@ impl Unreadable {
     #[must_use]
     pub const fn cause(&self) -> &'static str {
         match self {
-            Self::Packet(error) => Discarded::Headers(*error).cause(),
-            Self::Signed(discarded) => discarded.cause(),
+            Self::Packet(discarded) => discarded.cause(),
             Self::Message(error) => error.cause(),
         }
     }
@@ -92,12 +88,8 @@ impl Decoded {
     ) -> Result<Self, Unreadable> {
         // No message has the protocolVersion that the first octet of a packet would be.
         let (packet, message) = match BasicHeader::decode(octets) {
-            Ok((basic, _)) if basic.next == NextHeader::Secured => {
-                let (headers, message) = peek(octets).map_err(Unreadable::Signed)?;
-                (Some(headers), message)
-            }
             Ok(_) => {
-                let (headers, message) = Headers::decode(octets).map_err(Unreadable::Packet)?;
+                let (headers, message) = peek(octets).map_err(Unreadable::Packet)?;
                 (Some(headers), message)
             }
             Err(_) => (None, octets),
