@@ -16,6 +16,7 @@ pub use clocks::{NoOffset, Offset};
 pub use team::TeamSummary;
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use crossguard_protocol::{
     Command, Event, Input, ManeuverId, Notice, Output, ReleaseReason, Rmcm, SessionId, StationId,
@@ -321,14 +322,12 @@ impl Times {
     }
 }
 
-/// Text of [`Timing::offsets`] for logs with these names, a line for each pair.
-#[must_use]
-pub fn offsets_in_words(timing: &Timing, logs: &[String]) -> Vec<String> {
-    let name = |log: usize| logs.get(log).map_or("?", String::as_str);
-    let line = |((leader, follower), offset): ((usize, usize), Result<Offset, NoOffset>)| {
-        let (leader, follower) = (name(leader), name(follower));
-        match offset {
-            Ok(offset) => format!(
+impl fmt::Display for ClockDifference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (leader, follower) = (&self.leader, &self.follower);
+        match self.ahead {
+            Some(offset) => write!(
+                f,
                 "The clock of {follower} is {} ms ± {} ms ahead of that of {leader}, by {} messages there and {} back; \
                  T_neg is without it, and as uncertain",
                 milliseconds(offset.offset_us),
@@ -336,10 +335,15 @@ pub fn offsets_in_words(timing: &Timing, logs: &[String]) -> Vec<String> {
                 offset.there,
                 offset.back,
             ),
-            Err(why) => format!("Maneuvers of {leader} and {follower} are left out: {why}"),
+            None => {
+                let why = self.error.as_deref().unwrap_or_default();
+                write!(
+                    f,
+                    "Maneuvers of {leader} and {follower} are left out: {why}"
+                )
+            }
         }
-    };
-    timing.offsets().into_iter().map(line).collect()
+    }
 }
 
 #[expect(clippy::cast_precision_loss, reason = "for people to read")]

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::tracks::{Open, Track};
 use super::{Metres, Playback};
-use crate::timing::{Summary, offsets_in_words};
+use crate::timing::{Summary, Times};
 
 /// How many spans of states of a robot there are at most: a screen has no more columns.
 const COLUMNS: u64 = 1_500;
@@ -132,9 +132,9 @@ impl Playback {
         lanes.extend(strangers.map(|station| format!("station {station}")));
         lanes.extend(self.messages.has_others.then(|| "others".to_owned()));
         let causes = self.causes().into_iter();
-        let teams = self.timing.teams().into_iter();
-        let teams = teams.map(|team| format!("{team}."));
-        let offsets = offsets_in_words(&self.timing, logs).into_iter();
+        let times = Times::of(&self.timing, logs);
+        let teams = times.teams.iter().map(|team| format!("{team}."));
+        let clocks = times.clocks.iter().map(|clock| format!("{clock}."));
         Overview {
             began_ms: self.from_us / 1_000,
             lasted: self.since(self.to_us),
@@ -147,10 +147,8 @@ impl Playback {
                 .map(|cause| [cause.layer.name().to_owned(), cause.reason.to_string()])
                 .collect(),
             trials: self.trials(),
-            times: self.timing.summaries(),
-            notes_on_times: teams
-                .chain(offsets.map(|line| format!("{line}.")))
-                .collect(),
+            notes_on_times: teams.chain(clocks).collect(),
+            times: times.maneuvers,
             street: self.street(),
         }
     }
