@@ -193,7 +193,7 @@ impl<P: StateMachine> Endpoint<P> {
     /// Local dynamic map of the road users around.
     #[must_use]
     pub const fn map(&self) -> &LocalDynamicMap {
-        self.around.neighbours.map()
+        &self.around.neighbours.map
     }
 
     /// Counters of dropped and ignored inputs.
@@ -272,8 +272,8 @@ impl<P: StateMachine> Endpoint<P> {
             Stimulus::Time => {}
         }
         self.others.tell_of_people(exchange, &mut turn);
-        // A robot that protects somebody is not silent.
-        if exchange.robot().identity() != Identity::Unlocked || turn.announces_people() {
+        // Who protects somebody is not silent.
+        if exchange.robot().identity() != Identity::Unlocked || turn.around.surroundings.announces() {
             self.pseudonyms.break_silence();
         }
         if self.pseudonyms.is_silent(moment.now_ms) {
@@ -281,7 +281,7 @@ impl<P: StateMachine> Endpoint<P> {
         }
         let limits = Limits {
             congestion_ms: self.congestion_ms,
-            max_ms: turn.ram_interval_max_ms(),
+            max_ms: turn.around.surroundings.ram_interval_max_ms(),
         };
         exchange.generate(&mut turn, limits);
         // After a RAM, so that robots know it is one of theirs.

@@ -59,7 +59,8 @@ impl Pseudonyms {
         let envelope = exchange.stack_mut().envelope_mut();
         if let Some(taken) = self.take(envelope, &identifiers, &ego, &robot, lock_ms) {
             exchange.change_identity(turn, taken.station, Some(taken.next));
-            turn.renew_clusters(taken.clusters);
+            let surroundings = &mut turn.around.surroundings;
+            surroundings.renew_ids(now_ms, taken.clusters);
             self.fall_silent(taken.station, now_ms);
         }
         self.watch_end(exchange, turn, lock_ms);

@@ -42,7 +42,7 @@ impl<'a> Turn<'a> {
 
     pub(super) fn elapse(&mut self) {
         let now_ms = self.moment.now_ms;
-        self.around.neighbours.elapse(now_ms);
+        self.around.neighbours.map.forget(now_ms);
         self.around.surroundings.elapse(now_ms);
     }
 
@@ -58,21 +58,6 @@ impl<'a> Turn<'a> {
         if let Err(unplaced) = perceived {
             self.dropped(Cause::Unplaced, &unplaced, &[]);
         }
-    }
-
-    /// Whether it has people to announce, or to say of them that they are gone.
-    pub(super) fn announces_people(&self) -> bool {
-        self.around.surroundings.announces()
-    }
-
-    /// The people around are announced under other ids from now on.
-    pub(super) fn renew_clusters(&mut self, seed: u64) {
-        let surroundings = &mut self.around.surroundings;
-        surroundings.renew_ids(self.moment.now_ms, seed);
-    }
-
-    pub(super) fn ram_interval_max_ms(&self) -> u64 {
-        self.around.surroundings.ram_interval_max_ms()
     }
 
     /// A message was understood, from any sender.
@@ -174,8 +159,8 @@ impl Host for Turn<'_> {
     }
 
     fn vouched(&mut self, from: StationId, (signer, address): (Signer, Address)) {
-        let neighbours = &mut self.around.neighbours;
-        neighbours.bind(from, signer, address, self.moment.now_ms);
+        let namesakes = &mut self.around.neighbours.namesakes;
+        namesakes.bind(from, signer, address, self.moment.now_ms);
     }
 
     fn other(&mut self, me: &Robot, indication: &Indication<'_>, arrived: Arrived<'_>) {

@@ -64,7 +64,7 @@ impl Owner {
 }
 
 #[derive(Clone, Debug, Default)]
-pub(super) struct Namesakes {
+pub(crate) struct Namesakes {
     /// Robots, whose ids follow from their tickets. They have places of their own, which others cannot fill.
     robots: HashMap<StationId, Owner>,
     /// Other stations, whose ids do not follow from their tickets.
@@ -75,7 +75,7 @@ impl Namesakes {
     /// A robot was heard at `now_ms`, whose id follows from its ticket: the id is its own, whichever robot had it before.
     /// With more robots around than can be remembered, a new one is not: others may then go by its id, and its RAM
     /// are its own all the same.
-    pub(super) fn bind(
+    pub(crate) fn bind(
         &mut self,
         station: StationId,
         signer: Signer,

@@ -1,9 +1,8 @@
 //! Road users around a robot, and owners of station ids.
 
-use crossguard_codec::geonet::{Address, EgoPosition, Signer};
+use crossguard_codec::geonet::EgoPosition;
 use crossguard_codec::si::rebuild_timestamp;
 use crossguard_codec::{Heard, Identifiers, RoadUser};
-use crossguard_protocol::StationId;
 
 use super::map::LocalDynamicMap;
 use super::namesakes::Namesakes;
@@ -11,8 +10,8 @@ use super::namesakes::Namesakes;
 #[derive(Clone, Debug)]
 pub(crate) struct Neighbours {
     pub(super) identifiers: Identifiers,
-    pub(super) namesakes: Namesakes,
-    pub(super) map: LocalDynamicMap,
+    pub(crate) namesakes: Namesakes,
+    pub(crate) map: LocalDynamicMap,
 }
 
 impl Neighbours {
@@ -22,19 +21,6 @@ impl Neighbours {
             namesakes: Namesakes::default(),
             map: LocalDynamicMap::default(),
         }
-    }
-
-    /// The robot with this station id, which follows from the ticket of `signer`, is heard at `now_ms`.
-    pub(crate) fn bind(&mut self, from: StationId, signer: Signer, address: Address, now_ms: u64) {
-        self.namesakes.bind(from, signer, address, now_ms);
-    }
-
-    pub(crate) const fn map(&self) -> &LocalDynamicMap {
-        &self.map
-    }
-
-    pub(crate) fn elapse(&mut self, now_ms: u64) {
-        self.map.forget(now_ms);
     }
 
     /// Puts the sender of a RAM on the map, and the people that it announces.
