@@ -21,7 +21,7 @@ use std::fmt::Display;
 use area::Areas;
 use crossguard_codec::its::ItsMessage;
 use crossguard_codec::{
-    ConfidenceEllipse, Dimensions, Heard, Identifiers, RobotCategory, RobotState, Service,
+    ConfidenceEllipse, Dimensions, Heard, Identifiers, RobotState, Service,
 };
 use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::counters::{CauseName, Counts};
@@ -121,9 +121,6 @@ pub struct Placed {
     pub speed: Option<f64>,
     /// The box around it.
     pub dimensions: Dimensions,
-    /// Its build.
-    #[serde(skip)]
-    pub category: RobotCategory,
 }
 
 impl Placed {
@@ -141,7 +138,6 @@ impl Placed {
             heading: state.heading.map(|heading| heading.value),
             speed: state.speed.map(|speed| speed.value),
             dimensions: state.dimensions,
-            category: state.category,
         }))
     }
 }
