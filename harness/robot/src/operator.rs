@@ -66,19 +66,11 @@ pub enum Misunderstood {
     Surplus(String),
 }
 
-/// Understands a line. Places in it are on `site`.
+/// Understands a line. Places in it are on `site`; `detect` alone is the request that is `planned`.
 ///
 /// # Errors
 /// Why it means nothing.
-pub fn parse(text: &str, site: &Site) -> Result<Line, Misunderstood> {
-    parse_with(text, site, None)
-}
-
-/// The same; `detect` alone is this request, that of the robot's plan.
-///
-/// # Errors
-/// Why it means nothing.
-pub fn parse_with(
+pub fn parse(
     text: &str,
     site: &Site,
     planned: Option<HelpRequest>,

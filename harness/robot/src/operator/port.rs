@@ -25,7 +25,7 @@ use crossguard_protocol::{Event, HelpRequest, Input, Output, OutputKind, Robot};
 use serde_json::{Map, Value};
 
 use self::lines::{Fields, ToOperator, condition, said};
-use super::{Line, parse_with};
+use super::{Line, parse};
 use crate::perception::{self, Observation, Taken, instant_of};
 use crate::port::{Heard, Listening, Stream};
 use crate::runtime::{Clock, Order, Orders};
@@ -290,7 +290,7 @@ impl<O: Obeys> Counter<O> {
             Some("command") => {
                 let line = fields.get("line").and_then(Value::as_str);
                 let line = line.ok_or("a command wants a 'line'")?;
-                match parse_with(line, &self.desk.site, self.desk.planned) {
+                match parse(line, &self.desk.site, self.desk.planned) {
                     Ok(Line::Order(order)) => Ok(Some(order)),
                     Ok(Line::Quit) => Ok(Some(Order::Stop)),
                     Ok(Line::Blank) => Ok(None),

@@ -7,7 +7,7 @@ use crate::site::Place;
 use crate::table::rows;
 
 fn parsed(text: &str) -> Result<Line, String> {
-    parse(text, &Site::default()).map_err(|error| error.to_string())
+    parse(text, &Site::default(), None).map_err(|error| error.to_string())
 }
 
 #[test]

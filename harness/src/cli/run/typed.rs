@@ -43,7 +43,7 @@ pub(super) fn understood(
     by_person: bool,
 ) -> Result<Result<Line, String>, Failure> {
     let request = robot.plan().map(|plan| plan.request());
-    match operator::parse_with(text, &robot.site, request) {
+    match operator::parse(text, &robot.site, request) {
         Ok(Line::Wait(_) | Line::Until(..)) if by_person => Ok(Err(
             "'wait' and 'until' are for scripts that are piped in; a line that is typed is carried out at once"
                 .to_owned(),
