@@ -13,7 +13,6 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::{SystemTime, UNIX_EPOCH};
 
 #[cfg(feature = "full")]
 use crossguard_codec::security::issue::IssueError;
@@ -21,9 +20,9 @@ use crossguard_codec::security::{
     Certificate, Issuer, NoHashedId8, NoKey, PrivateKey, Rejected, Ticket, Time64, TrustStore,
     Unsigned, Untrusted,
 };
-use crossguard_codec::si::timestamp_its;
-
 use crossguard_endpoint::station::Credentials;
+
+use crate::runtime::timestamp_now;
 
 mod files;
 #[cfg(feature = "full")]
@@ -48,11 +47,7 @@ pub const EARLY_S: u64 = 60;
 /// Current time on the scale of certificates, by the system's clock.
 #[must_use]
 pub fn now() -> Time64 {
-    let unix = SystemTime::now()
-        .duration_since(UNIX_EPOCH)
-        .unwrap_or_default();
-    let unix_ms = i64::try_from(unix.as_millis()).unwrap_or(i64::MAX);
-    Time64::of_timestamp_its(timestamp_its(unix_ms))
+    Time64::of_timestamp_its(timestamp_now())
 }
 
 /// A certificate and its key.

@@ -31,7 +31,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver as Inbox, RecvTimeoutError, sync_channel};
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 use crossguard_codec::Identifiers;
 use crossguard_endpoint::cause::Cause;
@@ -42,13 +42,15 @@ use crossguard_endpoint::{Effect, Endpoint, Stimulus};
 use crossguard_protocol::{Config, Event, Output, Phase, Robot, StationId};
 
 pub use self::clock::Clock;
-use self::clock::{moment_at, seconds, unix_us};
+pub(crate) use self::clock::timestamp_now;
+use self::clock::{moment_at, seconds};
 use self::keeper::Keeper;
 use self::reader::{Reader, Waiting};
 pub use self::running::{Order, Orders, Panicked, Running};
 use self::sampler::Sampler;
 use crate::application::Application;
 use crate::around::Around;
+use crate::attachment::unix_us;
 use crate::boot::Boot;
 use crate::channel::Monitored;
 use crate::clock::ClockState;
@@ -239,7 +241,7 @@ impl Loop {
 
     fn run(&mut self, inbox: &Inbox<Delivery>) {
         let since_us = self.clock.now_us().saturating_sub(self.began_us);
-        let began_unix_us = unix_us().saturating_sub(since_us);
+        let began_unix_us = unix_us(SystemTime::now()).saturating_sub(since_us);
         let started = self.record_at(
             self.began_us,
             Entry::Started {

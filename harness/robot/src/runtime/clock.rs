@@ -1,9 +1,11 @@
 //! The clock of a run, and the wall clock.
 
-use std::time::{Instant, SystemTime, UNIX_EPOCH};
+use std::time::{Instant, SystemTime};
 
 use crossguard_codec::si::timestamp_its;
 use crossguard_endpoint::Moment;
+
+use crate::attachment::unix_us;
 
 /// A clock that several robots share, so that their logs line up.
 #[derive(Clone, Copy, Debug)]
@@ -54,16 +56,14 @@ pub(super) fn seconds(us: u64) -> f64 {
 
 /// This moment, which the clock shows as `now_us`.
 pub(super) fn moment_at(now_us: u64) -> Moment {
-    let unix_ms = i64::try_from(unix_us() / 1_000).unwrap_or(i64::MAX);
     Moment {
         now_ms: now_us / 1_000,
-        timestamp_its: timestamp_its(unix_ms),
+        timestamp_its: timestamp_now(),
     }
 }
 
-pub(super) fn unix_us() -> u64 {
-    let now = SystemTime::now()
-        .duration_since(UNIX_EPOCH)
-        .unwrap_or_default();
-    u64::try_from(now.as_micros()).unwrap_or(u64::MAX)
+/// `TimestampIts` by the system's clock.
+pub(crate) fn timestamp_now() -> u64 {
+    let unix_ms = unix_us(SystemTime::now()) / 1_000;
+    timestamp_its(i64::try_from(unix_ms).unwrap_or(i64::MAX))
 }
