@@ -19,7 +19,6 @@ mod faults;
 mod framing;
 mod layer;
 mod link;
-mod readiness;
 mod reopening;
 mod stamps;
 mod udp;

@@ -5,10 +5,11 @@ use std::os::fd::{AsFd, AsRawFd};
 use std::time::{Duration, Instant};
 
 use nix::errno::Errno;
+use nix::poll::{PollFd, PollFlags, ppoll};
 use nix::sys::socket::{MsgFlags, SockaddrStorage};
+use nix::sys::time::TimeSpec;
 
 use super::attention::Attention;
-use super::readiness::wait_for;
 use super::stamps::{Stamped, Stamps};
 use super::{DATAGRAM_MAX, Source};
 
@@ -58,6 +59,18 @@ impl<S: AsFd + AsRawFd> Datagrams<S> {
             Err(errno) => Err(errno.into()),
         }
     }
+}
+
+/// Waits until the socket has something, or an error, for so long at most. Fails by `EINTR` when a signal came.
+///
+/// The time-out of a socket (`SO_RCVTIMEO`) is one of whole ticks of the kernel, and mostly of one too many: with 250
+/// ticks a second, a wait of 10 ms takes 12 to 16. `ppoll` goes by the kernel's fine timers.
+fn wait_for(socket: &impl AsFd, at_most: Duration) -> Result<(), Errno> {
+    if at_most.is_zero() {
+        return Ok(());
+    }
+    let mut sockets = [PollFd::new(socket.as_fd(), PollFlags::POLLIN)];
+    ppoll(&mut sockets, Some(TimeSpec::from(at_most)), None).map(drop)
 }
 
 fn source_of(address: &SockaddrStorage) -> Source {
