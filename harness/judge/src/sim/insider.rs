@@ -10,6 +10,7 @@ use crossguard_codec::{Identifiers, RobotState};
 use crossguard_endpoint::station::Security;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_model_check::network::{Message, concerns};
+use crossguard_model_check::scenario::LyingPart;
 use crossguard_model_check::utterances::Utterances;
 use crossguard_protocol::{
     Config, Confirmation, Contact, Coordination, Corridor, Countdown, Event, Following, Heartbeat,
@@ -17,12 +18,52 @@ use crossguard_protocol::{
     Outputs, Phase, Ram, RequestId, Requesting, Robot, SessionNumber, StandingFarewell,
     StateMachine, StationId, TaskSet, TaskType, UniqueNumber,
 };
-use crossguard_robot::site::Site;
+use crossguard_robot::site::{Place, Site};
 use rand::seq::IndexedRandom;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::swarm::InsiderDraw;
+use super::swarm::Swarm;
+
+/// What is drawn for the insider of a run.
+#[derive(Clone, Debug)]
+pub struct InsiderDraw {
+    /// Its station id.
+    pub station: StationId,
+    /// What it mostly lies as.
+    pub part: LyingPart,
+    /// How long it is silent at most after it has said something, in milliseconds.
+    pub pause_ms: u32,
+    /// Where it says that it is.
+    pub place: Place,
+}
+
+impl Swarm {
+    /// The same run, with an insider that lies until the network is healed in this share of the seeds.
+    #[must_use]
+    pub fn with_insider(mut self, share: f64) -> Self {
+        let Some(mut draws) = self.draws_of(0x4c49_4152, share) else {
+            return self;
+        };
+        let parts = [
+            LyingPart::Follower,
+            LyingPart::Helper,
+            LyingPart::Bystander,
+            LyingPart::Leader,
+        ];
+        let station = u32::try_from(self.robots.len()).unwrap_or(0) + 1;
+        self.insider = Some(InsiderDraw {
+            station: StationId(station),
+            part: *parts.choose(&mut draws).unwrap_or(&LyingPart::Bystander),
+            pause_ms: draws.random_range(20..400),
+            place: Place::new(
+                draws.random_range(-10.0..10.0),
+                draws.random_range(-10.0..10.0),
+            ),
+        });
+        self
+    }
+}
 
 /// A robot that is whatever it says.
 #[derive(Debug)]

@@ -24,19 +24,18 @@ mod place;
 mod report;
 mod road;
 mod ruled;
-mod script;
 mod security;
 mod swarm;
 mod times;
 mod world;
 
 pub use fuzz::{Failure, Fuzz, Planned, Totals};
+pub use insider::InsiderDraw;
 pub use place::{CONFLICT_S, Measured};
 pub use report::{Files, write_failure};
 pub use ruled::Ruled;
-pub use script::{Deed, Happening};
 pub use swarm::{
-    Arrival, CarDraw, Demand, Habits, Hazard, Ids, InsiderDraw, Replay, RobotDraw, Sensing,
+    Arrival, CarDraw, Deed, Demand, Habits, Happening, Hazard, Ids, Replay, RobotDraw, Sensing,
     SourceDraw, Swarm,
 };
 pub use times::{Longest, Measure, Worst};

@@ -7,11 +7,10 @@
 mod demand;
 mod draws;
 mod hazards;
-mod insiders;
 mod sensing;
 
 use crossguard_model_check::timed::longest;
-use crossguard_protocol::{Config, Millis, Settings, StationId};
+use crossguard_protocol::{Config, Event, Millis, Settings, StationId};
 use crossguard_robot::body::Build;
 use crossguard_robot::plan::Plan;
 use crossguard_robot::site::Place;
@@ -23,10 +22,9 @@ pub use self::demand::{Arrival, Demand, Habits};
 pub(super) use self::demand::{DriverDraw, PersonDraw};
 use self::draws::Draws;
 pub use self::hazards::Hazard;
-pub use self::insiders::InsiderDraw;
 pub(super) use self::sensing::longest_us;
 pub use self::sensing::{CarDraw, Ids, Sensing, SourceDraw};
-use super::script::{Deed, Happening};
+use super::insider::InsiderDraw;
 
 /// By how much a station id grows when the robot changes its pseudonym.
 pub(super) const PSEUDONYM_STEP: u32 = 100;
@@ -104,6 +102,38 @@ pub struct Replay {
     pub packets: usize,
     /// The time from one to the next, in microseconds.
     pub every_us: u64,
+}
+
+/// Something that happens to one robot.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Happening {
+    /// When, in microseconds since the run began.
+    pub at_us: u64,
+    /// To which robot, by its place.
+    pub place: usize,
+    /// What.
+    pub deed: Deed,
+}
+
+/// What can happen to a robot.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Deed {
+    /// It detects a pedestrian.
+    Detect,
+    /// It loses its volatile state.
+    Crash,
+    /// It boots with the next boot counter, if it is down.
+    Boot,
+    /// Its body cannot finish what it does.
+    Fail,
+    /// Its application says this, whatever the plan says.
+    Event(Event),
+    /// It changes its pseudonym, if it may.
+    ChangeIdentity,
+    /// Its process hangs for this many milliseconds. What arrives waits for it.
+    Hang(u32),
+    /// Its body is pushed so far to the east and to the north, in metres.
+    Push([f64; 2]),
 }
 
 impl Swarm {
@@ -191,8 +221,8 @@ impl Swarm {
         corners.find(|corner| self.who_can_lead(*corner).len() >= enough)
     }
 
-    /// Draws apart from all others, in this share of the seeds. The draws of a seed are the same for every share.
-    fn draws_of(&self, salt: u64, share: f64) -> Option<ChaCha8Rng> {
+    /// Draws apart from all others, in this share of the seeds. Those of a seed are the same for every share.
+    pub(super) fn draws_of(&self, salt: u64, share: f64) -> Option<ChaCha8Rng> {
         let mut draws = ChaCha8Rng::seed_from_u64(self.seed ^ salt);
         // `random_bool` draws nothing for a share of 1.
         let part: f64 = draws.random();

@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use super::{Ids, RobotDraw, SECOND_US, Sensing, SourceDraw, Swarm};
-use crate::sim::script::{Deed, Happening};
+use crate::sim::swarm::{Deed, Happening};
 
 /// A road user who comes: a person on foot, or a vehicle.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -13,7 +13,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::{Replay, RobotDraw, SECOND_US, Swarm};
-use crate::sim::script::{Deed, Happening};
+use crate::sim::swarm::{Deed, Happening};
 
 pub(super) struct Draws(ChaCha8Rng);
 

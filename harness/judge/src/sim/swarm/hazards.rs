@@ -7,7 +7,7 @@ use crossguard_robot::transport::Faults;
 use serde::Serialize;
 
 use super::{RobotDraw, SourceDraw, Swarm};
-use crate::sim::script::Deed;
+use crate::sim::swarm::Deed;
 
 /// A table of hazards: their names, and what they are.
 macro_rules! hazards {

@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::draws::{CROSSINGS, PATIENCE_MS};
 use super::{SECOND_US, Swarm};
-use crate::sim::script::{Deed, Happening};
+use crate::sim::swarm::{Deed, Happening};
 
 /// Sensors of the robots, and vehicles on the street.
 #[derive(Clone, Debug)]

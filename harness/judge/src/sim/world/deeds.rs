@@ -15,7 +15,7 @@ use rand::seq::IndexedRandom;
 
 use super::{EPOCH_UNIX_MS, Finding, Next, World};
 use crate::sim::ruled::Ruled;
-use crate::sim::script::{Deed, Happening};
+use crate::sim::swarm::{Deed, Happening};
 use crate::sim::security;
 use crate::sim::swarm::PSEUDONYM_STEP;
 
