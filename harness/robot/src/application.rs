@@ -43,8 +43,8 @@ const WISHES: usize = 64;
 /// The application of a robot: a body, a sign, and a crossing machine.
 #[derive(Debug)]
 pub struct Application {
-    body: Box<dyn Body>,
-    /// The sign that people see while it leads.
+    pub(crate) body: Box<dyn Body>,
+    /// What people see while it leads.
     sign: Sign,
     /// Signals to people, as its robot's RAM report them.
     shown: Shown,
@@ -339,16 +339,6 @@ impl Application {
     pub fn stop(&mut self) {
         self.step(Input::Stopped);
         self.body.halt();
-    }
-
-    /// The driver of the body says that its fallback is finished.
-    pub fn finish_fallback(&mut self) {
-        self.body.finish_fallback();
-    }
-
-    /// Carries the body back to where it began.
-    pub fn reset(&mut self) {
-        self.body.carry_to_safe_place();
     }
 
     /// Something pushes the body off its place: see [`Body::push`].

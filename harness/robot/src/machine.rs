@@ -107,7 +107,7 @@ impl<P: StateMachine> Machine<P> {
     /// none runs; then a fallback that runs is finished.
     pub fn finish(&mut self, well: bool) -> Option<Event> {
         let Some(id) = self.executing() else {
-            self.application.finish_fallback();
+            self.application.body.finish_fallback();
             return None;
         };
         self.application.stop();

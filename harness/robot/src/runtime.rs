@@ -372,32 +372,17 @@ impl Loop {
                 seen = people.map(|vru| seen_from(place, vru)).collect();
                 Stimulus::Perceived(&seen)
             }
-            Order::LookedInVain(why) => {
-                self.machine.application_mut().look_in_vain(why);
-                Stimulus::Time
-            }
-            Order::Battery(battery) => {
-                self.machine.application_mut().set_battery(battery);
-                Stimulus::Time
-            }
-            Order::Show(signals) => {
-                self.machine.application_mut().show(signals);
-                Stimulus::Time
-            }
-            Order::Job(job) => {
-                self.machine.application_mut().set_job(job);
-                Stimulus::Time
-            }
-            Order::Serve(place) => {
-                self.machine.application_mut().serve(place);
+            Order::LookedInVain(_)
+            | Order::Battery(_)
+            | Order::Show(_)
+            | Order::Job(_)
+            | Order::Serve(_)
+            | Order::Reset => {
+                self.machine.application_mut().obey(order);
                 Stimulus::Time
             }
             Order::Count(cause, detail) => {
                 return self.drop(cause, detail.to_owned(), Vec::new());
-            }
-            Order::Reset => {
-                self.machine.application_mut().reset();
-                Stimulus::Time
             }
             Order::Stop => return self.begin_to_stop(),
             Order::Die => {

@@ -11,6 +11,7 @@ use crossguard_protocol::{Config, Event, Output, Phase, StationId, TaskType};
 use crossguard_robot::body::Build;
 use crossguard_robot::machine::Machine;
 use crossguard_robot::plan::{Leg, Plan, Stage};
+use crossguard_robot::runtime::Order;
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::street::Road;
 
@@ -53,7 +54,7 @@ fn the_other_robot_has_on_its_map_what_is_shown_to_people() {
     };
     let (stop, caution) = (PublicSignal::Stop, PublicSignal::Caution);
     let application = street.robot(0).application_mut();
-    application.show(shown(stop, caution));
+    application.obey(Order::Show(shown(stop, caution)));
     street.pass(2_000);
     assert_eq!(on_the_map(&mut street), Some(shown(stop, caution)));
     // A robot that asks for help or leads has a sign. Its RAM say what the sign shows, the first one, too.
@@ -68,7 +69,7 @@ fn the_other_robot_has_on_its_map_what_is_shown_to_people() {
         means: SignalMeans::default(),
         ..shown(PublicSignal::None, PublicSignal::None)
     };
-    street.robot(0).application_mut().show(quiet);
+    street.robot(0).application_mut().obey(Order::Show(quiet));
     street.pass(1_000);
     assert_eq!(
         on_the_map(&mut street),
@@ -99,7 +100,7 @@ fn who_holds_vehicles_back_shows_them_stop_until_the_road_is_clear() {
                 to_pedestrians: PublicSignal::None,
                 means: SignalMeans::GESTURE,
             };
-            street.robot(robot).application_mut().show(shown);
+            street.robot(robot).application_mut().obey(Order::Show(shown));
         }
         let to_vehicles = |street: &mut Street| {
             let state = street.robot(stays).application().state();

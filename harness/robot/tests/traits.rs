@@ -11,6 +11,7 @@ use crossguard_protocol::{Availability, Config, Event, Robot, StationId, Unavail
 use crossguard_robot::application::Application;
 use crossguard_robot::machine::Machine;
 use crossguard_robot::robot_file::RobotFile;
+use crossguard_robot::runtime::Order;
 
 fn read(more: &str) -> Result<RobotFile, String> {
     let folder = tempfile::tempdir().unwrap();
@@ -121,14 +122,14 @@ fn the_area_that_a_robot_serves_is_in_its_ram_and_can_be_changed_like_its_job() 
     let mut said = Said::by(&read("build = \"humanoid\"\njob = \"escort\"").unwrap());
     assert_eq!(said.next(Stimulus::Time).job_role, JobRole::Escort);
     let application = said.machine.application_mut();
-    application.serve(Some(segment));
-    application.set_job(JobRole::Patrol);
+    application.obey(Order::Serve(Some(segment)));
+    application.obey(Order::Job(JobRole::Patrol));
     let state = said.next(Stimulus::Time);
     assert_eq!(
         (area(&state), state.job_role),
         (Some(segment), JobRole::Patrol)
     );
-    said.machine.application_mut().serve(None);
+    said.machine.application_mut().obey(Order::Serve(None));
     assert_eq!(area(&said.next(Stimulus::Time)), None);
 }
 
@@ -137,10 +138,11 @@ fn a_low_battery_keeps_a_robot_out_until_it_is_charged() {
     let file = read("build = \"quadruped\"\nbattery = { low_percent = 20 }").unwrap();
     let mut said = Said::by(&file);
     let charge = |said: &mut Said, percent: f64| {
-        said.machine.application_mut().set_battery(Battery {
+        let battery = Battery {
             state_of_charge: Some(percent),
             charging: true,
-        });
+        };
+        said.machine.application_mut().obey(Order::Battery(battery));
         let state = said.next(Stimulus::Time);
         assert_eq!(state.battery.state_of_charge, Some(percent));
     };

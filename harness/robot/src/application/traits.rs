@@ -1,11 +1,12 @@
 //! Traits of a robot and state of its battery, from its robot file and its operator: they stand in every RAM.
 
 use crossguard_codec::{
-    Battery, Capabilities, Dimensions, JobRole, MapPlace, RobotState, SignalMeans, SignalsShown,
+    Battery, Capabilities, Dimensions, JobRole, RobotState, SignalMeans,
 };
 use crossguard_protocol::{Availability, Event, Robot, Unavailability};
 
 use super::{Application, Stimulus, micros};
+use crate::runtime::Order;
 use crate::sign::Shown;
 use crate::street::Road;
 
@@ -50,13 +51,7 @@ impl Application {
         Self { shown, ..self }
     }
 
-    /// Shows this to people from now on; without means, by those of before. While the robot asks for help or leads,
-    /// its sign says what is shown to pedestrians.
-    pub fn show(&mut self, signals: SignalsShown) {
-        self.shown.show(signals);
-    }
-
-    /// Tells a detected person to wait before help is asked for (the paper, section III-A, stage 2).
+    /// Somebody was detected: they are told to wait before help is asked for (the paper, section III-A, stage 2).
     pub(crate) const fn tell_people_to_wait(&mut self) {
         self.faces_people = true;
     }
@@ -94,22 +89,22 @@ impl Application {
         }
     }
 
-    /// Its battery is like this now.
-    pub const fn set_battery(&mut self, battery: Battery) {
-        self.traits.battery = Some(battery);
-    }
-
-    /// It is there for this job from now on.
-    pub const fn set_job(&mut self, job: JobRole) {
-        self.traits.job = Some(job);
-    }
-
-    /// It serves this road segment or intersection from now on, and the commands of its plan name it; none, if it
-    /// serves no place of a map.
-    pub fn serve(&mut self, place: Option<MapPlace>) {
-        self.site.map_place = place;
-        if let Some(plan) = &mut self.plan {
-            plan.site.map_place = place;
+    /// Carries out an order that is for the application alone; any other one changes nothing. What is shown to
+    /// pedestrians is what the sign says while the robot asks for help or leads.
+    pub fn obey(&mut self, order: Order) {
+        match order {
+            Order::LookedInVain(why) => self.look_in_vain(why),
+            Order::Battery(battery) => self.traits.battery = Some(battery),
+            Order::Show(signals) => self.shown.show(signals),
+            Order::Job(job) => self.traits.job = Some(job),
+            Order::Serve(place) => {
+                self.site.map_place = place;
+                if let Some(plan) = &mut self.plan {
+                    plan.site.map_place = place;
+                }
+            }
+            Order::Reset => self.body.carry_to_safe_place(),
+            _ => {}
         }
     }
 
