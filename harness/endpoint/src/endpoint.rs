@@ -273,7 +273,8 @@ impl<P: StateMachine> Endpoint<P> {
         }
         self.others.tell_of_people(exchange, &mut turn);
         // Who protects somebody is not silent.
-        if exchange.robot().identity() != Identity::Unlocked || turn.around.surroundings.announces() {
+        if exchange.robot().identity() != Identity::Unlocked || turn.around.surroundings.announces()
+        {
             self.pseudonyms.break_silence();
         }
         if self.pseudonyms.is_silent(moment.now_ms) {

@@ -20,9 +20,7 @@ use std::fmt::Display;
 
 use area::Areas;
 use crossguard_codec::its::ItsMessage;
-use crossguard_codec::{
-    ConfidenceEllipse, Dimensions, Heard, Identifiers, RobotState, Service,
-};
+use crossguard_codec::{ConfidenceEllipse, Dimensions, Heard, Identifiers, RobotState, Service};
 use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::counters::{CauseName, Counts};
 use crossguard_endpoint::station::listen::{message_of, overhear};

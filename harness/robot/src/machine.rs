@@ -22,8 +22,10 @@ const WISHES_PER_TURN: usize = 32;
 /// A robot's endpoint and application.
 #[derive(Debug)]
 pub struct Machine<P = Robot> {
-    endpoint: Endpoint<P>,
-    application: Application,
+    /// What it hears and says.
+    pub endpoint: Endpoint<P>,
+    /// What its body does.
+    pub application: Application,
 }
 
 impl<P: StateMachine> Machine<P> {
@@ -34,28 +36,6 @@ impl<P: StateMachine> Machine<P> {
             endpoint,
             application,
         }
-    }
-
-    /// The endpoint.
-    #[must_use]
-    pub const fn endpoint(&self) -> &Endpoint<P> {
-        &self.endpoint
-    }
-
-    /// The endpoint, to count what was dropped outside of it.
-    pub const fn endpoint_mut(&mut self) -> &mut Endpoint<P> {
-        &mut self.endpoint
-    }
-
-    /// The application.
-    #[must_use]
-    pub const fn application(&self) -> &Application {
-        &self.application
-    }
-
-    /// The application, to carry its body somewhere.
-    pub const fn application_mut(&mut self) -> &mut Application {
-        &mut self.application
     }
 
     /// Takes in what happened at `moment`, which is `now_s` seconds on the clock of the body. What

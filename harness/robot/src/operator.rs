@@ -70,11 +70,7 @@ pub enum Misunderstood {
 ///
 /// # Errors
 /// Why it means nothing.
-pub fn parse(
-    text: &str,
-    site: &Site,
-    planned: Option<HelpRequest>,
-) -> Result<Line, Misunderstood> {
+pub fn parse(text: &str, site: &Site, planned: Option<HelpRequest>) -> Result<Line, Misunderstood> {
     if text.trim_start().starts_with('{') {
         return person(text);
     }

@@ -234,7 +234,7 @@ struct Loop {
 impl Loop {
     /// The loop has panicked: nothing that it decided can be relied on, and nobody will tell the body anything more.
     fn halt_body(&mut self) {
-        let halt = || self.machine.application_mut().stop();
+        let halt = || self.machine.application.stop();
         // A body that cannot be halted has panicked, and the panic is told on standard error.
         let _ = catch_unwind(AssertUnwindSafe(halt));
     }
@@ -245,18 +245,18 @@ impl Loop {
         let started = self.record_at(
             self.began_us,
             Entry::Started {
-                station: self.machine.endpoint().robot().station(),
+                station: self.machine.endpoint.robot().station(),
                 boot: self.boot,
-                epoch: Some(self.machine.endpoint().robot().boot())
+                epoch: Some(self.machine.endpoint.robot().boot())
                     .filter(|epoch| *epoch != self.boot),
-                settings: Box::new(self.machine.endpoint().config().settings().clone()),
-                identifiers: *self.machine.endpoint().identifiers(),
+                settings: Box::new(self.machine.endpoint.config().settings().clone()),
+                identifiers: *self.machine.endpoint.identifiers(),
                 unix_ms: began_unix_us / 1_000,
-                speed: Some(self.machine.application().time_scale()),
+                speed: Some(self.machine.application.time_scale()),
             },
         );
         self.put(started);
-        if let Some(outline) = self.machine.application().zone() {
+        if let Some(outline) = self.machine.application.zone() {
             self.log(Entry::Zone(outline));
         }
         while !self.is_done() {
@@ -282,14 +282,14 @@ impl Loop {
             self.keep_time();
             self.control_congestion();
         }
-        if let Some(time) = self.machine.endpoint().trusted_time() {
+        if let Some(time) = self.machine.endpoint.trusted_time() {
             self.keeper.keep_last(time.mark());
         }
         self.count_overflow();
         if let Some(counters) = self.sampler.finish() {
             self.log(Entry::Unrecorded { counters });
         }
-        let counters = self.machine.endpoint().counters().named();
+        let counters = self.machine.endpoint.counters().named();
         let last = self.record(Entry::Stopped { counters });
         self.journal.put_last(last, LAST_RECORD_WAIT);
     }
@@ -297,11 +297,7 @@ impl Loop {
     /// How long the loop may wait for something to arrive.
     fn patience(&self) -> Duration {
         let now_us = self.clock.now_us();
-        let due_us = self
-            .machine
-            .endpoint()
-            .next_wakeup_ms()
-            .saturating_mul(1_000);
+        let due_us = self.machine.endpoint.next_wakeup_ms().saturating_mul(1_000);
         Duration::from_micros(due_us.saturating_sub(now_us)).min(BODY_PERIOD)
     }
 
@@ -337,7 +333,7 @@ impl Loop {
     /// Counts what the reader had no place for.
     fn count_overflow(&mut self) {
         for _ in 0..self.waiting.dropped.swap(0, Ordering::Relaxed) {
-            self.machine.endpoint_mut().count(Cause::InboxFull);
+            self.machine.endpoint.count(Cause::InboxFull);
         }
     }
 
@@ -350,22 +346,20 @@ impl Loop {
             Order::OutOfPosition => event(self.machine.executing().map(Event::OutOfPosition)),
             Order::Clear => {
                 // Where nothing waits for it, the robot says so.
-                let is_awaited = self.machine.application_mut().say_clear();
+                let is_awaited = self.machine.application.say_clear();
                 event((!is_awaited).then_some(Event::RoadClear))
             }
             Order::Finish { well } => event(self.machine.finish(well)),
             Order::Perceived(vru) => {
-                let place = self.machine.application().body().place();
-                let station = self.machine.endpoint().robot().station();
-                let application = self.machine.application_mut();
-                application.perceive(station, &vru);
+                let place = self.machine.application.body().place();
+                self.machine.application.perceive(&vru);
                 seen = vec![seen_from(place, vru)];
                 Stimulus::Perceived(&seen)
             }
             Order::Looked(frame, taken) => {
-                let place = self.machine.application().body().place();
+                let place = self.machine.application.body().place();
                 let taken_ms = self.clock.signed_ms(taken);
-                let application = self.machine.application_mut();
+                let application = &mut self.machine.application;
                 application.look_at(seconds(self.clock.now_us()), &frame, taken_ms);
                 let taken_ms = u64::try_from(taken_ms).unwrap_or(0);
                 let people = self.newest.look(&frame, taken_ms).into_iter();
@@ -378,7 +372,7 @@ impl Loop {
             | Order::Job(_)
             | Order::Serve(_)
             | Order::Reset => {
-                self.machine.application_mut().obey(order);
+                self.machine.application.obey(order);
                 Stimulus::Time
             }
             Order::Count(cause, detail) => {
@@ -397,7 +391,7 @@ impl Loop {
     fn control_congestion(&mut self) {
         let now_ms = self.now_ms();
         if let Some((interval_ms, news)) = self.channel.evaluate(now_ms) {
-            self.machine.endpoint_mut().hold_back(interval_ms);
+            self.machine.endpoint.hold_back(interval_ms);
             if let Some(state) = news {
                 self.log(Entry::Channel(state));
             }
@@ -422,7 +416,7 @@ impl Loop {
 
     /// Remembers the time for the next boot, and says whether the clock can be relied on.
     fn keep_time(&mut self) {
-        let Some(time) = self.machine.endpoint().trusted_time().copied() else {
+        let Some(time) = self.machine.endpoint.trusted_time().copied() else {
             return;
         };
         let state = ClockState::of(&time);
@@ -441,7 +435,7 @@ impl Loop {
     fn begin_to_stop(&mut self) {
         if !self.stopping {
             self.stopping = true;
-            let has_part = !matches!(self.machine.endpoint().robot().phase(), Phase::Idle);
+            let has_part = !matches!(self.machine.endpoint.robot().phase(), Phase::Idle);
             self.handle(event(has_part.then_some(Event::LeaveRequested)));
         }
     }
@@ -456,22 +450,22 @@ impl Loop {
         let shown = self.clock.now_us();
         let moment = moment_at(shown);
         let effects = self.machine.handle(moment, seconds(shown), stimulus);
-        // A sight is logged before the effects that follow from it.
-        if let Some(sight) = self.machine.application_mut().next_sight() {
+        // What the robot saw is logged before what it did by that.
+        if let Some(sight) = self.machine.application.next_sight() {
             let sighted = self.record_at(shown, Entry::People(sight));
             self.put(sighted);
         }
         for effect in effects {
             self.carry_out(effect);
         }
-        while let Some((cause, detail, count)) = self.machine.application_mut().next_trouble() {
+        while let Some((cause, detail, count)) = self.machine.application.next_trouble() {
             self.drop(cause, detail.into_owned(), Vec::new());
             for _ in 1..count {
-                self.machine.endpoint_mut().count(cause);
+                self.machine.endpoint.count(cause);
                 self.sampler.count(&cause.into());
             }
         }
-        if let Some(why) = self.machine.application_mut().next_hindrance() {
+        if let Some(why) = self.machine.application.next_hindrance() {
             let why = why.to_string();
             self.log(Entry::Hindered { why });
         }
@@ -487,8 +481,8 @@ impl Loop {
         if now_us.saturating_sub(*last_us) < AROUND_PERIOD_US {
             return;
         }
-        let own = self.machine.application().state().position;
-        let around = Around::of(self.machine.endpoint().map(), &own, now_us / 1_000);
+        let own = self.machine.application.state().position;
+        let around = Around::of(self.machine.endpoint.map(), &own, now_us / 1_000);
         let is_told = !(last.kinds.is_empty() && around.kinds.is_empty());
         self.around = (around.clone(), now_us);
         if is_told {
@@ -504,7 +498,7 @@ impl Loop {
         match &effect {
             Effect::Act(Output::RenewEpoch, _) => self.keeper.ask(),
             Effect::Stepped { state, .. } => {
-                let identifiers = self.machine.endpoint().identifiers();
+                let identifiers = self.machine.endpoint.identifiers();
                 self.waiting.partners.follow(state, identifiers);
             }
             _ => {}
@@ -521,7 +515,7 @@ impl Loop {
     }
 
     fn drop(&mut self, cause: Cause, detail: String, octets: Vec<u8>) {
-        self.machine.endpoint_mut().count(cause);
+        self.machine.endpoint.count(cause);
         self.log(Entry::Dropped {
             cause: cause.into(),
             detail,
@@ -541,7 +535,7 @@ impl Loop {
 
     fn put(&mut self, record: Record) {
         for lost in self.journal.put(record) {
-            self.machine.endpoint_mut().count(lost);
+            self.machine.endpoint.count(lost);
         }
     }
 

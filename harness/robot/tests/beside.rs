@@ -138,7 +138,7 @@ fn crossing(others: &Others, waits_from_ms: u32) -> (u32, Street<Done>) {
         let next_ms = street.now_ms + TICK_MS;
         if next_ms.is_multiple_of(100) && next_ms >= waits_from_ms {
             let frame = SensorFrame::of(&[waiting]);
-            let leader = street.robot(LEADER).application_mut();
+            let leader = &mut street.robot(LEADER).application;
             leader.look(&frame, Millis(0));
         }
         let now_ms = street.now_ms;
@@ -168,7 +168,7 @@ fn pedestrians_wait_for_a_car_that_another_implementation_signed() {
     assert!(go_ms > others.street_ms(9_200), "{go_ms}: the car is on it");
     assert!(go_ms < others.street_ms(12_000), "{go_ms}: it is gone");
     assert_eq!(street.notes.dropped, BTreeMap::new());
-    let map = street.robot(LEADER).endpoint().map();
+    let map = street.robot(LEADER).endpoint.map();
     for (sent, kind) in [
         ("CAM", Kind::Vehicle),
         ("VAM", Kind::Vru),
@@ -184,7 +184,7 @@ fn pedestrians_wait_for_a_car_that_another_implementation_signed() {
     }
     let (go_ms, mut street) = crossing(&others, waits_from_ms);
     assert!(go_ms < others.street_ms(8_000), "{go_ms}");
-    let map = street.robot(LEADER).endpoint().map();
+    let map = street.robot(LEADER).endpoint.map();
     let car = map.get(Identity::Station(others.stations["CAM"]));
     assert!(car.is_none(), "{car:?}");
     assert!(!street.notes.dropped.is_empty());

@@ -90,7 +90,7 @@ impl Crossing {
             {
                 let frame = SensorFrame::of(&[**vru]);
                 let leader = self.0.robot(0);
-                leader.application_mut().look(&frame, Millis(0));
+                leader.application.look(&frame, Millis(0));
                 let [vx, vy] = vru.velocity_mps;
                 vru.position_m = [vru.position_m[0] + vx * 0.1, vru.position_m[1] + vy * 0.1];
             }
@@ -109,7 +109,7 @@ impl Crossing {
 
     fn all_rest(&self) -> bool {
         let mut robots = self.0.robots.iter().flatten();
-        robots.all(|it| is_at_rest(it.endpoint().robot()))
+        robots.all(|it| is_at_rest(it.endpoint.robot()))
     }
 }
 
@@ -128,7 +128,7 @@ fn a_person_who_waits_is_helped_across_from_either_side() {
         crossing.pass_until(&mut waiting, |it| it.go);
         assert_eq!(crossing.calls, [Urgency::Medium]);
         // The helper has come to the side where the person waits.
-        let helper = crossing.0.robot(1).application().body().place();
+        let helper = crossing.0.robot(1).application.body().place();
         assert!((helper.north - kerb).abs() < 2.0, "{helper:?} for {kerb}");
         waiting.velocity_mps = [0.0, way_mps];
         crossing.pass(6_500, Some(&mut waiting));
@@ -179,8 +179,8 @@ fn a_person_who_tells_of_themselves_by_vam_is_called_for() {
         let mut map = LocalDynamicMap::default();
         map.observe(user, now_ms.into());
         let leader = crossing.0.robot(0);
-        let robot = leader.endpoint().robot().clone();
-        let application = leader.application_mut();
+        let robot = leader.endpoint.robot().clone();
+        let application = &mut leader.application;
         application.listen(&map, &robot, now_ms.into());
         crossing.pass(500, None);
     }

@@ -42,7 +42,7 @@ fn street() -> Street {
 fn the_other_robot_has_on_its_map_what_is_shown_to_people() {
     let mut street = street();
     let on_the_map = |street: &mut Street| {
-        let map = street.robot(1).endpoint().map();
+        let map = street.robot(1).endpoint.map();
         map.get(Identity::Station(1)).unwrap().user.signals
     };
     street.pass(2_000);
@@ -53,7 +53,7 @@ fn the_other_robot_has_on_its_map_what_is_shown_to_people() {
         means: SignalMeans::LIGHTS,
     };
     let (stop, caution) = (PublicSignal::Stop, PublicSignal::Caution);
-    let application = street.robot(0).application_mut();
+    let application = &mut street.robot(0).application;
     application.obey(Order::Show(shown(stop, caution)));
     street.pass(2_000);
     assert_eq!(on_the_map(&mut street), Some(shown(stop, caution)));
@@ -69,7 +69,7 @@ fn the_other_robot_has_on_its_map_what_is_shown_to_people() {
         means: SignalMeans::default(),
         ..shown(PublicSignal::None, PublicSignal::None)
     };
-    street.robot(0).application_mut().obey(Order::Show(quiet));
+    street.robot(0).application.obey(Order::Show(quiet));
     street.pass(1_000);
     assert_eq!(
         on_the_map(&mut street),
@@ -100,10 +100,10 @@ fn who_holds_vehicles_back_shows_them_stop_until_the_road_is_clear() {
                 to_pedestrians: PublicSignal::None,
                 means: SignalMeans::GESTURE,
             };
-            street.robot(robot).application_mut().obey(Order::Show(shown));
+            street.robot(robot).application.obey(Order::Show(shown));
         }
         let to_vehicles = |street: &mut Street| {
-            let state = street.robot(stays).application().state();
+            let state = street.robot(stays).application.state();
             state.slow.unwrap().signals.unwrap().to_vehicles
         };
         street.pass(1_000);
@@ -115,10 +115,10 @@ fn who_holds_vehicles_back_shows_them_stop_until_the_road_is_clear() {
         // The other robot is gone, and nobody knows whether somebody is on the road.
         street.robots[gone] = None;
         street.pass(70_000);
-        let robot = street.robot(stays).endpoint().robot();
+        let robot = street.robot(stays).endpoint.robot();
         assert!(robot.duty().is_some(), "{:?}", robot.phase());
         assert_eq!(to_vehicles(&mut street), PublicSignal::Stop);
-        street.robot(stays).application_mut().say_clear();
+        street.robot(stays).application.say_clear();
         street.pass(1_000);
         assert_eq!(to_vehicles(&mut street), PublicSignal::None);
     }
@@ -129,7 +129,7 @@ fn selects_after(street: &mut Street) -> u32 {
     let request = Plan::crossing(Site::default()).request();
     let asked_ms = street.now_ms;
     street.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
-    let leads = |it: &Machine| matches!(it.endpoint().robot().phase(), Phase::Leading(_));
+    let leads = |it: &Machine| matches!(it.endpoint.robot().phase(), Phase::Leading(_));
     while !leads(street.robot(0)) {
         street.pass(TICK_MS);
         assert!(street.now_ms < asked_ms + 2_000, "it never leads");

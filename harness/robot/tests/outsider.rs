@@ -27,7 +27,7 @@ fn machine(station: u32, plan: Option<Plan>, road: Road) -> Machine {
 }
 
 fn is_escorting(street: &mut Street<Done>) -> bool {
-    match street.robot(1).endpoint().robot().phase() {
+    match street.robot(1).endpoint.robot().phase() {
         Phase::Following(following) => following
             .executing()
             .is_some_and(|it| it.task == crossguard_protocol::TaskType::MOVE),
@@ -97,7 +97,7 @@ fn says_clear_at(leaves_ms: Option<u32>) -> (u32, bool) {
                 ..SensorFrame::of(&person[..usize::from(is_near)])
             };
             let (now_s, taken_ms) = (f64::from(street.now_ms) / 1e3, street.now_ms.into());
-            let follower = street.robot(1).application_mut();
+            let follower = &mut street.robot(1).application;
             follower.look_at(now_s, &frame, taken_ms);
         }
         street.now_ms += TICK_MS;
@@ -109,7 +109,7 @@ fn says_clear_at(leaves_ms: Option<u32>) -> (u32, bool) {
         }
     }
     let at_ms = street.now_ms;
-    let has_duty = |street: &mut Street<Done>| street.robot(1).endpoint().robot().duty().is_some();
+    let has_duty = |street: &mut Street<Done>| street.robot(1).endpoint.robot().duty().is_some();
     let at_once = has_duty(&mut street);
     street.pass(1_000);
     (at_ms, at_once && has_duty(&mut street))

@@ -62,7 +62,7 @@ impl Said {
     }
 
     fn availability(&self) -> Availability {
-        self.machine.endpoint().robot().availability()
+        self.machine.endpoint.robot().availability()
     }
 }
 
@@ -121,7 +121,7 @@ fn the_area_that_a_robot_serves_is_in_its_ram_and_can_be_changed_like_its_job() 
     }
     let mut said = Said::by(&read("build = \"humanoid\"\njob = \"escort\"").unwrap());
     assert_eq!(said.next(Stimulus::Time).job_role, JobRole::Escort);
-    let application = said.machine.application_mut();
+    let application = &mut said.machine.application;
     application.obey(Order::Serve(Some(segment)));
     application.obey(Order::Job(JobRole::Patrol));
     let state = said.next(Stimulus::Time);
@@ -129,7 +129,7 @@ fn the_area_that_a_robot_serves_is_in_its_ram_and_can_be_changed_like_its_job() 
         (area(&state), state.job_role),
         (Some(segment), JobRole::Patrol)
     );
-    said.machine.application_mut().obey(Order::Serve(None));
+    said.machine.application.obey(Order::Serve(None));
     assert_eq!(area(&said.next(Stimulus::Time)), None);
 }
 
@@ -142,7 +142,7 @@ fn a_low_battery_keeps_a_robot_out_until_it_is_charged() {
             state_of_charge: Some(percent),
             charging: true,
         };
-        said.machine.application_mut().obey(Order::Battery(battery));
+        said.machine.application.obey(Order::Battery(battery));
         let state = said.next(Stimulus::Time);
         assert_eq!(state.battery.state_of_charge, Some(percent));
     };
@@ -165,7 +165,7 @@ fn a_low_battery_keeps_a_robot_out_until_it_is_charged() {
     let back = Event::AvailabilityChanged(Availability::Available);
     let state = said.next(Stimulus::Event(back));
     assert_eq!(state.control_mode, ControlMode::Autonomous);
-    assert_eq!(said.machine.endpoint().robot().station(), StationId(1));
+    assert_eq!(said.machine.endpoint.robot().station(), StationId(1));
 }
 
 #[test]

@@ -538,7 +538,7 @@ impl<'a> World<'a> {
     /// The road looks at a robot.
     fn see(&mut self, place: usize) -> Result<(), Finding> {
         let seat = &self.seats[place];
-        let robot = seat.machine.as_ref().map(|it| it.endpoint().robot());
+        let robot = seat.machine.as_ref().map(|it| it.endpoint.robot());
         let ends_us = seat.sign.ends_us(seat.clock.shows_us(self.now_us));
         let sight = Sight {
             go_ends_us: ends_us.map(|shown_us| seat.clock.true_us(shown_us)),
@@ -636,7 +636,7 @@ impl<'a> World<'a> {
         let late_max_us = self.late_max_us(place);
         let seat = &mut self.seats[place];
         let Some(machine) = &seat.machine else { return };
-        let shown_ms = machine.endpoint().next_wakeup_ms();
+        let shown_ms = machine.endpoint.next_wakeup_ms();
         let due_us = seat
             .clock
             .true_us(shown_ms.saturating_mul(1_000))

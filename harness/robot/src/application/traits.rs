@@ -1,8 +1,6 @@
 //! Traits of a robot and state of its battery, from its robot file and its operator: they stand in every RAM.
 
-use crossguard_codec::{
-    Battery, Capabilities, Dimensions, JobRole, RobotState, SignalMeans,
-};
+use crossguard_codec::{Battery, Capabilities, Dimensions, JobRole, RobotState, SignalMeans};
 use crossguard_protocol::{Availability, Event, Robot, Unavailability};
 
 use super::{Application, Stimulus, micros};

@@ -53,7 +53,7 @@ impl Loop {
     pub(super) fn revoke(&mut self, list: Read) {
         match list {
             Ok(revoked) => {
-                self.machine.endpoint_mut().set_revoked(revoked);
+                self.machine.endpoint.set_revoked(revoked);
             }
             Err(error) => {
                 self.drop(Cause::RevokedUnread, error.to_string(), Vec::new());

@@ -116,8 +116,8 @@ impl World<'_> {
         };
         let mut map = LocalDynamicMap::default();
         map.observe(user, now_ms);
-        let robot = machine.endpoint().robot().clone();
-        machine.application_mut().listen(&map, &robot, now_ms);
+        let robot = machine.endpoint.robot().clone();
+        machine.application.listen(&map, &robot, now_ms);
         seat.heard_us.insert(number, self.now_us);
         self.handle(place, Stimulus::Time)
     }

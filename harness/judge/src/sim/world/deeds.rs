@@ -15,9 +15,9 @@ use rand::seq::IndexedRandom;
 
 use super::{EPOCH_UNIX_MS, Finding, Next, World};
 use crate::sim::ruled::Ruled;
-use crate::sim::swarm::{Deed, Happening};
 use crate::sim::security;
 use crate::sim::swarm::PSEUDONYM_STEP;
+use crate::sim::swarm::{Deed, Happening};
 
 /// How long after a sign began to show *go* something happens to its team, at most.
 const STRIKES_WITHIN_US: u64 = 1_500_000;
@@ -35,7 +35,7 @@ impl World<'_> {
                 let seat = &mut self.seats[place];
                 seat.observed.is_beside_road = false;
                 if let Some(machine) = &mut seat.machine {
-                    machine.application_mut().push(by);
+                    machine.application.push(by);
                 }
                 return Ok(());
             }

@@ -329,7 +329,7 @@ impl World<'_> {
         Ahead {
             on_road: on_road.collect(),
             waiting: waiting.map(is_known).reduce(|all, it| all && it),
-            robots: robots.map(|it| it.application().body().place()).collect(),
+            robots: robots.map(|it| it.application.body().place()).collect(),
             is_stop: self.is_fresh(self.flow.stop_us),
         }
     }
@@ -402,7 +402,7 @@ impl World<'_> {
             let at = self.seats[place]
                 .machine
                 .as_ref()?
-                .application()
+                .application
                 .body()
                 .place();
             let target = self.seats[place].observed.target?;

@@ -47,7 +47,7 @@ impl World<'_> {
             now_ms: self.now_us / 1_000,
             timestamp_its: timestamp_at(self.now_us / 1_000),
         };
-        let (hearer, request) = (machine.endpoint().robot(), seat.draw.plan.request());
+        let (hearer, request) = (machine.endpoint.robot(), seat.draw.plan.request());
         let packets = insider.lie(moment, hearer, &seat.draw.config, request);
         for packet in packets {
             self.spread(&packet);

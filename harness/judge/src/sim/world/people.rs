@@ -274,7 +274,7 @@ impl World<'_> {
         let street = self.corners[corner].street.clone();
         if let Some(machine) = &mut self.seats[place].machine {
             let road = Road::Known(street);
-            machine.application_mut().come_to(road);
+            machine.application.come_to(road);
         }
     }
 }

@@ -187,8 +187,8 @@ impl World<'_> {
         let FrameInFlight { taken_us, frame } = &self.frames[number];
         let shown_ms = |at_us: u64| seat.clock.shows_us(at_us) / 1_000;
         let (taken_ms, now_ms) = (shown_ms(*taken_us), shown_ms(self.now_us));
-        let own = machine.application().body().place();
-        let application = machine.application_mut();
+        let own = machine.application.body().place();
+        let application = &mut machine.application;
         let Some(frame) = frame else {
             application.look_in_vain("a frame");
             return self.handle(place, Stimulus::Time);

@@ -245,7 +245,7 @@ impl World<'_> {
                 };
                 continue;
             };
-            let at = machine.application().body().place();
+            let at = machine.application.body().place();
             self.judge_step(place, at)?;
             let settings = self.seats[place].draw.config.settings();
             match self.monitor.node(place).actuation.body {
