@@ -49,7 +49,7 @@ pub struct Application {
     /// Signals to people, as its robot's RAM report them.
     shown: Shown,
     /// Whether its robot asks for help or leads, so that people look at its sign.
-    faces_people: bool,
+    pub(crate) faces_people: bool,
     /// Whether it counts on the people of a simulation that it keeps: it leads, or its crossing is not over.
     counts: bool,
     /// Its knowledge of the people on the road.
@@ -62,7 +62,7 @@ pub struct Application {
     /// The reason that keeps people from crossing, as told last.
     hindrance: Option<Hindrance>,
     /// The same, until it is logged.
-    untold_hindrance: Option<Hindrance>,
+    pub(crate) untold_hindrance: Option<Hindrance>,
     said: Said,
     traits: Traits,
     availability: Availability,
@@ -256,15 +256,10 @@ impl Application {
         }
     }
 
-    /// New reason that keeps people from crossing, for the log.
-    pub(crate) const fn next_hindrance(&mut self) -> Option<Hindrance> {
-        self.untold_hindrance.take()
-    }
-
     /// Takes in what the protocol knows after a step.
     pub fn learn(&mut self, robot: &Robot, config: &Config) {
         self.setup.learn(config);
-        self.learn_availability(robot);
+        self.availability = robot.availability();
         let leads = matches!(robot.phase(), Phase::Leading(_));
         self.faces_people = leads || matches!(robot.phase(), Phase::Requesting(_));
         self.shown.holds_back = self.holds_back(robot);

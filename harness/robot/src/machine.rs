@@ -58,7 +58,8 @@ impl<P: StateMachine> Machine<P> {
     fn turn(&mut self, moment: Moment, stimulus: Stimulus<'_>) -> Vec<Effect> {
         let is_heard = matches!(stimulus, Stimulus::Datagram { .. });
         if matches!(stimulus, Stimulus::Event(Event::PedestrianDetected(_))) {
-            self.application.tell_people_to_wait();
+            // They are told to wait before help is asked for (the paper, section III-A, stage 2).
+            self.application.faces_people = true;
         }
         let state = self.application.state();
         let effects = self.endpoint.handle(moment, &state, stimulus);

@@ -150,8 +150,8 @@ impl Setup {
         let began_us = self.clock.now_us();
         let now_ms = began_us / 1_000;
         let memory = self.boot.take_memory();
-        let security = self.security.with_secret(memory.secret());
-        let security = security.since(memory.known());
+        let security = self.security.with_secret(memory.secret);
+        let security = security.since(memory.known);
         let station = security.station_id(&self.identifiers, self.station);
         let boot = self.boot.counter;
         let epoch = security.epoch(station, boot);
@@ -465,7 +465,7 @@ impl Loop {
                 self.sampler.count(&cause.into());
             }
         }
-        if let Some(why) = self.machine.application.next_hindrance() {
+        if let Some(why) = self.machine.application.untold_hindrance.take() {
             let why = why.to_string();
             self.log(Entry::Hindered { why });
         }

@@ -1,7 +1,7 @@
 //! Traits of a robot and state of its battery, from its robot file and its operator: they stand in every RAM.
 
 use crossguard_codec::{Battery, Capabilities, Dimensions, JobRole, RobotState, SignalMeans};
-use crossguard_protocol::{Availability, Event, Robot, Unavailability};
+use crossguard_protocol::{Availability, Event, Unavailability};
 
 use super::{Application, Stimulus, micros};
 use crate::runtime::Order;
@@ -49,12 +49,7 @@ impl Application {
         Self { shown, ..self }
     }
 
-    /// Somebody was detected: they are told to wait before help is asked for (the paper, section III-A, stage 2).
-    pub(crate) const fn tell_people_to_wait(&mut self) {
-        self.faces_people = true;
-    }
-
-    /// Its capabilities besides maneuvers: by its sensors, its plan, and the means by which it shows signals.
+    /// What it can do besides maneuvers: by its sensors, its plan, and the means by which it shows signals.
     fn capabilities(&self) -> Capabilities {
         let means = self.shown.means();
         let has_sensors = !matches!(self.road, Road::Unknown | Road::Heard(_));
@@ -104,11 +99,6 @@ impl Application {
             Order::Reset => self.body.carry_to_safe_place(),
             _ => {}
         }
-    }
-
-    /// Takes in whether the robot is available.
-    pub(super) const fn learn_availability(&mut self, robot: &Robot) {
-        self.availability = robot.availability();
     }
 
     /// Says that the battery is low, or is not any more. Another reason to be unavailable stands.

@@ -31,8 +31,10 @@ const TIME: &str = "crossguard time";
 /// Data that outlive a boot besides the counter.
 #[derive(Clone, Debug)]
 pub struct Memory {
-    secret: Secret,
-    known: Time64,
+    /// What the robot draws its pseudonyms with.
+    pub secret: Secret,
+    /// A time that is not earlier than the newest that the robot has had before this boot.
+    pub known: Time64,
     /// Where the time is kept; nowhere, for robots of which nothing outlives the process.
     path: Option<PathBuf>,
 }
@@ -57,18 +59,6 @@ impl Memory {
             known: read_time(&time)?,
             path: Some(time),
         })
-    }
-
-    /// Secret from which the robot draws its pseudonyms.
-    #[must_use]
-    pub const fn secret(&self) -> Secret {
-        self.secret
-    }
-
-    /// A time that is not earlier than the newest that the robot has had before this boot.
-    #[must_use]
-    pub const fn known(&self) -> Time64 {
-        self.known
     }
 
     /// Writes that the robot will not have gone beyond this time.
@@ -159,7 +149,7 @@ mod tests {
     #[test]
     fn a_secret_is_made_once_and_is_its_owners() {
         let (_folder, counter) = counter();
-        let epoch = |memory: &Memory| memory.secret().epoch(StationId(7), 1);
+        let epoch = |memory: &Memory| memory.secret.epoch(StationId(7), 1);
         let first = Memory::beside(&counter).unwrap();
         let again = Memory::beside(&counter).unwrap();
         assert_eq!(epoch(&first), epoch(&again));
@@ -174,12 +164,12 @@ mod tests {
     fn the_time_outlives_a_crash() {
         let (_folder, counter) = counter();
         let memory = Memory::beside(&counter).unwrap();
-        assert_eq!(memory.known(), Time64(0));
+        assert_eq!(memory.known, Time64(0));
         for time in [Time64(100), Time64(100 + AHEAD_US)] {
             memory.keep(time).unwrap();
-            assert_eq!(Memory::beside(&counter).unwrap().known(), time);
+            assert_eq!(Memory::beside(&counter).unwrap().known, time);
         }
-        assert_eq!(Memory::nowhere().known(), Time64(0));
+        assert_eq!(Memory::nowhere().known, Time64(0));
     }
 
     #[test]
