@@ -349,7 +349,7 @@ impl LoggedRobots {
             }));
         }
         let follow = self.robots.get_mut(robot).ok_or(Fault::NotStarted)?;
-        follow.tick(at_us)?;
+        follow.time.tick(at_us)?;
         match entry {
             Entry::Started { .. }
             | Entry::Zone(_)
@@ -375,7 +375,7 @@ impl LoggedRobots {
                 let broken = self.monitor.step(follow.place, input, &outputs, &state);
                 let broken =
                     broken.or_else(|| self.crossings.shown(&outputs, &state, &mut self.monitor));
-                let overdue_us = follow.overdue_us();
+                let overdue_us = follow.time.overdue_us(follow.robot.next_due());
                 match broken {
                     Some(broken) => Err(Fault::Broken(broken)),
                     None => Ok(Some(ClockEntry::Step {

@@ -321,7 +321,7 @@ impl Crossing {
         let (Some(_), None, Some(word)) = (before, guards, word) else {
             return Ok(());
         };
-        self.left += usize::from(self.ground.has_sights());
+        self.left += usize::from(self.ground.has_sights);
         let left = Left {
             robot: robot.to_owned(),
             word,
@@ -442,7 +442,7 @@ impl Crossing {
 
     /// Judged and unjudged properties, a sentence for each.
     pub(super) fn verdict(&self) -> Vec<String> {
-        let people = match (self.ground.has_sights(), self.ground.has_road()) {
+        let people = match (self.ground.has_sights, self.ground.has_road()) {
             (false, _) => Some("no sight in the log"),
             (true, false) => Some("no outline of a road in the log"),
             (true, true) => None,

@@ -38,7 +38,7 @@ pub(super) struct Ground {
     /// By the robots that told of them.
     roads: BTreeMap<String, Carriageway>,
     watchers: BTreeMap<String, Watcher>,
-    has_sights: bool,
+    pub(super) has_sights: bool,
     /// How many times as fast as real the fastest robot moves; 0 before any has said it.
     speed: f64,
 }
@@ -76,10 +76,6 @@ impl Ground {
         let (latitude, longitude) = *self.origin.get_or_insert(place);
         let east = (place.1 - longitude) * latitude.to_radians().cos();
         [east, place.0 - latitude].map(|degrees| degrees * METRES_PER_DEGREE)
-    }
-
-    pub(super) const fn has_sights(&self) -> bool {
-        self.has_sights
     }
 
     pub(super) fn has_road(&self) -> bool {

@@ -38,7 +38,7 @@ pub(super) struct Follow {
     has_epoch: bool,
     pub(super) config: Config,
     pub(super) identifiers: Identifiers,
-    time: ToldTime,
+    pub(super) time: ToldTime,
     owed: VecDeque<Owed>,
     heard: VecDeque<Input>,
     counted: Counts,
@@ -75,15 +75,6 @@ impl Follow {
 
     pub(super) const fn may_reboot_with(&self, boot: u16) -> bool {
         boot > self.boot && (self.has_epoch || boot > self.robot.boot())
-    }
-
-    pub(super) fn tick(&mut self, at_us: u64) -> Result<(), Fault> {
-        self.time.tick(at_us)
-    }
-
-    /// When the robot's next step comes too late, on the log's clock.
-    pub(super) fn overdue_us(&self) -> Option<u64> {
-        self.time.overdue_us(self.robot.next_due())
     }
 
     /// The robot takes a step. By how many µs it comes too late, if it does.
