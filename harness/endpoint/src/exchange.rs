@@ -41,7 +41,7 @@ pub struct Exchange<P = Robot> {
     protocol: P,
     config: Config,
     identifiers: Identifiers,
-    stack: Stack,
+    pub(crate) stack: Stack,
     /// Until when the robot knows that time passed.
     elapsed_to_ms: u64,
     generation: Generation,
@@ -88,16 +88,6 @@ impl<P: StateMachine> Exchange<P> {
     /// Until when the robot knows that time passed, on the clock of [`Moment::now_ms`].
     pub const fn elapsed_to_ms(&self) -> u64 {
         self.elapsed_to_ms
-    }
-
-    /// Stack that makes packets of messages, and opens them.
-    pub const fn stack(&self) -> &Stack {
-        &self.stack
-    }
-
-    /// The same, to change it.
-    pub const fn stack_mut(&mut self) -> &mut Stack {
-        &mut self.stack
     }
 
     /// Lets the time pass until that of the host.

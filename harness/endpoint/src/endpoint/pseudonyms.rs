@@ -18,14 +18,14 @@ impl<P: StateMachine> Endpoint<P> {
     #[must_use]
     pub fn with_security(mut self, security: Security) -> Self {
         self.pseudonyms = Pseudonyms::new(security.secret, security.pseudonym_period_ms);
-        *self.exchange.stack_mut().envelope_mut() = security.envelope;
+        *self.exchange.stack.envelope_mut() = security.envelope;
         self
     }
 
     /// The time that packets are verified by, and whether the clock is trusted. `None` without security.
     #[must_use]
     pub const fn trusted_time(&self) -> Option<&TrustedTime> {
-        match self.exchange.stack().envelope() {
+        match self.exchange.stack.envelope() {
             Envelope::Secured(secured) => Some(secured.station().verifier().time()),
             _ => None,
         }
@@ -33,7 +33,7 @@ impl<P: StateMachine> Endpoint<P> {
 
     /// Trusts none of these certificates from now on, instead of the ones that were revoked before.
     pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
-        if let Envelope::Secured(secured) = self.exchange.stack_mut().envelope_mut() {
+        if let Envelope::Secured(secured) = self.exchange.stack.envelope_mut() {
             secured.set_revoked(revoked);
         }
     }
@@ -48,7 +48,7 @@ impl Pseudonyms {
         turn: &mut Turn<'_>,
     ) {
         let (ego, now_ms) = (turn.ego(), turn.moment().now_ms);
-        if let Envelope::Secured(secured) = exchange.stack_mut().envelope_mut() {
+        if let Envelope::Secured(secured) = exchange.stack.envelope_mut() {
             secured.look_at_clock(&ego, now_ms);
         }
         if exchange.robot().identity() != Identity::Unlocked {
@@ -56,7 +56,7 @@ impl Pseudonyms {
         }
         let lock_ms = u64::from(exchange.config().settings().t_lock.0);
         let (identifiers, robot) = (*exchange.identifiers(), exchange.robot().clone());
-        let envelope = exchange.stack_mut().envelope_mut();
+        let envelope = exchange.stack.envelope_mut();
         if let Some(taken) = self.take(envelope, &identifiers, &ego, &robot, lock_ms) {
             exchange.change_identity(turn, taken.station, Some(taken.next));
             let surroundings = &mut turn.around.surroundings;
@@ -74,7 +74,7 @@ impl Pseudonyms {
         turn: &mut Turn<'_>,
         lock_ms: u64,
     ) {
-        let Envelope::Secured(secured) = exchange.stack().envelope() else {
+        let Envelope::Secured(secured) = exchange.stack.envelope() else {
             return;
         };
         let validity = secured.station().ticket().certificate().content().validity;
@@ -107,7 +107,7 @@ impl Pseudonyms {
         if let Event::AvailabilityChanged(_) = event {
             self.have_ended = false;
         }
-        match (event, exchange.stack().envelope()) {
+        match (event, exchange.stack.envelope()) {
             (Event::EpochRenewed(boot), Envelope::Secured(_)) => {
                 Event::EpochRenewed(self.epoch(exchange.robot().station(), boot))
             }
