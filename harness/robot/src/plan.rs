@@ -2,6 +2,7 @@
 
 use crossguard_codec::PublicSignal;
 use crossguard_crossing as crossing;
+pub use crossguard_crossing::Who;
 use crossguard_protocol::{HelpRequest, Millis, StationId, TaskSet, TaskType, Urgency};
 
 use crate::site::{Place, Site};
@@ -28,16 +29,7 @@ pub struct Stage {
     pub parts: Vec<(Who, Leg)>,
 }
 
-/// The robots that do a part.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Who {
-    /// Every follower without a part of its own in the stage, side by side.
-    Everybody,
-    /// The follower with this role of the plan.
-    Role(usize),
-}
-
-/// Plan of a leader for its followers.
+/// What a leader has its followers do.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Plan {
     /// Where it happens.
@@ -180,15 +172,11 @@ impl Plan {
     /// The plan as the crossing machine has it.
     #[must_use]
     pub fn lead(&self) -> crossing::Plan {
-        let who = |who: &Who| match who {
-            Who::Everybody => crossing::Who::Everybody,
-            Who::Role(role) => crossing::Who::Role(u8::try_from(*role).unwrap_or(u8::MAX)),
-        };
         let stages = self.stages.iter().map(|stage| crossing::Stage {
             parts: stage
                 .parts
                 .iter()
-                .map(|(it, leg)| (who(it), leg.lead()))
+                .map(|(who, leg)| (*who, leg.lead()))
                 .collect(),
         });
         crossing::Plan {

@@ -31,7 +31,7 @@ use serde::Deserialize;
 
 use crate::body::Build;
 use crate::located::{self, FileError};
-use crate::plan::{Plan, Stage, Who};
+use crate::plan::{Leg, Plan, Stage, Who};
 use crate::site::Place;
 use crate::site_file::SiteFile;
 
@@ -54,7 +54,7 @@ pub struct PlanFile {
     /// How urgent it is.
     pub urgency: Urgency,
     /// The stages. A part is of the follower with this number, of all that the file has.
-    pub stages: Vec<Stage>,
+    pub stages: Vec<Vec<(usize, Leg)>>,
     /// For how long a simulated pedestrian is on the road, in seconds.
     pub crossing_s: f64,
     /// After which time the leader gives up, in seconds.
@@ -231,17 +231,16 @@ impl PlanFile {
         let mut roles = Vec::new();
         for follower in followers {
             let takes_part = team.iter().any(|role| role.name == follower.name);
-            seats.push(takes_part.then_some(roles.len()));
+            let seat = u8::try_from(roles.len()).unwrap_or(u8::MAX);
+            seats.push(takes_part.then_some(seat));
             if takes_part {
                 roles.push(follower.station.filter(|_| !follower.any));
             }
         }
         let leader = self.leader(leader);
         let stages = self.stages.iter().map(|stage| {
-            let parts = stage.parts.iter().filter_map(|(who, leg)| match who {
-                Who::Role(number) => Some((Who::Role((*seats.get(*number)?)?), *leg)),
-                Who::Everybody => Some((Who::Everybody, *leg)),
-            });
+            let parts = stage.iter();
+            let parts = parts.filter_map(|(it, leg)| Some((Who::Role((*seats.get(*it)?)?), *leg)));
             Stage {
                 parts: parts.collect(),
             }

@@ -12,7 +12,7 @@ use toml::Spanned;
 use super::tables::{DemoTable, EndName, PartTable, PlanTables, RoleTable, SignalName, SpotName};
 use super::{APART_M, Car, Ending, PlanFile, Role, safety};
 use crate::located::{self, Exact, Misfit};
-use crate::plan::{Leg, Stage, Who};
+use crate::plan::Leg;
 use crate::site::Place;
 use crate::site_file::{Purpose, SiteFile};
 
@@ -152,7 +152,11 @@ fn roles(tables: &[Spanned<RoleTable>], site: &SiteFile) -> Result<Vec<Role>, Mi
     Ok(roles)
 }
 
-fn stages(tables: &PlanTables, followers: &[&Role], site: &SiteFile) -> Result<Vec<Stage>, Misfit> {
+fn stages(
+    tables: &PlanTables,
+    followers: &[&Role],
+    site: &SiteFile,
+) -> Result<Vec<Vec<(usize, Leg)>>, Misfit> {
     if tables.stages.is_empty() {
         return Err(Misfit::whole("there is no stage"));
     }
@@ -169,10 +173,9 @@ fn stages(tables: &PlanTables, followers: &[&Role], site: &SiteFile) -> Result<V
                 let what = format!("no follower has the role '{name}'; there are {names}");
                 return Err(Misfit::at(part, what));
             };
-            Ok((Who::Role(number), leg(part.get_ref(), site)?))
+            Ok((number, leg(part.get_ref(), site)?))
         });
-        let parts = parts.collect::<Result<_, _>>()?;
-        stages.push(Stage { parts });
+        stages.push(parts.collect::<Result<_, _>>()?);
     }
     Ok(stages)
 }
@@ -236,21 +239,18 @@ fn place(
     Ok(spot.place)
 }
 
-/// Checks that no two robots are sent to one place. A robot without a part in a stage stays where its last one led.
-fn apart(tables: &PlanTables, roles: &[Role], stages: &[Stage]) -> Result<(), Misfit> {
+/// Looks that no two robots are sent to one place. Who has no part in a stage stays where its last one led.
+fn apart(tables: &PlanTables, roles: &[Role], stages: &[Vec<(usize, Leg)>]) -> Result<(), Misfit> {
     let leaders = roles.iter().filter(|role| role.leads);
     let stand = leaders.filter_map(|role| Some((&*role.name, role.stands.or(role.waits)?)));
     let leaders: Vec<_> = stand.collect();
     let followers: Vec<_> = roles.iter().filter(|role| !role.leads).collect();
     let mut targets = BTreeMap::new();
     for (stage, table) in stages.iter().zip(&tables.stages) {
-        for (who, leg) in &stage.parts {
-            if let Who::Role(number) = who {
-                targets.insert(*number, leg.to);
-            }
+        for (number, leg) in stage {
+            targets.insert(*number, leg.to);
         }
-        for (who, leg) in &stage.parts {
-            let Who::Role(own) = who else { continue };
+        for (own, leg) in stage {
             let (own, name) = (*own, &followers[*own].name);
             let others = targets.iter().filter(|(number, _)| **number != own);
             let others = others.map(|(number, place)| (&*followers[*number].name, *place));

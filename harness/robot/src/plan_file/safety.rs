@@ -6,7 +6,7 @@ use toml::Spanned;
 use super::Role;
 use super::tables::PlanTables;
 use crate::located::Misfit;
-use crate::plan::{Leg, Stage, Who};
+use crate::plan::Leg;
 use crate::site_file::SiteFile;
 
 /// The maneuvers that take a person on the road: they guard, and hold no place.
@@ -24,13 +24,9 @@ fn at(tables: &PlanTables, stage: usize, role: &str, what: String) -> Misfit {
 }
 
 /// The legs of followers that have roles, in order: the number of the stage, that of the follower, and its leg.
-fn legs(stages: &[Stage]) -> impl Iterator<Item = (usize, usize, &Leg)> {
-    stages.iter().enumerate().flat_map(|(number, stage)| {
-        stage.parts.iter().filter_map(move |(who, leg)| match who {
-            Who::Role(follower) => Some((number, *follower, leg)),
-            Who::Everybody => None,
-        })
-    })
+fn legs(stages: &[Vec<(usize, Leg)>]) -> impl Iterator<Item = (usize, usize, &Leg)> {
+    let stages = stages.iter().enumerate();
+    stages.flat_map(|(number, stage)| stage.iter().map(move |(it, leg)| (number, *it, leg)))
 }
 
 /// Looks that people are escorted in the last stage alone, in which the corridor is open, and that a robot that guards from a
@@ -38,13 +34,11 @@ fn legs(stages: &[Stage]) -> impl Iterator<Item = (usize, usize, &Leg)> {
 pub(super) fn guards_first(
     tables: &PlanTables,
     followers: &[&Role],
-    stages: &[Stage],
+    stages: &[Vec<(usize, Leg)>],
     settings: &Settings,
 ) -> Result<(), Misfit> {
     let escorts = escorts(settings);
-    let has_escort =
-        |stage: &Stage| (stage.parts.iter()).any(|(_, leg)| escorts.contains(leg.task));
-    let Some(first) = stages.iter().position(has_escort) else {
+    let Some((first, ..)) = legs(stages).find(|(_, _, leg)| escorts.contains(leg.task)) else {
         return Ok(());
     };
     let mut sent = vec![false; followers.len()];
@@ -78,7 +72,7 @@ pub(super) fn ways_in_time(
     tables: &PlanTables,
     site: &SiteFile,
     followers: &[&Role],
-    stages: &[Stage],
+    stages: &[Vec<(usize, Leg)>],
     settings: &Settings,
 ) -> Result<(), Misfit> {
     let escorts = escorts(settings);
