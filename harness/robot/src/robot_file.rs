@@ -28,7 +28,7 @@ use crate::plan::Plan;
 use crate::plan_file::PlanFile;
 use crate::port::{NoAddress, PortAddress};
 use crate::runtime::Setup;
-use crate::site::{CrossingReference, NoCrossing, NoOrigin, Place, Site};
+use crate::site::{NoCrossing, NoOrigin, Place, Site, crossing_named};
 use crate::site_file::SiteFile;
 use crate::street::{Road, Street};
 use crate::transport::{Halves, Link};
@@ -456,15 +456,13 @@ impl RobotTable {
             return Err(Impossibility::Place(far));
         }
         let layout = self.site()?;
-        let crossing = self.crossing.as_deref().map(str::parse);
-        let crossing = crossing.transpose()?;
+        let crossing = self.crossing.as_deref().map(crossing_named);
+        let (reference, intersection) = crossing.transpose()?.unzip();
         let map_place = self.map_place.as_deref().map(str::parse).transpose()?;
         let site = Site {
-            crossing: crossing.map_or(layout.site.crossing, |CrossingReference(place)| place),
+            crossing: reference.unwrap_or(layout.site.crossing),
             // A file that says nothing else commands maneuvers at the crossing.
-            map_place: map_place
-                .or(crossing.and_then(CrossingReference::map_place))
-                .or(layout.site.map_place),
+            map_place: map_place.or(intersection).or(layout.site.map_place),
             ..layout.site
         };
         self.identifiers.check()?;

@@ -1,7 +1,5 @@
 //! A street corner in metres, and where on earth it is.
 
-use std::str::FromStr;
-
 use crossguard_codec::{ConfidenceEllipse, MapPlace, Position, Target};
 use crossguard_protocol as protocol;
 
@@ -78,10 +76,6 @@ impl Default for Site {
     }
 }
 
-/// A crossing as files name it: road regulator and intersection, like `276:4711`.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct CrossingReference(pub protocol::Place);
-
 /// A text that names no crossing.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error(
@@ -90,32 +84,18 @@ pub struct CrossingReference(pub protocol::Place);
 )]
 pub struct NoCrossing(String);
 
-impl CrossingReference {
-    /// The crossing as a place of the map; `None` where it is not known.
-    #[must_use]
-    pub fn map_place(self) -> Option<MapPlace> {
-        let [a, b, c, d] = self.0.0.to_be_bytes();
-        (self.0 != protocol::Place::UNKNOWN).then(|| MapPlace::Intersection {
-            region: Some(u16::from_be_bytes([a, b])),
-            id: u16::from_be_bytes([c, d]),
-        })
-    }
-}
-
-impl FromStr for CrossingReference {
-    type Err = NoCrossing;
-
-    fn from_str(text: &str) -> Result<Self, NoCrossing> {
-        let number = |text: &str| text.parse::<u16>().ok();
-        let halves = text.split_once(':');
-        let halves = halves.and_then(|(region, id)| Some((number(region)?, number(id)?)));
-        match halves {
-            Some((region, id)) if (region, id) != (0, 0) => Ok(Self(protocol::Place(
-                u32::from(region) << 16 | u32::from(id),
-            ))),
-            _ => Err(NoCrossing(text.to_owned())),
-        }
-    }
+/// A crossing as files name it, by road regulator and intersection, like `276:4711`: its reference, and the place of
+/// the map.
+pub(crate) fn crossing_named(text: &str) -> Result<(protocol::Place, MapPlace), NoCrossing> {
+    let number = |text: &str| text.parse::<u16>().ok();
+    let halves = text.split_once(':');
+    let halves = halves.and_then(|(region, id)| Some((number(region)?, number(id)?)));
+    let Some((region, id)) = halves.filter(|it| *it != (0, 0)) else {
+        return Err(NoCrossing(text.to_owned()));
+    };
+    let reference = protocol::Place(u32::from(region) << 16 | u32::from(id));
+    let region = Some(region);
+    Ok((reference, MapPlace::Intersection { region, id }))
 }
 
 /// Metres per degree of latitude, and of longitude at the equator, on a sphere; within 0.6 % of the
@@ -242,10 +222,11 @@ mod tests {
 
     #[test]
     fn a_crossing_is_named_as_it_reads() {
-        let named: CrossingReference = "276:4711".parse().unwrap();
-        assert_eq!(named.0.to_string(), "276:4711");
+        let (reference, intersection) = crossing_named("276:4711").unwrap();
+        assert_eq!(reference.to_string(), "276:4711");
+        assert_eq!(Ok(intersection), "intersection 276:4711".parse());
         for text in ["", "276", "0:0", "276:65536", "a:b", "1:2:3"] {
-            assert!(text.parse::<CrossingReference>().is_err(), "{text}");
+            assert!(crossing_named(text).is_err(), "{text}");
         }
     }
 

@@ -28,7 +28,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::located::{self, Exact, FileError, Misfit, Point};
-use crate::site::{CrossingReference, Place, Site};
+use crate::site::{Place, Site, crossing_named};
 
 mod carriageway;
 mod draft;
@@ -311,9 +311,9 @@ impl SiteTables {
         let origin = origin.map_err(|what| Misfit::at(&self.origin, what.to_string()));
         let mut site = origin?;
         if let Some(text) = &self.crossing.reference {
-            let named: Result<CrossingReference, _> = text.get_ref().parse();
+            let named = crossing_named(text.get_ref());
             let named = named.map_err(|error| Misfit::at(text, error.to_string()))?;
-            (site.crossing, site.map_place) = (named.0, named.map_place());
+            (site.crossing, site.map_place) = (named.0, Some(named.1));
         }
         if let Some(text) = &self.crossing.map_place {
             let named = text.get_ref().parse();
