@@ -5,6 +5,8 @@ use crossguard_model_check::timed::Limits;
 use crossguard_protocol::{Millis, Phase, RequestId, SessionId, SessionNumber, StationId};
 use serde::Serialize;
 
+use super::swarm::Swarm;
+
 /// A table of measures: the property that bounds each, what is measured, and what must come to pass within the bound.
 macro_rules! measures {
     ($($measure:ident $property:literal $name:literal: $statement:literal;)*) => {
@@ -133,21 +135,15 @@ impl Worst {
     }
 }
 
-/// Which times the faults of a run leave bounded.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Judged {
-    /// Endpoints are told of time within `delay_max`.
-    pub(super) is_in_time: bool,
-    /// Messages take no longer than the ways say.
-    pub(super) delay_is_bounded: bool,
-}
-
 /// The stop-watches of a run. Places are those of the robots.
 #[derive(Debug)]
 pub(super) struct Times {
     /// Of each robot, whose timers may differ.
     limits: Vec<Limits>,
-    judged: Judged,
+    /// Endpoints are told of time within `delay_max`.
+    is_in_time: bool,
+    /// Messages take no longer than the ways say.
+    delay_is_bounded: bool,
     worst: Worst,
     /// Whether each robot hangs: nothing in time is asked of one that does.
     hung: Vec<bool>,
@@ -199,12 +195,13 @@ impl Open {
 }
 
 impl Times {
-    pub(super) fn new(limits: Vec<Limits>, judged: Judged) -> Self {
+    pub(super) fn new(swarm: &Swarm, limits: Vec<Limits>) -> Self {
         Self {
             worst: Worst::default(),
             hung: vec![false; limits.len()],
             limits,
-            judged,
+            is_in_time: swarm.is_in_time(),
+            delay_is_bounded: swarm.replays.is_empty(),
             running: Vec::new(),
         }
     }
@@ -246,7 +243,7 @@ impl Times {
         let Some(session) = nodes.clone().nth(place).and_then(led_by) else {
             return;
         };
-        if !self.judged.is_in_time || !self.judged.delay_is_bounded {
+        if !self.is_in_time || !self.delay_is_bounded {
             return;
         }
         for (follower, node) in nodes.enumerate() {
@@ -266,7 +263,7 @@ impl Times {
         place: usize,
         nodes: impl Iterator<Item = &'a Node> + Clone,
     ) {
-        if !self.judged.is_in_time {
+        if !self.is_in_time {
             return;
         }
         let failing = nodes.clone().nth(place);
@@ -301,7 +298,7 @@ impl Times {
             }
             is_open
         });
-        if self.judged.is_in_time && !self.hung[place] {
+        if self.is_in_time && !self.hung[place] {
             for open in opened_by(node) {
                 let is_it = |running: &Stopwatch| running.place == place && running.open == open;
                 if !self.running.iter().any(is_it) {

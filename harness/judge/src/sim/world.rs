@@ -46,7 +46,7 @@ use super::place::PlaceLog;
 use super::road::{Overdue, Post, Road, Sight};
 use super::ruled::Ruled;
 use super::swarm::{HEALED_DELAY_MS, Hazard, RobotDraw, Swarm};
-use super::times::{Judged, Measure, Times, Worst};
+use super::times::{Measure, Times, Worst};
 
 /// When runs begin, in milliseconds since 1970: 2026-01-01. Any moment does.
 const EPOCH_UNIX_MS: i64 = 1_767_225_600_000;
@@ -332,7 +332,7 @@ impl<'a> World<'a> {
         let mut world = Self {
             ways: ways.collect(),
             road,
-            times: Times::new(limits, judged(swarm)),
+            times: Times::new(swarm, limits),
             corners: people::corners(swarm),
             people: Vec::new(),
             walkers: Vec::new(),
@@ -679,13 +679,6 @@ fn limits(swarm: &Swarm) -> Vec<Limits> {
     robots
         .map(|robot| Limits::new(&robot.config, delay))
         .collect()
-}
-
-fn judged(swarm: &Swarm) -> Judged {
-    Judged {
-        is_in_time: swarm.is_in_time(),
-        delay_is_bounded: swarm.replays.is_empty(),
-    }
 }
 
 fn posts<'a>(swarm: &'a Swarm, limits: &'a [Limits]) -> impl Iterator<Item = Post> + 'a {
