@@ -61,10 +61,10 @@ impl Playback {
     /// [`Overview::troubles`] says why it ends there.
     #[must_use]
     pub fn of(mut logs: Merged, street: Option<SiteFile>) -> Self {
-        let (mut reading, mut observer) = (Reading::default(), Observer::default());
+        let mut reading = Reading::default();
         loop {
             match logs.take() {
-                Ok(Some(timed)) => reading.take(&timed, observer.take(&timed.record)),
+                Ok(Some(timed)) => reading.take(&timed),
                 Ok(None) => break,
                 Err(error) => reading.run.troubles.push(error.to_string()),
             }
@@ -102,13 +102,14 @@ pub fn written_us(log: Log<'_>, line: usize) -> Option<u64> {
 #[derive(Default)]
 pub(crate) struct Reading {
     run: Playback,
-    places: HashMap<String, u16>,
+    observer: Observer,
 }
 
 impl Reading {
-    /// Takes the next record, with the facts that it adds.
-    pub(crate) fn take(&mut self, timed: &Timed, facts: Vec<Fact>) {
+    /// Takes the next record.
+    pub(crate) fn take(&mut self, timed: &Timed) {
         let Timed { log, at_us, record } = timed;
+        let facts = self.observer.take(record);
         let Some(robot) = self.robot(&record.robot) else {
             self.run.left_out += 1;
             return;
@@ -131,16 +132,16 @@ impl Reading {
     }
 
     fn robot(&mut self, name: &str) -> Option<u16> {
-        if let Some(place) = self.places.get(name) {
-            return Some(*place);
-        }
-        if self.run.robots.len() >= ROBOTS_MAX {
+        let robots = &mut self.run.robots;
+        let known = robots.iter().position(|it| it.name == name);
+        let place = known.unwrap_or(robots.len());
+        if place >= ROBOTS_MAX {
             return None;
         }
-        let place = u16::try_from(self.run.robots.len()).ok()?;
-        self.run.robots.push(Track::new(name));
-        self.places.insert(name.to_owned(), place);
-        Some(place)
+        if known.is_none() {
+            robots.push(Track::new(name));
+        }
+        u16::try_from(place).ok()
     }
 
     /// Takes in state that no fact tells: timers, and until when the sign shows go.

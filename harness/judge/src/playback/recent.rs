@@ -8,7 +8,6 @@ use crossguard_robot::site_file::SiteFile;
 use crossguard_robot::trace::{Entry, Record, Timed};
 
 use super::{Playback, Reading};
-use crate::facts::Observer;
 
 /// How long a record is kept, in µs, and the most that are kept.
 const WINDOW_US: u64 = 60_000_000;
@@ -63,11 +62,11 @@ impl Recent {
     /// The run until this time, in µs since 1970, which may be later than its last record. Its places are measured from
     /// the site of the street, or from the first place that was ever known.
     pub fn playback(&mut self, street: Option<SiteFile>, until_us: u64) -> Playback {
-        let (mut reading, mut observer) = (Reading::default(), Observer::default());
+        let mut reading = Reading::default();
         let mut lasting: Vec<_> = self.lasting.values().collect();
         lasting.sort_by_key(|timed| timed.at_us);
         for timed in lasting.into_iter().chain(&self.window) {
-            reading.take(timed, observer.take(&timed.record));
+            reading.take(timed);
         }
         let is_placed = street.is_some();
         let mut run = reading.finish(street);
