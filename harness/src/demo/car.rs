@@ -127,13 +127,13 @@ impl Drive {
         self.at_ms = now_ms;
         let state = self.state();
         let now_its = self.clock.moment().timestamp_its;
-        if let Some(due) = self.cams.poll(now_ms, 0, &state)
+        if let Some((_, low_frequency)) = self.cams.poll(now_ms, 0, &state)
             && let Ok(cam) = cam(
                 &self.identifiers,
                 self.car.station,
                 &state,
                 now_its,
-                due.low_frequency,
+                low_frequency,
             )
         {
             self.send(Service::Cam, &cam, &state, now_its);

@@ -62,13 +62,14 @@ impl Others {
             return;
         };
         let moment = turn.moment();
-        let Some(due) = generation.poll(moment.now_ms, congestion_ms, turn.state()) else {
+        let due = generation.poll(moment.now_ms, congestion_ms, turn.state());
+        let Some((trigger, low_frequency)) = due else {
             return;
         };
         let (ids, station) = (exchange.identifiers(), exchange.robot().station().0);
         let time = moment.timestamp_its;
-        match cam(ids, station, turn.state(), time, due.low_frequency) {
-            Ok(octets) => exchange.transmit(turn, (Service::Cam, due.trigger), &octets),
+        match cam(ids, station, turn.state(), time, low_frequency) {
+            Ok(octets) => exchange.transmit(turn, (Service::Cam, trigger), &octets),
             Err(error) => turn.not_sent(&error),
         }
     }

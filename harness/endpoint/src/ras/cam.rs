@@ -43,19 +43,16 @@ pub struct CamGeneration {
     said: RobotState,
 }
 
-/// A CAM that is due.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct DueCam {
-    /// Why.
-    pub trigger: Trigger,
-    /// Whether the low-frequency container goes along.
-    pub low_frequency: bool,
-}
-
 impl CamGeneration {
-    /// The CAM that is due at `now_ms` from a robot in `state`, which counts as sent then. Congestion control
-    /// says that two are at least `congestion_ms` apart. A robot that does not know where it is sends none.
-    pub fn poll(&mut self, now_ms: u64, congestion_ms: u64, state: &RobotState) -> Option<DueCam> {
+    /// Why a CAM is due at `now_ms` from a robot in `state`, and whether the low-frequency container goes along; it counts
+    /// as sent then. Congestion control says that two are at least `congestion_ms` apart. A robot that does not know
+    /// where it is sends none.
+    pub fn poll(
+        &mut self,
+        now_ms: u64,
+        congestion_ms: u64,
+        state: &RobotState,
+    ) -> Option<(Trigger, bool)> {
         Plane::around(&state.position)?;
         let limits = Limits {
             congestion_ms,
@@ -69,10 +66,7 @@ impl CamGeneration {
             self.low_frequency.sent(now_ms);
         }
         self.said.clone_from(state);
-        Some(DueCam {
-            trigger,
-            low_frequency,
-        })
+        Some((trigger, low_frequency))
     }
 }
 
@@ -335,8 +329,8 @@ mod tests {
         let mut sent = Vec::new();
         for now_ms in (0..3_000).step_by(50) {
             let state = if now_ms < 1_200 { &standing } else { &walking };
-            if let Some(due) = generation.poll(now_ms, 0, state) {
-                sent.push((now_ms, due.trigger, due.low_frequency));
+            if let Some((trigger, low_frequency)) = generation.poll(now_ms, 0, state) {
+                sent.push((now_ms, trigger, low_frequency));
             }
         }
         let expected = [
@@ -360,8 +354,8 @@ mod tests {
             position: Position::at(49.0, 8.4),
             ..RobotState::default()
         };
-        let first = generation.poll(5_000, 0, &found).unwrap();
-        assert_eq!(first.trigger, Trigger::First);
+        let (first, _) = generation.poll(5_000, 0, &found).unwrap();
+        assert_eq!(first, Trigger::First);
     }
 
     #[test]
@@ -374,7 +368,7 @@ mod tests {
         };
         assert!(generation.poll(0, 400, &state(0.0)).is_some());
         assert_eq!(generation.poll(399, 400, &state(2.0)), None);
-        let due = generation.poll(400, 400, &state(2.0)).unwrap();
-        assert_eq!(due.trigger, Trigger::Speed);
+        let (late, _) = generation.poll(400, 400, &state(2.0)).unwrap();
+        assert_eq!(late, Trigger::Speed);
     }
 }
