@@ -5,12 +5,11 @@
 
 use crossguard_codec::{ConfidenceEllipse, Measurement, Position, RobotState};
 use crossguard_endpoint::ras::etsi::NotMade;
-use crossguard_endpoint::ras::generation::Trigger;
 use serde::{Deserialize, Serialize};
 
 use super::cam::{CamError, cam_octets};
 use super::device::vam_octets;
-use super::vru::{DueVam, LeaveReason, Operation, VamTrigger};
+use super::vru::{DueVam, LeaveReason, Operation};
 
 /// IEEE 802.11 `QoS` data header and frame check sequence, in octets.
 const MAC: usize = 26 + 4;
@@ -96,7 +95,6 @@ impl Sizes {
     pub fn measure(cam_path_points: usize) -> Result<Self, SizeError> {
         let octets = |low_frequency, operation| {
             let due = DueVam {
-                trigger: VamTrigger::Motion(Trigger::First),
                 low_frequency,
                 operation,
             };

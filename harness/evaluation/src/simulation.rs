@@ -43,8 +43,6 @@ pub struct Measured {
     /// Mean channel busy ratio over vehicles, devices and windows of 100 ms, 0..1. Robots are left out, so that it is
     /// the mean over the same stations whatever the number of robots.
     pub mcbr: f64,
-    /// Largest channel busy ratio of a window, 0..1.
-    pub cbr_max: f64,
     /// Share of devices' time in which they leave their announcement to a robot, 0..1.
     pub passive: f64,
     /// Share of devices' time in which they do so though no robot perceives them, 0..1.
@@ -63,12 +61,8 @@ pub struct Measured {
     pub ram_rate: f64,
     /// Share of frames that overlapped with another anywhere on the grid, also out of its range, 0..1.
     pub overlapped: f64,
-    /// Share of receptions of RAM and cluster VAM within range that failed, 0..1.
-    pub lost: f64,
     /// Messages that a newer one replaced before they could be sent, per second.
     pub replaced_rate: f64,
-    /// How long the measurement is, in seconds.
-    pub seconds: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -193,15 +187,12 @@ impl Silence {
 struct Sums {
     busy_us: u64,
     station_windows: u64,
-    busy_max_us: u32,
     passive: u64,
     wrongly_silent: u64,
     device_checks: u64,
     air_us: [u64; 3],
     frames: [u64; 3],
     overlapped: u64,
-    heard: u64,
-    lost: u64,
     replaced: u64,
 }
 
@@ -246,7 +237,7 @@ impl<'a> Simulation<'a> {
         let devices = people.take(devices).map(|(person, track)| Role::Device {
             person,
             track,
-            station: Box::new(VruStation::with(
+            station: Box::new(VruStation::new(
                 behaviour.vam,
                 behaviour.understands,
                 behaviour.suppression,
@@ -319,7 +310,6 @@ impl<'a> Simulation<'a> {
             if counts && !matches!(role, Role::Robot(_)) && role.is_there(now_us) {
                 sums.busy_us += u64::from(busy_us);
                 sums.station_windows += 1;
-                sums.busy_max_us = sums.busy_max_us.max(busy_us);
             }
             if has_dcc {
                 stations[number]
@@ -503,32 +493,20 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// Everybody in range hears what a robot says. Only what devices are to hear, and devices, are counted.
+    /// Everybody in range who receives it hears what a robot says.
     fn announce(&mut self, now_us: u64, transmission: &Transmission, message: &Message) {
-        let now_ms = now_us / 1_000;
         for (number, station) in self.stations.iter_mut().enumerate() {
-            if matches!(station.role, Role::Vehicle { .. })
-                || !station.role.is_there(now_us)
-                || number == transmission.sender
-                || !self.channel.in_range(number, transmission.sender)
-            {
-                continue;
-            }
-            let is_received = self.channel.receives(number, transmission);
+            let receives = || self.channel.receives(number, transmission);
             match &mut station.role {
-                Role::Device { track, station, .. } => {
-                    let Some(announced) = &message.announced else {
-                        continue;
-                    };
-                    self.sums.heard += 1;
-                    self.sums.lost += u64::from(!is_received);
-                    if is_received {
-                        let motion = track.motion(now_us);
-                        station.hear(now_ms, &motion, announced);
+                Role::Device { track, station, .. } if track.is_there(now_us) => {
+                    if let Some(announced) = &message.announced
+                        && receives()
+                    {
+                        station.hear(now_us / 1_000, &track.motion(now_us), announced);
                     }
                 }
-                Role::Robot(robot) if is_received => robot.hear(now_us, message),
-                Role::Robot(_) | Role::Vehicle { .. } => {}
+                Role::Robot(robot) if receives() => robot.hear(now_us, message),
+                Role::Device { .. } | Role::Robot(_) | Role::Vehicle { .. } => {}
             }
         }
     }
@@ -551,7 +529,6 @@ impl<'a> Simulation<'a> {
             sums.frames.map(|count| count as f64 * 1e6 / measured_us);
         Measured {
             mcbr: share(sums.busy_us, sums.station_windows * WINDOW_US),
-            cbr_max: f64::from(sums.busy_max_us) / WINDOW_US as f64,
             passive: share(sums.passive, sums.device_checks),
             wrongly_silent: share(sums.wrongly_silent, sums.device_checks),
             cam_load,
@@ -561,9 +538,7 @@ impl<'a> Simulation<'a> {
             vam_rate,
             ram_rate,
             overlapped: share(sums.overlapped, sums.frames.iter().sum()),
-            lost: share(sums.lost, sums.heard),
             replaced_rate: sums.replaced as f64 * 1e6 / self.end_us as f64,
-            seconds: measured_us / 1e6,
         }
     }
 }

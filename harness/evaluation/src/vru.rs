@@ -102,30 +102,6 @@ pub struct Announcement {
     pub ended: Option<u8>,
 }
 
-/// Effect of an announcement on a device.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub enum Reaction {
-    /// The device does not understand this message.
-    NotUnderstood,
-    /// It does not cover the device.
-    Outside,
-    /// The cluster moves otherwise than the device.
-    VelocityDiffers,
-    /// The cluster has as many members as it may have.
-    Full,
-    /// The device is in another cluster.
-    InAnother,
-    /// The device begins to join.
-    Joins,
-    /// The device falls silent.
-    Suspends,
-    /// It goes on as it was.
-    GoesOn,
-    /// The device takes its VAM up again.
-    Resumes,
-}
-
 /// Why a device left a cluster (TS 102 894-2 `ClusterLeaveReason`).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
@@ -166,24 +142,10 @@ pub enum Operation {
 /// A VAM that is due.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct DueVam {
-    /// Why.
-    pub trigger: VamTrigger,
     /// Whether it has the low-frequency container.
     pub low_frequency: bool,
     /// Its cluster operation.
     pub operation: Option<Operation>,
-}
-
-/// Why a VAM is sent.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub enum VamTrigger {
-    /// By motion, by the interval, or because it is the first.
-    Motion(Trigger),
-    /// It begins to join a cluster.
-    Join,
-    /// It has left a cluster.
-    Leave,
 }
 
 /// Whether a device announces itself.
@@ -232,19 +194,14 @@ pub struct VruStation {
     /// The last VAM: when, and what it said of the motion.
     said: Option<(u64, Motion)>,
     last_low_frequency_ms: Option<u64>,
-    pending: Option<VamTrigger>,
+    /// Whether it is to say at once that it joins or has left.
+    is_pending: bool,
 }
 
 impl VruStation {
-    /// A device that has just been switched on, and falls silent by the strict rule.
-    #[must_use]
-    pub fn new(rule: VamRule, understands: Understands) -> Self {
-        Self::with(rule, understands, Suppression::default())
-    }
-
     /// A device that has just been switched on.
     #[must_use]
-    pub fn with(rule: VamRule, understands: Understands, suppression: Suppression) -> Self {
+    pub const fn new(rule: VamRule, understands: Understands, suppression: Suppression) -> Self {
         Self {
             rule,
             understands,
@@ -252,7 +209,7 @@ impl VruStation {
             state: State::Standalone,
             said: None,
             last_low_frequency_ms: None,
-            pending: None,
+            is_pending: false,
         }
     }
 
@@ -262,54 +219,51 @@ impl VruStation {
         matches!(self.state, State::Passive(_))
     }
 
-    /// Takes in an announcement, at `now_ms`, in this motion.
-    pub fn hear(&mut self, now_ms: u64, motion: &Motion, heard: &Announcement) -> Reaction {
+    /// Takes in an announcement, at `now_ms`, in this motion. One by a message that the device does not understand changes nothing.
+    pub fn hear(&mut self, now_ms: u64, motion: &Motion, heard: &Announcement) {
         if heard.by != self.understands {
-            return Reaction::NotUnderstood;
+            return;
         }
         let by = self.fit();
-        match &mut self.state {
-            State::Joining(membership) | State::Passive(membership) => {
-                if membership.head != heard.head {
-                    let fits = |cluster: &Announced| {
-                        by.misfit(motion, &cluster.area, heard.velocity_mps)
-                            .is_none()
-                    };
-                    let fits_there = heard.cluster.as_ref().is_some_and(fits);
-                    if by == Fit::Etsi || !fits_there || membership.fits(by, now_ms, motion) {
-                        return Reaction::InAnother;
-                    }
-                    // From one robot's zone into the next.
-                    membership.head = heard.head;
-                }
-                membership.heard_ms = now_ms;
-                let id = membership.id;
-                let Some(cluster) = &heard.cluster else {
-                    if heard.ended.is_some_and(|ended| id != Some(ended)) {
-                        return Reaction::GoesOn;
-                    }
-                    self.leave(now_ms, id, LeaveReason::ClusterDisbandedByLeader);
-                    return Reaction::Resumes;
-                };
-                if by == Fit::Etsi && id != cluster.id {
-                    return Reaction::InAnother;
-                }
-                match by.misfit(motion, &cluster.area, heard.velocity_mps) {
-                    // Its own cluster is elsewhere now.
-                    Some(reason) if by == Fit::Strict && id == cluster.id => {
-                        self.leave(now_ms, id, reason);
-                        return Reaction::Resumes;
-                    }
-                    Some(_) => return Reaction::Outside,
-                    None => {}
-                }
+        let (State::Joining(membership) | State::Passive(membership)) = &mut self.state else {
+            self.consider(now_ms, motion, heard);
+            return;
+        };
+        if membership.head != heard.head {
+            let fits = |cluster: &Announced| {
+                by.misfit(motion, &cluster.area, heard.velocity_mps)
+                    .is_none()
+            };
+            let fits_there = heard.cluster.as_ref().is_some_and(fits);
+            if by == Fit::Etsi || !fits_there || membership.fits(by, now_ms, motion) {
+                return;
+            }
+            // From one robot's zone into the next.
+            membership.head = heard.head;
+        }
+        membership.heard_ms = now_ms;
+        let id = membership.id;
+        let Some(cluster) = &heard.cluster else {
+            if heard.ended.is_none_or(|ended| id == Some(ended)) {
+                self.leave(now_ms, id, LeaveReason::ClusterDisbandedByLeader);
+            }
+            return;
+        };
+        if by == Fit::Etsi && id != cluster.id {
+            return;
+        }
+        match by.misfit(motion, &cluster.area, heard.velocity_mps) {
+            // Its own cluster is elsewhere now.
+            Some(reason) if by == Fit::Strict && id == cluster.id => {
+                self.leave(now_ms, id, reason);
+            }
+            Some(_) => {}
+            None => {
                 membership.id = cluster.id;
                 membership.covered_ms = now_ms;
                 membership.area = cluster.area.clone();
                 membership.velocity_mps = heard.velocity_mps;
-                Reaction::GoesOn
             }
-            State::Standalone | State::Leaving { .. } => self.consider(now_ms, motion, heard),
         }
     }
 
@@ -321,22 +275,18 @@ impl VruStation {
         }
     }
 
-    /// Whether the device, which is in no cluster, enters this one.
-    fn consider(&mut self, now_ms: u64, motion: &Motion, heard: &Announcement) -> Reaction {
+    /// The device, which is in no cluster, enters this one if it covers it.
+    fn consider(&mut self, now_ms: u64, motion: &Motion, heard: &Announcement) {
         let Some(cluster) = &heard.cluster else {
-            return Reaction::GoesOn;
+            return;
         };
         let by = self.fit();
         let by_vam = by == Fit::Etsi;
         let near_m = if by_vam { DISTANCE_MAX_M } else { 0.0 };
-        if cluster.area.distance_m(motion.position_m) > near_m {
-            return Reaction::Outside;
-        }
-        if !by.is_of_velocity(motion, heard.velocity_mps) {
-            return Reaction::VelocityDiffers;
-        }
-        if by_vam && cluster.cardinality >= SIZE_MAX {
-            return Reaction::Full;
+        let is_near = cluster.area.distance_m(motion.position_m) <= near_m;
+        let is_full = by_vam && cluster.cardinality >= SIZE_MAX;
+        if !is_near || !by.is_of_velocity(motion, heard.velocity_mps) || is_full {
+            return;
         }
         let membership = Membership {
             head: heard.head,
@@ -347,15 +297,12 @@ impl VruStation {
             area: cluster.area.clone(),
             velocity_mps: heard.velocity_mps,
         };
-        if by_vam {
-            self.state = State::Joining(membership);
-            self.pending = Some(VamTrigger::Join);
-            Reaction::Joins
+        self.is_pending = by_vam;
+        self.state = if by_vam {
+            State::Joining(membership)
         } else {
-            self.state = State::Passive(membership);
-            self.pending = None;
-            Reaction::Suspends
-        }
+            State::Passive(membership)
+        };
     }
 
     /// The VAM that is due at `now_ms`, if one is; it counts as sent. To be asked every 100 ms at least
@@ -369,10 +316,10 @@ impl VruStation {
         if elapsed.is_some_and(|it| it < congestion_ms.max(INTERVAL_MIN_MS)) {
             return None;
         }
-        let trigger = self
-            .pending
-            .take()
-            .or_else(|| self.by_rule(elapsed, motion))?;
+        let is_pending = std::mem::take(&mut self.is_pending);
+        if !is_pending && !self.is_due_by_rule(elapsed, motion) {
+            return None;
+        }
         let operation = self.operation();
         let low_frequency = operation.is_some()
             || self
@@ -383,23 +330,22 @@ impl VruStation {
             self.last_low_frequency_ms = Some(now_ms);
         }
         Some(DueVam {
-            trigger,
             low_frequency,
             operation,
         })
     }
 
-    fn by_rule(&self, elapsed: Option<u64>, motion: &Motion) -> Option<VamTrigger> {
+    fn is_due_by_rule(&self, elapsed: Option<u64>, motion: &Motion) -> bool {
         let (Some(elapsed), Some((_, before))) = (elapsed, &self.said) else {
-            return Some(VamTrigger::Motion(Trigger::First));
+            return true;
         };
-        let interval = |limit_ms| (elapsed >= limit_ms).then_some(Trigger::Interval);
-        let trigger = match self.rule {
-            VamRule::Periodic(interval_ms) => interval(interval_ms),
-            VamRule::Etsi => Trigger::of_motion(&Change::of_motion(before, motion))
-                .or_else(|| interval(INTERVAL_MAX_MS)),
-        };
-        trigger.map(VamTrigger::Motion)
+        match self.rule {
+            VamRule::Periodic(interval_ms) => elapsed >= interval_ms,
+            VamRule::Etsi => {
+                let trigger = Trigger::of_motion(&Change::of_motion(before, motion));
+                trigger.is_some() || elapsed >= INTERVAL_MAX_MS
+            }
+        }
     }
 
     /// Applies time and motion to the membership.
@@ -444,7 +390,7 @@ impl VruStation {
             reason,
             since_ms: now_ms,
         };
-        self.pending = Some(VamTrigger::Leave);
+        self.is_pending = true;
     }
 
     fn operation(&self) -> Option<Operation> {

@@ -19,11 +19,16 @@ fn standing() -> Motion {
 }
 
 fn device(rule: VamRule) -> VruStation {
-    VruStation::new(rule, Understands::Ram)
+    VruStation::new(rule, Understands::Ram, Suppression::Strict)
 }
 
 fn loose(rule: VamRule) -> VruStation {
-    VruStation::with(rule, Understands::Ram, Suppression::Loose)
+    VruStation::new(rule, Understands::Ram, Suppression::Loose)
+}
+
+/// A device that knows cluster VAM alone.
+fn unmodified(rule: VamRule) -> VruStation {
+    VruStation::new(rule, Understands::ClusterVam, Suppression::Strict)
 }
 
 fn circle(radius_m: f64) -> Area {
@@ -63,6 +68,14 @@ const fn leaves(reason: LeaveReason) -> Operation {
     Operation::Leave { id: 7, reason }
 }
 
+/// The head of the cluster that a device is in.
+const fn head(station: &VruStation) -> Option<u32> {
+    match &station.state {
+        State::Passive(membership) => Some(membership.head),
+        _ => None,
+    }
+}
+
 /// When a device that hears nothing sends, in ms, over ten seconds in this motion.
 fn sent(rule: VamRule, motion: impl Fn(u64) -> Motion, interval_min_ms: u64) -> Vec<u64> {
     let mut station = device(rule);
@@ -97,13 +110,11 @@ fn the_low_frequency_container_goes_along_every_two_seconds() {
 fn a_covered_device_is_silent_until_its_robot_is_lost() {
     let mut station = device(VamRule::Periodic(100));
     assert!(station.poll(0, &standing(), 0).is_some());
-    let heard = station.hear(50, &standing(), &ram(5.0));
-    assert_eq!(heard, Reaction::Suspends);
+    station.hear(50, &standing(), &ram(5.0));
     for now_ms in (100..2_050).step_by(50) {
         assert_eq!(station.poll(now_ms, &standing(), 0), None);
     }
     let vam = station.poll(2_050, &standing(), 0).unwrap();
-    assert_eq!(vam.trigger, VamTrigger::Leave);
     assert_eq!(vam.operation, Some(leaves(LeaveReason::ClusterLeaderLost)));
     assert!(vam.low_frequency);
     let mut operation = |now_ms| station.poll(now_ms, &standing(), 0).unwrap().operation;
@@ -116,8 +127,7 @@ fn by_the_loose_rule_a_device_that_walks_out_resumes_three_metres_outside() {
     let mut station = loose(VamRule::Etsi);
     station.hear(0, &walking(4.0), &ram(5.0));
     assert_eq!(station.poll(100, &walking(7.9), 0), None);
-    let outside = station.hear(150, &walking(7.9), &ram(5.0));
-    assert_eq!(outside, Reaction::Outside);
+    station.hear(150, &walking(7.9), &ram(5.0));
     let vam = station.poll(200, &walking(8.1), 0).unwrap();
     assert_eq!(
         vam.operation,
@@ -134,11 +144,9 @@ fn a_robot_without_a_cluster_releases_its_devices_and_nobody_elses() {
         velocity_mps: None,
         ..over(&ram(5.0))
     };
-    let of_another = station.hear(100, &standing(), &none(HEAD + 1));
-    assert_eq!(of_another, Reaction::InAnother);
+    station.hear(100, &standing(), &none(HEAD + 1));
     assert!(station.is_passive());
-    let own = station.hear(200, &standing(), &none(HEAD));
-    assert_eq!(own, Reaction::Resumes);
+    station.hear(200, &standing(), &none(HEAD));
     assert!(station.poll(200, &standing(), 0).is_some());
 }
 
@@ -152,16 +160,15 @@ fn a_device_goes_over_to_the_next_robot_without_a_vam() {
         ..announcement(Understands::Ram, area)
     };
     station.hear(0, &walking(3.0), &announcement(Understands::Ram, &first));
-    let in_both = station.hear(100, &walking(3.0), &other(&second));
-    assert_eq!(in_both, Reaction::InAnother);
-    let in_one = station.hear(1_500, &walking(5.5), &other(&second));
-    assert_eq!(in_one, Reaction::GoesOn);
+    station.hear(100, &walking(3.0), &other(&second));
+    assert_eq!(head(&station), Some(HEAD));
+    station.hear(1_500, &walking(5.5), &other(&second));
+    assert_eq!(head(&station), Some(HEAD + 1));
     for now_ms in (1_600..3_400).step_by(100) {
         assert_eq!(station.poll(now_ms, &walking(6.0), 0), None);
     }
     // The first one does not concern it any more.
-    let gone = station.hear(3_400, &walking(6.0), &over(&ram(5.0)));
-    assert_eq!(gone, Reaction::InAnother);
+    station.hear(3_400, &walking(6.0), &over(&ram(5.0)));
     assert!(station.is_passive());
 }
 
@@ -173,8 +180,7 @@ fn who_leaves_says_whether_its_head_was_silent_or_did_not_count_it() {
         station.hear(0, &standing(), &ram(5.0));
         if heard_again {
             let elsewhere = announcement(Understands::Ram, &elsewhere);
-            let outside = station.hear(1_000, &standing(), &elsewhere);
-            assert_eq!(outside, Reaction::Outside);
+            station.hear(1_000, &standing(), &elsewhere);
         }
         assert_eq!(station.poll(1_900, &standing(), 0), None);
         station.poll(2_000, &standing(), 0).unwrap().operation
@@ -188,27 +194,33 @@ fn who_leaves_says_whether_its_head_was_silent_or_did_not_count_it() {
 
 #[test]
 fn an_unmodified_device_is_not_in_another_cluster_of_its_head() {
-    let mut station = VruStation::new(VamRule::Etsi, Understands::ClusterVam);
+    let mut station = unmodified(VamRule::Etsi);
     let mut vam = announcement(Understands::ClusterVam, &circle(5.0));
-    assert_eq!(station.hear(0, &standing(), &vam), Reaction::Joins);
+    assert!(station.poll(0, &standing(), 0).is_some());
+    station.hear(0, &standing(), &vam);
     vam.cluster.as_mut().unwrap().id = Some(8);
-    let split_off = station.hear(100, &standing(), &vam);
-    assert_eq!(split_off, Reaction::InAnother);
+    station.hear(100, &standing(), &vam);
+    let due = station.poll(100, &standing(), 0).unwrap();
+    let (id, at_ms) = (7, 3_000);
+    assert_eq!(due.operation, Some(Operation::Join { id, at_ms }));
 }
 
 #[test]
 fn an_unmodified_device_joins_by_the_rules_of_etsi() {
-    let mut station = VruStation::new(VamRule::Periodic(500), Understands::ClusterVam);
-    let not_understood = station.hear(0, &standing(), &ram(5.0));
-    assert_eq!(not_understood, Reaction::NotUnderstood);
+    let mut station = unmodified(VamRule::Periodic(500));
+    // It does not understand the first, and does not move as the second; the third is full.
     let vam = announcement(Understands::ClusterVam, &circle(5.0));
-    let walks = station.hear(0, &walking(0.0), &vam);
-    assert_eq!(walks, Reaction::VelocityDiffers);
-    assert_eq!(station.hear(0, &standing(), &vam), Reaction::Joins);
+    let mut full = vam.clone();
+    full.cluster.as_mut().unwrap().cardinality = SIZE_MAX;
+    station.hear(0, &standing(), &ram(5.0));
+    station.hear(0, &walking(0.0), &vam);
+    station.hear(0, &standing(), &full);
+    assert_eq!(station.state, State::Standalone);
+    station.hear(0, &standing(), &vam);
     let mut joins = 0;
     for now_ms in (0..3_000).step_by(100) {
         if now_ms % 500 == 0 {
-            assert_eq!(station.hear(now_ms, &standing(), &vam), Reaction::GoesOn);
+            station.hear(now_ms, &standing(), &vam);
         }
         if let Some(due) = station.poll(now_ms, &standing(), 0) {
             let (id, at_ms) = (7, 3_000);
@@ -224,7 +236,7 @@ fn an_unmodified_device_joins_by_the_rules_of_etsi() {
 
 #[test]
 fn an_unmodified_device_that_is_not_confirmed_gives_up() {
-    let mut station = VruStation::new(VamRule::Etsi, Understands::ClusterVam);
+    let mut station = unmodified(VamRule::Etsi);
     let vam = announcement(Understands::ClusterVam, &circle(5.0));
     station.hear(0, &standing(), &vam);
     station.hear(1_900, &standing(), &vam);
@@ -249,8 +261,7 @@ fn after(now_ms: u64) -> Motion {
 #[test]
 fn by_the_strict_rule_a_device_walks_on_silently_with_its_cluster() {
     let mut station = device(VamRule::Periodic(100));
-    let heard = station.hear(0, &after(0), &walking_cluster(&circle(1.0)));
-    assert_eq!(heard, Reaction::Suspends);
+    station.hear(0, &after(0), &walking_cluster(&circle(1.0)));
     // It is 2.7 m from where it was announced; the shape went along.
     for now_ms in (100..2_000).step_by(100) {
         assert_eq!(station.poll(now_ms, &after(now_ms), 0), None, "{now_ms}");
@@ -261,8 +272,10 @@ fn by_the_strict_rule_a_device_walks_on_silently_with_its_cluster() {
 #[test]
 fn who_moves_otherwise_than_a_cluster_that_covers_it_was_not_perceived() {
     let cluster = walking_cluster(&circle(5.0));
-    let heard = |motion: &Motion, announced: &Announcement| {
-        device(VamRule::Etsi).hear(0, motion, announced)
+    let is_silent = |motion: &Motion, announced: &Announcement| {
+        let mut station = device(VamRule::Etsi);
+        station.hear(0, motion, announced);
+        station.is_passive()
     };
     let north = Motion {
         heading_deg: 0.0,
@@ -273,14 +286,13 @@ fn who_moves_otherwise_than_a_cluster_that_covers_it_was_not_perceived() {
         ..walking(0.0)
     };
     for motion in [standing(), north, cycling] {
-        let reaction = heard(&motion, &cluster);
-        assert_eq!(reaction, Reaction::VelocityDiffers, "{motion:?}");
+        assert!(!is_silent(&motion, &cluster), "{motion:?}");
     }
-    assert_eq!(heard(&walking(0.0), &cluster), Reaction::Suspends);
+    assert!(is_silent(&walking(0.0), &cluster));
     // Nor does it know that when the cluster does not say how it moves.
     let mut unknown = cluster;
     unknown.velocity_mps = None;
-    assert_eq!(heard(&walking(0.0), &unknown), Reaction::VelocityDiffers);
+    assert!(!is_silent(&walking(0.0), &unknown));
 }
 
 #[test]
@@ -313,30 +325,30 @@ fn who_is_no_longer_in_its_own_cluster_resumes_when_it_hears_that() {
     let mut other = own.clone();
     other.cluster.as_mut().unwrap().id = Some(8);
     // Another cluster of the same robot says nothing of this one.
-    assert_eq!(station.hear(500, &standing(), &other), Reaction::Outside);
+    station.hear(500, &standing(), &other);
     assert_eq!(station.poll(600, &standing(), 0), None);
-    assert_eq!(station.hear(700, &standing(), &own), Reaction::Resumes);
+    station.hear(700, &standing(), &own);
     assert!(station.poll(700, &standing(), 0).is_some());
 }
 
 #[test]
 fn a_cluster_that_is_over_releases_its_own_devices_at_once() {
     for by in [Understands::Ram, Understands::ClusterVam] {
-        let mut station = VruStation::new(VamRule::Periodic(500), by);
+        let mut station = VruStation::new(VamRule::Etsi, by, Suppression::Strict);
         let there = announcement(by, &circle(5.0));
         let over = |id| Announcement {
             ended: Some(id),
             ..over(&there)
         };
         for now_ms in (0..=3_400).step_by(100) {
-            station.hear(now_ms, &standing(), &there);
             station.poll(now_ms, &standing(), 0);
+            station.hear(now_ms, &standing(), &there);
         }
         assert!(station.is_passive(), "{by:?}");
-        let other = station.hear(3_500, &standing(), &over(8));
-        assert_eq!((other, station.is_passive()), (Reaction::GoesOn, true));
-        let own = station.hear(3_600, &standing(), &over(7));
-        assert_eq!(own, Reaction::Resumes);
+        station.hear(3_500, &standing(), &over(8));
+        assert!(station.is_passive());
+        station.hear(3_600, &standing(), &over(7));
+        // By its rule, it would send 5 s after the last VAM.
         let vam = station.poll(3_600, &standing(), 0).unwrap();
         assert_eq!(
             vam.operation,
@@ -359,10 +371,10 @@ proptest! {
             now_ms += 100;
             east_m += (to_m - east_m) * 0.1;
             if what == 0 {
-                let reaction = station.hear(now_ms, &walking(east_m), &ram(radius_m));
+                station.hear(now_ms, &walking(east_m), &ram(radius_m));
                 if circle(radius_m).contains([east_m, 0.0]) {
                     covered_ms = Some(now_ms);
-                    prop_assert!(matches!(reaction, Reaction::Suspends | Reaction::GoesOn));
+                    prop_assert!(station.is_passive());
                 }
             }
             if station.poll(now_ms, &walking(east_m), 0).is_some() {
@@ -395,8 +407,8 @@ proptest! {
             if what == 1 {
                 let center = steady.position_m;
                 let area = Area::Circle { center, radius_m };
-                let reaction = station.hear(now_ms, &motion, &walking_cluster(&area));
-                if matches!(reaction, Reaction::Suspends | Reaction::GoesOn) {
+                station.hear(now_ms, &motion, &walking_cluster(&area));
+                if station.is_passive() {
                     matched = Some((now_ms, radius_m));
                 }
             }
