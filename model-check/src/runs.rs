@@ -1,28 +1,12 @@
-//! The graph of the untimed model as a system under fairness, and its runs without end.
+//! Runs of the untimed model without end, and its dead ends.
 
 use crate::explore::{Graph, RunOf};
-use crate::fair::{Classes, Edge, Lasso, System};
+use crate::fair::Lasso;
 use crate::fairness::Classifier;
 use crate::model::{Action, Model};
 use crate::node::Node;
 
 impl Graph<'_, Model> {
-    /// Every action that is possible in a state, with the transition that it makes. Panics where transitions are not kept.
-    fn actions_of(&self, state: u32) -> impl Iterator<Item = (Action, Edge)> {
-        let from = self.state(state);
-        let mut actions = Vec::new();
-        self.system.actions_in(&from, &mut actions);
-        actions.into_iter().filter_map(move |action| {
-            let (next, step) = self.system.successor_up_to_symmetry(&from, action)?;
-            let number = self.successor_number(state, &next);
-            let edge = Edge {
-                to: number.expect("its transitions are kept"),
-                taken: Classifier(self.system).taken(action, step),
-            };
-            Some((action, edge))
-        })
-    }
-
     /// A state from which the robots cannot all get idle any more, as near as possible; on a monotone channel they have to
     /// without the help of any message. States behind a broken step property were not explored, so such a state counts as
     /// one in which all are idle.
@@ -58,30 +42,19 @@ impl Graph<'_, Model> {
         };
         run.pop();
         for edge in &lasso.cycle {
-            let mut actions = self.actions_of(at);
-            let action = actions.find(|(_, taken)| taken == edge);
-            run.push((self.state(at), action.map(|(action, _)| action)));
+            let (from, to) = (self.state(at), self.state(edge.to));
+            let is_taken = |&action: &Action| {
+                let made = self.system.successor_up_to_symmetry(&from, action);
+                let taken = |step| Classifier(self.system).taken(action, step);
+                made.is_some_and(|(next, step)| next == to && taken(step) == edge.taken)
+            };
+            let mut actions = Vec::new();
+            self.system.actions_in(&from, &mut actions);
+            let action = actions.into_iter().find(is_taken);
+            run.push((from, action));
             at = edge.to;
         }
         run.push((self.state(at), None));
         run
-    }
-}
-
-impl System for Graph<'_, Model> {
-    fn states(&self) -> u32 {
-        u32::try_from(self.states()).expect("no more than can be numbered")
-    }
-
-    fn edge(&self, state: u32, place: usize) -> Option<Edge> {
-        self.edge(state, place)
-    }
-
-    fn enabled(&self, state: u32) -> Classes {
-        self.enabled(state)
-    }
-
-    fn run_to(&self, state: u32) -> Vec<u32> {
-        self.run_to(state)
     }
 }

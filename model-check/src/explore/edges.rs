@@ -72,11 +72,6 @@ impl Edges {
         }
     }
 
-    /// The successors of a state, some more than once where marks or classes are kept.
-    pub(super) fn targets(&self, state: usize) -> &[u32] {
-        &self.targets[self.range(state)]
-    }
-
     /// The transition with this place among those out of a state.
     pub(super) fn edge(&self, state: u32, place: usize) -> Option<Edge> {
         let range = self.range(state as usize);

@@ -1,7 +1,7 @@
 //! Queries on a graph.
 
 use super::{Graph, RunOf, TransitionSystem};
-use crate::fair::{Classes, Edge};
+use crate::fair::{Classes, Edge, System};
 use crate::properties::PropertyId;
 use crate::report::CutOff;
 use crate::store::Store;
@@ -33,38 +33,10 @@ impl<S: TransitionSystem> Graph<'_, S> {
         self.states.get(number)
     }
 
-    /// The number of `next`, which is a successor of state `number`; none where transitions are not kept.
-    pub(crate) fn successor_number(&self, number: u32, next: &S::State) -> Option<u32> {
-        let targets = self.edges.as_ref()?.targets(number as usize);
-        let mut targets = targets.iter().copied();
-        targets.find(|&target| self.state(target) == *next)
-    }
-
-    /// The transition with this place among those out of a state, with its classes where those are kept.
-    pub(crate) fn edge(&self, state: u32, place: usize) -> Option<Edge> {
-        self.edges.as_ref()?.edge(state, place)
-    }
-
-    /// Targets of the marked transitions out of a state, or of the unmarked ones; none where none are kept.
+    /// Where the transitions out of a state lead that are marked, or those that are not; nowhere where none are kept.
     pub(crate) fn targets(&self, state: usize, are_marked: bool) -> impl Iterator<Item = u32> {
         let edges = self.edges.iter();
         edges.flat_map(move |edges| edges.targets_with_mark(state, are_marked))
-    }
-
-    /// The classes that are enabled in a state, where they are kept.
-    pub(crate) fn enabled(&self, state: u32) -> Classes {
-        let edges = self.edges.as_ref();
-        edges.map_or(Classes::NONE, |edges| edges.enabled(state))
-    }
-
-    /// A shortest run from the initial state, both ends included.
-    pub(crate) fn run_to(&self, number: u32) -> Vec<u32> {
-        let mut run = vec![number];
-        while let Some(before) = self.first_source(run[run.len() - 1]) {
-            run.push(before);
-        }
-        run.reverse();
-        run
     }
 
     /// A shortest run into a state, with its actions.
@@ -100,5 +72,30 @@ impl<S: TransitionSystem> Graph<'_, S> {
             self.system.action_between(&source, &state).is_some()
         };
         (self.levels[level - 1]..self.levels[level]).find(leads_there)
+    }
+}
+
+/// Under fairness. It has neither transitions nor classes where those are not kept.
+impl<S: TransitionSystem> System for Graph<'_, S> {
+    fn states(&self) -> u32 {
+        u32::try_from(self.states()).expect("no more than can be numbered")
+    }
+
+    fn edge(&self, state: u32, place: usize) -> Option<Edge> {
+        self.edges.as_ref()?.edge(state, place)
+    }
+
+    fn enabled(&self, state: u32) -> Classes {
+        let edges = self.edges.as_ref();
+        edges.map_or(Classes::NONE, |edges| edges.enabled(state))
+    }
+
+    fn run_to(&self, number: u32) -> Vec<u32> {
+        let mut run = vec![number];
+        while let Some(before) = self.first_source(run[run.len() - 1]) {
+            run.push(before);
+        }
+        run.reverse();
+        run
     }
 }
