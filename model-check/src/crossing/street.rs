@@ -516,20 +516,7 @@ impl stateright::Model for World {
     }
 
     fn properties(&self) -> Vec<Property<Self>> {
-        let mut properties = Vec::new();
-        macro_rules! rules {
-            ($($rule:ident)*) => {$(
-                properties.push(Property::always(
-                    Rule::$rule.claim().id,
-                    |_: &Self, state| Rule::$rule.holds(state),
-                ));
-                properties.push(Property::sometimes(
-                    Rule::$rule.claim().premise_id,
-                    |_: &Self, state| Rule::$rule.is_premise_met(state),
-                ));
-            )*};
-        }
-        rules!(P1 P2 P3 P5 P6 P9 P10);
+        let mut properties = Rule::properties();
         // One that never comes about, so that the exploration goes to its end.
         properties.push(Property::sometimes("never", |_, _| false));
         properties

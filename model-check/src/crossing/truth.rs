@@ -1,10 +1,11 @@
 //! Rules on people, bodies and signs, judged from the ground truth alone, without a look into any machine.
 
 use serde::Deserialize;
+use stateright::Property;
 
 use super::Watch;
 use super::people::Cell;
-use super::street::State;
+use super::street::{State, World};
 
 /// The team is free at most so many ticks after everybody was off the road for good: the leader's patience, which ends a session
 /// whose guard does not come back, or go that nobody uses, and some seconds.
@@ -55,6 +56,16 @@ macro_rules! rules {
                         premise: $premise,
                     },)*
                 }
+            }
+
+            /// All of them, each with its premise.
+            pub(super) fn properties() -> Vec<Property<World>> {
+                vec![$(
+                    Property::always(Self::$id.claim().id, |_, state| Self::$id.holds(state)),
+                    Property::sometimes(Self::$id.claim().premise_id, |_, state| {
+                        Self::$id.is_premise_met(state)
+                    }),
+                )*]
             }
         }
     };
