@@ -21,23 +21,8 @@ pub struct Figure {
     pub bound_ms: u32,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Measure {
-    Roles,
-    Stopped,
-    Left,
-    CorridorClosed,
-    LeaderHung,
-    FollowerHung,
-    Unguarded,
-    BothGo,
-    Unaware,
-    Waiting,
-}
-
-/// A measure with its properties, name and bound.
+/// What there is to say about a measure.
 pub(super) struct MeasureClaim {
-    measure: Measure,
     pub(super) properties: &'static [PropertyId],
     pub(super) name: &'static str,
     /// The longest time by calculation, and how that follows from the settings.
@@ -45,48 +30,41 @@ pub(super) struct MeasureClaim {
     pub(super) derivation: &'static str,
 }
 
-const fn claim(
-    measure: Measure,
-    properties: &'static [PropertyId],
-    name: &'static str,
-    bound: fn(&Limits) -> Millis,
-    derivation: &'static str,
-) -> MeasureClaim {
-    MeasureClaim {
-        measure,
-        properties,
-        name,
-        bound,
-        derivation,
-    }
+macro_rules! measures {
+    ($($measure:ident: [$($property:ident),+], $name:literal, $bound:ident = $derivation:literal;)+) => {
+        #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+        pub(super) enum Measure {
+            $($measure,)+
+        }
+
+        /// In the order of [`Measure`].
+        pub(super) const MEASURES: &[MeasureClaim] = &[$(MeasureClaim {
+            properties: &[$(PropertyId::$property),+],
+            name: $name,
+            bound: |limits| limits.$bound,
+            derivation: $derivation,
+        },)+];
+    };
 }
 
-/// In the order of [`Measure`].
-#[rustfmt::skip]
-pub(super) const MEASURES: [MeasureClaim; 10] = {
-    use PropertyId::{I11, L1, L5, W1, W3, W5, W6, W8};
-    [
-        claim(Measure::Roles, &[L1], "from a request to roles or to giving up", |it| it.roles, "longest(t_help)"),
-        claim(Measure::Stopped, &[L5], "from the leader's crash to the follower stopped", |it| it.stopped,
-            "delay + longest(t_safety)"),
-        claim(Measure::Left, &[L5], "from the leader's crash to the follower idle", |it| it.left,
-            "delay + longest(t_safety) + longest(t_leave)"),
-        claim(Measure::CorridorClosed, &[I11, W1], "from a follower's own failure to the corridor closed",
-            |it| it.corridor_closed, "longest(t_lease)"),
-        claim(Measure::LeaderHung, &[W5], "from a hang of the leader to its sign at stop", |it| it.corridor_closed,
-            "longest(t_lease)"),
-        claim(Measure::FollowerHung, &[W5, W1], "from a hang of a follower to the leader's sign at stop",
-            |it| it.corridor_closed, "longest(t_lease)"),
-        claim(Measure::Unguarded, &[W1], "from a follower's fallback to the leader's sign at stop", |it| it.unguarded,
-            "0: the lease ends before the follower falls back"),
-        claim(Measure::BothGo, &[W3], "from two leaders' first hearing to one sign at stop", |it| it.both_go,
-            "longest(2 * ram_period) + delay"),
-        claim(Measure::Unaware, &[W6], "from a guard gone to the leader's application informed", |it| it.unaware,
-            "longest(t_lease)"),
-        claim(Measure::Waiting, &[W8], "from a detection to go or a reason given", |it| it.waiting,
-            "longest(t_help) + longest(t_lost) + (n_ack + 1) * longest(t_ack) + longest(t_lease)"),
-    ]
-};
+measures! {
+    Roles: [L1], "from a request to roles or to giving up", roles = "longest(t_help)";
+    Stopped: [L5], "from the leader's crash to the follower stopped", stopped = "delay + longest(t_safety)";
+    Left: [L5], "from the leader's crash to the follower idle",
+        left = "delay + longest(t_safety) + longest(t_leave)";
+    CorridorClosed: [I11, W1], "from a follower's own failure to the corridor closed",
+        corridor_closed = "longest(t_lease)";
+    LeaderHung: [W5], "from a hang of the leader to its sign at stop", corridor_closed = "longest(t_lease)";
+    FollowerHung: [W5, W1], "from a hang of a follower to the leader's sign at stop",
+        corridor_closed = "longest(t_lease)";
+    Unguarded: [W1], "from a follower's fallback to the leader's sign at stop",
+        unguarded = "0: the lease ends before the follower falls back";
+    BothGo: [W3], "from two leaders' first hearing to one sign at stop",
+        both_go = "longest(2 * ram_period) + delay";
+    Unaware: [W6], "from a guard gone to the leader's application informed", unaware = "longest(t_lease)";
+    Waiting: [W8], "from a detection to go or a reason given",
+        waiting = "longest(t_help) + longest(t_lost) + (n_ack + 1) * longest(t_ack) + longest(t_lease)";
+}
 
 impl Measure {
     /// Measure of a hang of the leader, or of a follower.
@@ -124,25 +102,14 @@ impl Longest {
 
     /// The figures in milliseconds, with their bounds: those of the first property that each is about.
     pub(super) fn figures(self, timed: &Timed, limits: &Limits) -> Vec<Figure> {
-        let is_asked = |claim: &&MeasureClaim| timed.claims(claim.properties[0]);
-        let figure = |claim: &MeasureClaim| Figure {
+        let found = MEASURES.iter().zip(self.0);
+        let asked = found.filter(|(claim, _)| timed.claims(claim.properties[0]));
+        let figure = |(claim, longest): (&MeasureClaim, Option<u8>)| Figure {
             id: claim.ids(),
             name: claim.name.to_owned(),
-            ms: self.0[claim.measure as usize].map(|ticks| timed.clock.millis(ticks).0),
+            ms: longest.map(|ticks| timed.clock.millis(ticks).0),
             bound_ms: (claim.bound)(limits).0,
         };
-        MEASURES.iter().filter(is_asked).map(figure).collect()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn each_measure_stands_in_its_place() {
-        for (place, claim) in MEASURES.iter().enumerate() {
-            assert_eq!(claim.measure as usize, place, "{}", claim.name);
-        }
+        asked.map(figure).collect()
     }
 }
