@@ -16,7 +16,7 @@ mod output;
 mod typed;
 
 use std::collections::VecDeque;
-use std::net::SocketAddrV4;
+use std::net::{SocketAddr, SocketAddrV4};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -50,6 +50,7 @@ use super::interrupts::interrupts;
 use super::ranges::{any, group, station};
 use super::writing::Lines;
 use super::{Failure, destinations, print};
+use crate::metrics::Shared;
 
 /// Text of a robot when a duty begins.
 const ON_DUTY: &str =
@@ -170,7 +171,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let station = security.station_id(&file.identifiers, file.station);
     let names = names(arguments, &file, station);
     let security_mode = arguments.security.mode().name();
-    let watch = arguments.watch.begin(address.clone(), security_mode)?;
+    let (tally, metrics) = arguments.watch.begin(address.clone(), security_mode)?;
     let mut outputs = Outputs::open(arguments.log.as_deref(), arguments.json)?;
     let perceived = super::open_feed(arguments.perceived.as_deref())?;
     let body = file.body_or_port(arguments.seed).map_err(|error| {
@@ -209,7 +210,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         file: &file,
         lines: outputs.lines,
         names,
-        watch,
+        tally,
         robot: Robot::new(station, counter),
         doubts_clock: false,
         pending: VecDeque::new(),
@@ -224,7 +225,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         file.name
     ));
     console.say(&longest_times(config, &file));
-    console.say_ports();
+    console.say_ports(metrics);
     let interrupted = interrupts();
     let outcome = console.attend(&running, &outputs.records, &typed::lines(), &interrupted);
     running.order(Order::Stop);
@@ -359,7 +360,7 @@ struct Console<'a> {
     /// Where it says something to people; nowhere, when standard output is the log.
     lines: Option<Lines>,
     names: Names,
-    watch: super::watch::Watch,
+    tally: Shared,
     /// The robot as its newest record shows it.
     robot: Robot,
     /// Whether it does not trust its clock.
@@ -396,7 +397,11 @@ impl Console<'_> {
                 // The robot has stopped, and everything that it said has been taken.
                 Err(RecvTimeoutError::Disconnected) => return Ok(()),
             }
-            self.watch.look(running);
+            let inbox_full = running.inbox_full();
+            if inbox_full > 0 {
+                let cause = Cause::InboxFull.into();
+                self.tally.with(|it| it.causes.set(&cause, inbox_full));
+            }
             while self.pending.len() < TYPED
                 && let Ok(text) = lines.try_recv()
             {
@@ -416,7 +421,7 @@ impl Console<'_> {
     }
 
     /// Says where others connect to the robot.
-    fn say_ports(&mut self) {
+    fn say_ports(&mut self, metrics: Option<SocketAddr>) {
         if let Some(port) = &self.file.body_port {
             self.say(&format!("Its body connects at {}.", port.address));
         }
@@ -425,13 +430,13 @@ impl Console<'_> {
                 "Other programs command and watch it at {address}."
             ));
         }
-        if let Some(address) = self.watch.metrics {
+        if let Some(address) = metrics {
             self.say(&format!("Metrics are at http://{address}/metrics."));
         }
     }
 
     fn record(&mut self, record: &Record) {
-        self.watch.record(record);
+        self.tally.with(|tally| tally.record(record));
         if self.lines.is_some() {
             let announced = self.announced(record);
             for line in self.texts(record).into_iter().chain(announced) {
@@ -551,8 +556,8 @@ impl Console<'_> {
             Some(Line::Until(state, time)) => self.hold = Some(Hold::State(state, now + time)),
             Some(Line::Status) => {
                 self.say(&self.names.tell(&self.robot));
-                self.say(&self.names.tell(self.watch.surroundings()));
-                self.say(&self.watch.equipment());
+                self.say(&self.names.tell(self.tally.with(|it| it.surroundings())));
+                self.say(&self.tally.with(|it| it.equipment()));
             }
             Some(Line::Help(command)) => self.say(&help(command)),
             Some(Line::Quit) => return Ok(true),

@@ -2,10 +2,6 @@
 
 use std::net::{Ipv4Addr, SocketAddr};
 
-use crossguard_endpoint::cause::Cause;
-use crossguard_robot::runtime::Running;
-use crossguard_robot::trace::Record;
-
 use super::Failure;
 use crate::metrics::{self, Shared};
 
@@ -26,16 +22,14 @@ fn address(text: &str) -> Result<SocketAddr, String> {
     })
 }
 
-/// Tally and metrics of a running robot.
-pub(super) struct Watch {
-    tally: Shared,
-    /// Where metrics are served.
-    pub(super) metrics: Option<SocketAddr>,
-}
-
 impl WatchArguments {
-    /// Begins to watch a robot on this link, in this mode of security.
-    pub(super) fn begin(&self, link: String, security: &'static str) -> Result<Watch, Failure> {
+    /// Begins to watch a robot on this link, in this mode of security. The address is that of its metrics, if they are
+    /// served.
+    pub(super) fn begin(
+        &self,
+        link: String,
+        security: &'static str,
+    ) -> Result<(Shared, Option<SocketAddr>), Failure> {
         let tally = Shared::default();
         tally.with(|tally| (tally.link, tally.security) = (link, security));
         let serve = |address| {
@@ -43,33 +37,6 @@ impl WatchArguments {
                 .map_err(|error| Failure::Input(format!("--metrics {address}: {error}")))
         };
         let metrics = self.metrics.map(serve).transpose()?;
-        Ok(Watch { tally, metrics })
-    }
-}
-
-impl Watch {
-    /// Takes in what the robot did.
-    pub(super) fn record(&self, record: &Record) {
-        self.tally.with(|tally| tally.record(record));
-    }
-
-    /// Other stations that were heard, and road users around.
-    pub(super) fn surroundings(&self) -> String {
-        self.tally.with(|tally| tally.surroundings())
-    }
-
-    /// Its link, its security and its channel.
-    pub(super) fn equipment(&self) -> String {
-        self.tally.with(|tally| tally.equipment())
-    }
-
-    /// Takes in what no record tells.
-    pub(super) fn look(&self, running: &Running) {
-        let inbox_full = running.inbox_full();
-        if inbox_full > 0 {
-            let cause = Cause::InboxFull.into();
-            self.tally
-                .with(|tally| tally.causes.set(&cause, inbox_full));
-        }
+        Ok((tally, metrics))
     }
 }
