@@ -72,6 +72,7 @@ use crossguard_robot::perception::Feed;
 #[cfg(feature = "full")]
 use crossguard_robot::robot_file::RobotFile;
 use crossguard_robot::trace::Log;
+use indicatif::{ProgressBar, ProgressStyle};
 use printable::{Printable, printable_json};
 #[cfg(not(feature = "full"))]
 use small::read_config;
@@ -258,7 +259,11 @@ fn open_feed(path: Option<&Path>) -> Result<Option<Feed>, Failure> {
     path.map(Feed::open).transpose().map_err(Failure::Input)
 }
 
-/// Whether progress is worth showing: only to people, and never among the output.
-fn shows_progress(is_json: bool) -> bool {
-    !is_json && std::io::stderr().is_terminal()
+/// A bar that shows how far a command is: only to people, and never among the output.
+fn progress(is_json: bool, template: &str) -> ProgressBar {
+    if is_json || !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template(template).expect("the template is well-formed");
+    ProgressBar::no_length().with_style(style)
 }

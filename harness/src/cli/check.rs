@@ -19,12 +19,12 @@ use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::subject::Subject;
 use crossguard_model_check::timed::Figure;
 use crossguard_robot::files;
-use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanCount, ProgressBar};
 use serde::Serialize;
 
 use super::interrupts::interrupts_that;
 use super::ranges::{at_least_one, threads, whole};
-use super::{Failure, destinations, print, print_json, shows_progress};
+use super::{Failure, destinations, print, print_json, progress};
 
 #[derive(clap::Args)]
 #[expect(
@@ -260,17 +260,12 @@ fn write_charts(report: &ScenarioReport, folder: &Path) -> Result<(), Failure> {
 }
 
 fn progress_bar(is_json: bool, scenario: &Scenario) -> ProgressBar {
-    let bar = ProgressBar::no_length().with_message(scenario.name.clone());
-    if !shows_progress(is_json) {
-        bar.set_draw_target(ProgressDrawTarget::hidden());
-    }
     let template = if scenario.expected.is_some() {
         "{msg} {elapsed} [{bar:30}] {human_pos} of {human_len} states, {per_sec}, {eta} to go, {prefix}"
     } else {
         "{msg} {elapsed} {spinner} {human_pos} states, {per_sec}, {prefix}"
     };
-    let style = ProgressStyle::with_template(template).expect("the template is well-formed");
-    bar.with_style(style)
+    progress(is_json, template).with_message(scenario.name.clone())
 }
 
 fn show(bar: &ProgressBar, progress: CheckProgress) {

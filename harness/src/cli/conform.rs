@@ -15,11 +15,10 @@ use crossguard_conform::subject::{Gone, Subject as _};
 use crossguard_protocol::StationId;
 use crossguard_robot::robot_file::RobotFile;
 use crossguard_robot::transport::{Link, Transport as _};
-use indicatif::{ProgressBar, ProgressDrawTarget};
 
 use super::interrupts::interrupts;
 use super::ranges::{address, station, whole};
-use super::{Failure, print, print_json, shows_progress};
+use super::{Failure, print, print_json, progress};
 
 /// The names under which the tester's stations find their tickets.
 const NAMES: [&str; 2] = ["Ada", "Bo"];
@@ -200,10 +199,8 @@ fn play_all(
     table: &mut Table,
 ) -> Result<(Report, bool), Failure> {
     let cases = campaign.cases();
-    let bar = ProgressBar::new(cases.len() as u64);
-    if !shows_progress(arguments.json) {
-        bar.set_draw_target(ProgressDrawTarget::hidden());
-    }
+    let bar = progress(arguments.json, "{bar:30} {pos}/{len} {msg}");
+    bar.set_length(cases.len() as u64);
     let mut cut_off = false;
     for case in &cases {
         bar.inc(1);

@@ -8,12 +8,11 @@ use crossguard_judge::sim::{Files, Fuzz, Longest, Measure, Planned, Totals, writ
 use crossguard_protocol::StationId;
 use crossguard_robot::plan_file::PlanFile;
 use crossguard_robot::transport::Faults;
-use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use super::interrupts::interrupts;
 use super::ranges::{any, number, whole};
-use super::{Failure, destinations, open_logs, print, print_json, report, shows_progress};
+use super::{Failure, destinations, open_logs, print, print_json, progress, report};
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
@@ -183,13 +182,8 @@ fn planned(arguments: &Arguments) -> Result<Option<Planned>, Failure> {
 /// Runs the seeds, with a progress bar for people. Ctrl-C ends it with what is known.
 fn watched(fuzz: &Fuzz, is_json: bool) -> Totals {
     let interrupted = interrupts();
-    let bar = if shows_progress(is_json) {
-        ProgressBar::new(fuzz.seeds)
-    } else {
-        ProgressBar::hidden()
-    };
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} seeds, {msg}, {eta} to go");
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let bar = progress(is_json, "{bar:30} {pos}/{len} seeds, {msg}, {eta} to go");
+    bar.set_length(fuzz.seeds);
     let totals = fuzz.run(&|totals: &Totals| {
         bar.set_position(totals.seeds);
         bar.set_message(format!("{} violations", totals.violations));

@@ -10,12 +10,11 @@ use crossguard_model_check::odds::{
     TimeGrid,
 };
 use crossguard_protocol::{Config, Millis};
-use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use super::interrupts::interrupts_that;
 use super::ranges::{number, whole};
-use super::{Failure, print, print_json, shows_progress};
+use super::{Failure, print, print_json, progress};
 
 #[derive(clap::Args)]
 #[command(after_help = AFTER_HELP)]
@@ -144,7 +143,7 @@ impl Arguments {
     }
 
     fn solve(&self, setup: OddsSetup, stop: &Stop) -> Result<TeamOdds, OddsError> {
-        let bar = progress(self.json);
+        let bar = progress(self.json, "{bar:30} {pos}/{len} {msg}, {elapsed}");
         let mut watch = |it: OddsProgress| {
             bar.set_length(it.of as u64);
             bar.set_position(it.done as u64);
@@ -169,14 +168,4 @@ impl SettingsOdds {
             team,
         }
     }
-}
-
-fn progress(is_json: bool) -> ProgressBar {
-    let bar = if shows_progress(is_json) {
-        ProgressBar::new(1)
-    } else {
-        ProgressBar::hidden()
-    };
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}, {elapsed}");
-    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }

@@ -21,7 +21,10 @@ use serde::Serialize;
 use self::options::{Air, Assumptions, Matrix, Mobility, Output};
 use self::parameters::Parameters;
 use super::interrupts::interrupts;
-use super::{Failure, csv, destinations, print, print_json};
+use super::{Failure, csv, destinations, print, print_json, progress};
+
+/// How far the runs are.
+const RUNS: &str = "runs {bar:40} {pos}/{len} {eta}";
 
 #[derive(clap::Args)]
 #[command(args_conflicts_with_subcommands = true)]
@@ -136,7 +139,7 @@ fn cbr(arguments: &Cbr) -> Result<(), Failure> {
     let traces = chosen.traces(&axes, arguments.output.json)?;
     let behaviour = chosen.behaviour.clone();
     let sizes = Sizes::measure(behaviour.cam_path_points).map_err(Failure::input)?;
-    let bar = output::progress(arguments.output.json, "runs");
+    let bar = progress(arguments.output.json, RUNS);
     let done = |finished: usize, of: usize| {
         bar.set_length(of as u64);
         bar.set_position(finished as u64);

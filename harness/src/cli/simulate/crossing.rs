@@ -19,7 +19,7 @@ use serde::Serialize;
 use toml::Table;
 
 use super::output::{self, Row};
-use super::{Failure, Output, csv, interrupts, print, print_json, whole_matrix};
+use super::{Failure, Output, RUNS, csv, interrupts, print, print_json, progress, whole_matrix};
 use crate::cli::ranges::whole;
 
 /// Most robots: a leader and its followers.
@@ -163,7 +163,7 @@ pub(super) fn run(arguments: &Crossing) -> Result<(), Failure> {
         .iter()
         .flat_map(|it| comers.iter().map(move |of| (*it, of)))
         .collect();
-    let bar = output::progress(arguments.output.json, "runs");
+    let bar = progress(arguments.output.json, RUNS);
     bar.set_length(jobs.len() as u64);
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let run = |number: usize| {

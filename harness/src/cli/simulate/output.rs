@@ -5,13 +5,11 @@ use comfy_table::presets::NOTHING;
 use crossguard_evaluation::matrix::{CbrCell, ObsCell};
 use crossguard_evaluation::statements::Comparison;
 use crossguard_evaluation::statistics::Estimate;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use serde::Serialize;
 use serde_json::Value;
 
 use super::{Failure, print};
-use crate::cli::shows_progress;
 
 /// A row of a table for people.
 pub(super) trait Row {
@@ -153,14 +151,4 @@ fn print_value(indent: usize, value: &Value) -> Result<(), Failure> {
         }
     }
     Ok(())
-}
-
-/// A bar that shows how far it is, to people only.
-pub(super) fn progress(is_json: bool, of: &'static str) -> ProgressBar {
-    if !shows_progress(is_json) {
-        return ProgressBar::hidden();
-    }
-    let style = ProgressStyle::with_template("{msg} {bar:40} {pos}/{len} {eta}");
-    let bar = ProgressBar::new(0).with_message(of);
-    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }

@@ -23,7 +23,7 @@ use crossguard_robot::files;
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::{Failure, output};
+use super::{Failure, progress};
 
 /// Every parameter, by its name in a file.
 #[derive(Clone, Default, Deserialize)]
@@ -312,7 +312,7 @@ impl Parameters {
         let mut grid = self.grid();
         grid.check().map_err(Failure::input)?;
         grid.mobility = sumo.version().map_err(Failure::input)?;
-        let bar = output::progress(is_json, "SUMO");
+        let bar = progress(is_json, "SUMO {bar:40} {pos}/{len} {eta}");
         bar.set_length(seeds.len() as u64);
         let mut runs = Vec::new();
         for &seed in seeds {
