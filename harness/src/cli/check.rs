@@ -5,7 +5,6 @@ mod workers;
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use comfy_table::Table;
@@ -22,7 +21,7 @@ use crossguard_robot::files;
 use indicatif::{HumanCount, ProgressBar};
 use serde::Serialize;
 
-use super::interrupts::interrupts_that;
+use super::interrupts::stop_when_told;
 use super::ranges::{at_least_one, threads, whole};
 use super::{Failure, destinations, print, print_json, progress};
 
@@ -105,8 +104,8 @@ impl WorkersArguments {
 }
 
 #[derive(Serialize)]
-struct CheckReport {
-    scenarios: Vec<ScenarioReport>,
+struct CheckReport<R> {
+    scenarios: Vec<R>,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -131,15 +130,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scenarios = names.into_iter().map(subject);
     let scenarios = scenarios.collect::<Result<Vec<_>, _>>()?;
     destinations::folders([&arguments.charts])?;
-    let stop = Stop::default();
-    let asked = stop.clone();
-    let interrupted = interrupts_that(move || asked.request());
+    let stop = stop_when_told();
     let mut report = CheckReport {
         scenarios: Vec::new(),
     };
     let (wanted, mut written) = (scenarios.len(), Ok(()));
     for subject in scenarios {
-        if interrupted.load(Ordering::Relaxed) {
+        if stop.is_requested() {
             break;
         }
         let checked = check_one(arguments, &stop, subject);
@@ -412,7 +409,7 @@ fn words(name: &str) -> String {
     words
 }
 
-fn summarize(report: &CheckReport) -> Result<(), Failure> {
+fn summarize(report: &CheckReport<ScenarioReport>) -> Result<(), Failure> {
     let (literal, scenarios): (Vec<_>, Vec<_>) =
         report.scenarios.iter().partition(|r| paper::made(r));
     for literal in literal {

@@ -12,7 +12,7 @@ use crossguard_model_check::odds::{
 use crossguard_protocol::{Config, Millis};
 use serde::Serialize;
 
-use super::interrupts::interrupts_that;
+use super::interrupts::stop_when_told;
 use super::ranges::{number, whole};
 use super::{Failure, print, print_json, progress};
 
@@ -91,9 +91,7 @@ struct SettingsOdds {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let config = super::config_or_default(arguments.config.as_deref())?;
     let setup = arguments.setup(&config)?;
-    let stop = Stop::default();
-    let asked = stop.clone();
-    let _interrupted = interrupts_that(move || asked.request());
+    let stop = stop_when_told();
     let team = match arguments.solve(setup.clone(), &stop) {
         Ok(team) => team,
         Err(OddsError::Cut(FlowCut::Stopped)) => return Err(Failure::Incomplete),

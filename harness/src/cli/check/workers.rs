@@ -4,23 +4,16 @@ use std::io::{Write, stderr};
 use std::num::NonZeroUsize;
 use std::time::Duration;
 
-use crossguard_model_check::check::Stop;
 use crossguard_model_check::model::Model;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::subject::Subject;
 use crossguard_robot::files;
 use crossguard_workers::{Cluster, Hosts, Options, Progress, WorkersError, WorkersReport, check};
 use indicatif::{HumanBytes, HumanCount, HumanFloatCount};
-use serde::Serialize;
 
-use super::super::interrupts::interrupts_that;
+use super::super::interrupts::stop_when_told;
 use super::super::{Failure, complain, destinations, print, print_json};
-use super::{Arguments, WorkersArguments};
-
-#[derive(Serialize)]
-struct WorkersTold {
-    scenarios: Vec<WorkersReport>,
-}
+use super::{Arguments, CheckReport, WorkersArguments};
 
 impl WorkersArguments {
     fn cluster(&self) -> Result<Option<Cluster>, Failure> {
@@ -50,9 +43,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scenarios = names.into_iter().map(scenario);
     let scenarios = scenarios.collect::<Result<Vec<_>, _>>()?;
     destinations::folders([&arguments.charts])?;
-    let stop = Stop::default();
-    let asked = stop.clone();
-    let _interrupted = interrupts_that(move || asked.request());
+    let stop = stop_when_told();
     let limits = super::options(arguments, &stop);
     let by_default = if arguments.large {
         limits.threads
@@ -67,7 +58,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         time_max: limits.time_max,
         stop,
     };
-    let mut told = WorkersTold {
+    let mut told = CheckReport {
         scenarios: Vec::new(),
     };
     let mut written = Ok(());
