@@ -61,7 +61,7 @@ command at every follower, its acknowledgement, the open corridor; that the corr
 before the maneuver is over. Numbers are solved from the transition function that robots run, on a grid of time, not \
 sampled. Nobody crashes in it, clocks do not drift, and every message takes the same time.";
 
-/// Setup of the calculation, and its results.
+/// What is worked out, the settings that it follows from, and what came of it.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct OddsReport {
@@ -70,14 +70,6 @@ struct OddsReport {
     burst_ms: Option<u32>,
     hold_ms: u32,
     coupling: Coupling,
-    #[serde(flatten)]
-    odds: SettingsOdds,
-}
-
-/// The figures, and the settings that they follow from.
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct SettingsOdds {
     ram_period_ms: u32,
     t_ack_ms: u32,
     n_ack: u8,
@@ -97,13 +89,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Err(OddsError::Cut(FlowCut::Stopped)) => return Err(Failure::Incomplete),
         Err(error) => return Err(Failure::input(error)),
     };
+    let settings = config.settings();
     let report = OddsReport {
         followers: arguments.followers,
         delay_ms: arguments.delay,
         burst_ms: arguments.burst,
         hold_ms: arguments.hold,
         coupling: setup.coupling(),
-        odds: SettingsOdds::new(&setup, team),
+        ram_period_ms: settings.ram_period.0,
+        t_ack_ms: settings.t_ack.0,
+        n_ack: settings.n_ack,
+        t_safety_ms: settings.t_safety.0,
+        t_lease_ms: settings.t_lease.0,
+        tick_ms: setup.grid().tick.0,
+        team,
     };
     if arguments.json {
         print_json(&report)
@@ -150,20 +149,5 @@ impl Arguments {
         let solved = OddsModel::new(setup).odds(&self.loss, stop, &mut watch);
         bar.finish_and_clear();
         solved
-    }
-}
-
-impl SettingsOdds {
-    fn new(setup: &OddsSetup, team: TeamOdds) -> Self {
-        let settings = setup.config().settings();
-        Self {
-            ram_period_ms: settings.ram_period.0,
-            t_ack_ms: settings.t_ack.0,
-            n_ack: settings.n_ack,
-            t_safety_ms: settings.t_safety.0,
-            t_lease_ms: settings.t_lease.0,
-            tick_ms: setup.grid().tick.0,
-            team,
-        }
     }
 }

@@ -2,27 +2,28 @@
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
-use crossguard_model_check::odds::{Coupling, Enclosure, LossOdds, Milestone, MilestoneOdds};
+use crossguard_model_check::odds::{
+    Coupling, Enclosure, LossOdds, Milestone, MilestoneOdds, TeamOdds,
+};
 
-use super::{Failure, OddsReport, SettingsOdds, print};
+use super::{Failure, OddsReport, print};
 
 /// Prints the settings, the table, and what they are of.
 pub(super) fn print_table(report: &OddsReport) -> Result<(), Failure> {
-    let odds = &report.odds;
     print(format_args!(
         "ram_period={} t_ack={} n_ack={} t_safety={}:",
-        odds.ram_period_ms, odds.t_ack_ms, odds.n_ack, odds.t_safety_ms
+        report.ram_period_ms, report.t_ack_ms, report.n_ack, report.t_safety_ms
     ))?;
-    print(table(odds))?;
-    let sizes = odds.team.sizes.iter().map(|size| {
+    print(table(&report.team))?;
+    let sizes = report.team.sizes.iter().map(|size| {
         let (name, states, transitions) = (size.stage.name(), size.states, size.transitions);
         format!("{name} {states} states and {transitions} transitions")
     });
     print(format_args!(
         "{}; bounds are at most {:.0e} apart; grid {} ms.\n",
         sizes.collect::<Vec<_>>().join(", "),
-        widest(odds),
-        odds.tick_ms
+        widest(&report.team),
+        report.tick_ms
     ))?;
     let channel = match report.burst_ms {
         Some(burst) => format!("losses come in bursts of {burst} ms on average"),
@@ -49,15 +50,15 @@ pub(super) fn print_table(report: &OddsReport) -> Result<(), Failure> {
 }
 
 /// How far apart the bounds of any probability are.
-fn widest(odds: &SettingsOdds) -> f64 {
-    let all = odds.team.losses.iter().flat_map(|loss| {
+fn widest(team: &TeamOdds) -> f64 {
+    let all = team.losses.iter().flat_map(|loss| {
         let milestones = loss.milestones.iter().map(|it| it.probability);
         milestones.chain([loss.crossing])
     });
     all.map(Enclosure::width).fold(0.0, f64::max)
 }
 
-fn table(odds: &SettingsOdds) -> Table {
+fn table(team: &TeamOdds) -> Table {
     let mut table = Table::new();
     table
         .load_style(NOTHING)
@@ -76,7 +77,7 @@ fn table(odds: &SettingsOdds) -> Table {
             "falls back",
             "crossing",
         ]);
-    for loss in &odds.team.losses {
+    for loss in &team.losses {
         table.add_row(row(loss));
     }
     for column in table.column_iter_mut() {
