@@ -139,10 +139,11 @@ impl Plane {
         }
     }
 
-    /// The plane whose origin is at this position; `None` when that is not known.
+    /// The plane whose origin is at this position; `None` when that is not known, or no number.
     #[must_use]
     pub fn around(position: &Position) -> Option<Self> {
-        Some(Self::at(position.latitude?, position.longitude?))
+        let [latitude, longitude] = degrees(position)?;
+        Some(Self::at(latitude, longitude))
     }
 
     /// Latitude and longitude of a place, in degrees.
@@ -155,13 +156,20 @@ impl Plane {
         )
     }
 
-    /// The place of a position; `None` when it is not known.
+    /// The place of a position; `None` when it is not known, or no number.
     #[must_use]
     pub fn point(&self, position: &Position) -> Option<Point> {
         let [across, along] = self.metres_per_degree;
-        let east = (position.longitude? - self.longitude) * across;
-        Some([east, (position.latitude? - self.latitude) * along])
+        let [latitude, longitude] = degrees(position)?;
+        let east = (longitude - self.longitude) * across;
+        Some([east, (latitude - self.latitude) * along])
     }
+}
+
+/// Latitude and longitude, where both are known and numbers.
+fn degrees(position: &Position) -> Option<[f64; 2]> {
+    let both = [position.latitude?, position.longitude?];
+    both.iter().all(|it| it.is_finite()).then_some(both)
 }
 
 #[cfg(test)]
