@@ -60,6 +60,8 @@ pub enum Cause {
     WaitedTooLong,
     /// A datagram arrived while the inbox was full.
     InboxFull,
+    /// The clock that the robot is told of shows less than it did. Time stands still for the robot until it has caught up.
+    ClockWentBack,
     /// A packet is not one for this station.
     Discarded(&'static str),
     /// A packet cannot be relied on.
@@ -125,7 +127,7 @@ impl Cause {
             Self::NoUse(_) => Layer::Service,
             Self::Undecodable(_) | Self::NotCanonical => Layer::Syntax,
             Self::Contradictory(_) => Layer::Semantics,
-            Self::Ignored(_) | Self::NotYielding => Layer::Protocol,
+            Self::Ignored(_) | Self::NotYielding | Self::ClockWentBack => Layer::Protocol,
             Self::Unplaced | Self::FrameDropped(_) => Layer::Perception,
             Self::BodySilent
             | Self::BodyFault
@@ -163,6 +165,7 @@ impl Display for Reason {
             Cause::LinkFailed => "failed",
             Cause::InboxFull | Cause::LogFull | Cause::OutputFull => "full",
             Cause::WaitedTooLong => "waited too long",
+            Cause::ClockWentBack => "clock went back",
             Cause::Misframed(why)
             | Cause::Discarded(why)
             | Cause::Rejected(why)

@@ -21,7 +21,7 @@ use self::pseudonyms::Pseudonyms;
 use self::turn::Turn;
 use crate::cause::Cause;
 use crate::counters::Counters;
-use crate::exchange::{Arrived, Exchange, Moment};
+use crate::exchange::{Arrived, Exchange, Host as _, Moment};
 use crate::ras::clustering::PerceivedVru;
 use crate::ras::generation::{INTERVAL_MIN_MS, Limits, Trigger};
 use crate::ras::surroundings::{Awareness, Surroundings};
@@ -221,8 +221,8 @@ impl<P: StateMachine> Endpoint<P> {
         let robot = self.robot();
         let elapsed_to_ms = self.exchange.elapsed_to_ms();
         let by_protocol = robot.next_due();
-        let by_protocol = by_protocol.map(|due| elapsed_to_ms + u64::from(due.0));
-        let by_generation = elapsed_to_ms + INTERVAL_MIN_MS;
+        let by_protocol = by_protocol.map(|due| elapsed_to_ms.saturating_add(due.0.into()));
+        let by_generation = elapsed_to_ms.saturating_add(INTERVAL_MIN_MS);
         match robot.next_ram() {
             Some(_) if !self.others.are_told() => by_protocol.unwrap_or(by_generation),
             _ => by_protocol.map_or(by_generation, |due| due.min(by_generation)),
@@ -230,6 +230,9 @@ impl<P: StateMachine> Endpoint<P> {
     }
 
     /// Takes in what happened at `moment` to a robot in `state`; the effects, in order.
+    ///
+    /// A clock that goes back is dropped as [`Cause::ClockWentBack`] with every call until it has caught up. Leases stand still with
+    /// it, so [`Event::OpenCorridor`] has no effect meanwhile.
     pub fn handle(
         &mut self,
         moment: Moment,
@@ -242,8 +245,15 @@ impl<P: StateMachine> Endpoint<P> {
             turn.elapse();
             exchange.elapse(&mut turn);
         }
+        let behind_ms = exchange.elapsed_to_ms().saturating_sub(moment.now_ms);
+        if behind_ms > 0 {
+            let detail =
+                format_args!("by {behind_ms} ms: give the time of a clock that is never put");
+            turn.dropped(Cause::ClockWentBack, &detail, &[]);
+        }
         self.pseudonyms.renew(exchange, &mut turn);
         match stimulus {
+            Stimulus::Event(Event::OpenCorridor) if behind_ms > 0 => {}
             Stimulus::Datagram { packet, arrived_ms } => {
                 let arrived = Arrived {
                     octets: packet,
