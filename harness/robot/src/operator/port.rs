@@ -267,6 +267,9 @@ impl<O: Obeys> Counter<O> {
         };
         let Err(why) = outcome else { return };
         self.count(Cause::OperatorGarbled, "a line at the operator port");
+        if may_be_frame(line) {
+            self.orders.order(Order::LookedInVain(why.clone()));
+        }
         let refused = ToOperator::Refused { line: nth, why };
         let Some(client) = self.clients.get_mut(&number) else {
             return;
@@ -386,7 +389,14 @@ impl<O: Obeys> Counter<O> {
     }
 }
 
-/// Cause to count for a client that does not take a line: none, if it has gone away.
+/// Whether a line that means nothing may have been of a sensor source, so that somebody may have been in it.
+fn may_be_frame(line: Result<&str, &str>) -> bool {
+    let line = line.map(serde_json::from_str::<Value>);
+    let Ok(Ok(line)) = line else { return true };
+    !matches!(line["type"].as_str(), Some("event" | "command" | "hello"))
+}
+
+/// What a client did wrong that does not take a line: nothing, if it has gone away.
 fn slowness(error: &std::io::Error) -> Option<Cause> {
     (error.kind() == ErrorKind::WouldBlock).then_some(Cause::OperatorSlow)
 }
