@@ -65,7 +65,7 @@ impl<P: StateMachine> Machine<P> {
         let effects = self.endpoint.handle(moment, &state, stimulus);
         if is_heard {
             let (map, robot) = (self.endpoint.map(), self.endpoint.robot());
-            self.application.listen(map, robot, moment.now_ms);
+            self.application.listen(map, robot, moment);
         }
         for effect in &effects {
             self.application.act(effect);

@@ -9,7 +9,8 @@ use crossguard_codec::{Identity, Kind, RoadUser};
 use crossguard_endpoint::Effect;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::station::{LocalDynamicMap, Security};
-use crossguard_protocol::{EndReason, Event, Input, Millis, Notice, Output, Urgency};
+use crossguard_endpoint::{Act, Effect, Moment};
+use crossguard_protocol::{EndReason, Event, Input, Millis, Notice, Urgency};
 use crossguard_robot::body::Build;
 use crossguard_robot::machine::{Machine, is_at_rest};
 use crossguard_robot::perception::SensorFrame;
@@ -179,9 +180,9 @@ fn a_person_who_tells_of_themselves_by_vam_is_called_for() {
         let mut map = LocalDynamicMap::default();
         map.observe(user, now_ms.into());
         let leader = crossing.0.robot(0);
-        let robot = leader.endpoint.robot().clone();
-        let application = &mut leader.application;
-        application.listen(&map, &robot, now_ms.into());
+        let robot = leader.endpoint().robot().clone();
+        let application = leader.application_mut();
+        application.listen(&map, &robot, Moment::after(BEGAN_ITS, now_ms.into()));
         crossing.pass(500, None);
     }
 }

@@ -7,6 +7,7 @@ use crossguard_codec::{Identity, Kind, Position, TaskParameters};
 use crossguard_crossing::{
     BodyReport, Coverage, Frame, FrameDrop, Input, Point, Pose, RoadUser, Sighting, Vehicle, Way,
 };
+use crossguard_endpoint::Moment;
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::station::{LocalDynamicMap, Neighbour};
@@ -24,6 +25,13 @@ const SIGHT_PERIOD_S: f64 = 0.2;
 
 /// Error of a position of which nobody says how right it is, in centimetres.
 const UNKNOWN_ERROR_CM: u16 = 100;
+
+/// How fast a vehicle is taken to be that does not say it, in m/s: the limit in towns, 50 km/h.
+const UNKNOWN_MPS: f64 = 13.9;
+
+/// Longest time that an object of a CPM is old when that is made, in ms (`measurementDeltaTime`, TS 103 324). A report that seems
+/// older is of a station whose wall clock is another one than the robot's.
+const MEASURED_MS: u64 = 2_048;
 
 /// Types of stations that are vulnerable road users by ETSI, and no slower than cars: `TrafficParticipantType` of TS 102 894-2.
 const MOPED: u8 = 3;
@@ -229,8 +237,9 @@ impl Application {
         self.site.place_of(parameters.target).map(point)
     }
 
-    /// Takes in what was heard of others at `now_ms`, on the robot's clock: its followers, vehicles, and people.
-    pub fn listen(&mut self, map: &LocalDynamicMap, robot: &Robot, now_ms: u64) {
+    /// Takes in what was heard of others at this moment: its followers, vehicles, and people.
+    pub fn listen(&mut self, map: &LocalDynamicMap, robot: &Robot, moment: Moment) {
+        let now_ms = moment.now_ms;
         if let Phase::Leading(leading) = robot.phase() {
             for member in leading.members.iter() {
                 let known = map.get(Identity::Station(member.station.0));
@@ -247,7 +256,7 @@ impl Application {
         let is_news = |known: &&Neighbour| known.heard_ms == now_ms;
         for known in map.iter().filter(is_news) {
             if self.rides(known) {
-                self.hear_vehicle(known);
+                self.hear_vehicle(known, moment);
             }
         }
         if !matches!(self.road, Road::Known(_)) {
@@ -270,23 +279,29 @@ impl Application {
         }
     }
 
-    fn hear_vehicle(&mut self, known: &Neighbour) {
+    fn hear_vehicle(&mut self, known: &Neighbour, moment: Moment) {
         let user = &known.user;
         let Some(at) = self.at_point(&user.position) else {
             return;
         };
-        let way = match (user.speed, user.heading) {
-            (Some(speed), Some(heading)) => {
+        // Nobody knows whether it stands: it moves.
+        let speed = user.speed.unwrap_or(UNKNOWN_MPS);
+        let way = match user.heading {
+            Some(heading) => {
                 let (east, north) = heading.to_radians().sin_cos();
                 [speed * east, speed * north]
             }
             // It moves, and nobody knows whereto: towards the crossing.
-            (Some(speed), None) => self.towards_crossing(at, speed),
-            (None, _) => return,
+            None => self.towards_crossing(at, speed),
         };
         let velocity = velocity(way);
         let seen = heard(known, at, RoadUser::Vehicle, Some(velocity));
         self.observe_one(HEARD, seen);
+        // A CAM says where the front is, a CPM where the middle of the bounding box (`PerceivedObject`, TS 102 894-2).
+        let to_front_cm = match user.identity {
+            Identity::Station(_) => 0,
+            Identity::Object { .. } => self.setup.traffic.length_cm / 2,
+        };
         let vehicle = Vehicle {
             key: match user.identity {
                 Identity::Station(id) => id.into(),
@@ -299,10 +314,10 @@ impl Application {
                 Identity::Object { .. } => None,
             },
             at,
-            error_cm: seen.error_cm,
+            error_cm: seen.error_cm.saturating_add(to_front_cm),
             velocity,
         };
-        self.step(Input::Vehicle(vehicle, Millis::ZERO));
+        self.step(Input::Vehicle(vehicle, measured_ago(known, moment)));
     }
 
     fn towards_crossing(&self, at: Point, speed: f64) -> [f64; 2] {
@@ -409,6 +424,12 @@ fn error_cm(position: &Position) -> u16 {
     position.ellipse.map_or(UNKNOWN_ERROR_CM, |ellipse| {
         (ellipse.semi_major * 100.0).ceil() as u16
     })
+}
+
+/// How long before this moment somebody was measured, as their message says.
+fn measured_ago(known: &Neighbour, moment: Moment) -> Millis {
+    let ago_ms = moment.timestamp_its.saturating_sub(known.user.measured_its);
+    Millis(u32::try_from(ago_ms.min(MEASURED_MS)).unwrap_or(u32::MAX))
 }
 
 /// How long ago somebody was heard.

@@ -3,6 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use crossguard_codec::{Identity, Kind, Position, RoadUser, RobotState, TaskParameters};
+use crossguard_endpoint::Moment;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_endpoint::station::LocalDynamicMap;
 use crossguard_protocol::{Robot, StationId, StopReason, TaskType};
@@ -227,14 +228,18 @@ fn vehicle(east: f64, (speed, heading): (f64, f64)) -> RoadUser {
         heading: Some(heading),
         cardinality: 1,
         signals: None,
-        measured_its: 0,
+        measured_its: BEGAN_ITS + 10_000,
     }
 }
+
+/// What the wall clock shows when the robot's shows 0.
+const BEGAN_ITS: u64 = 694_694_400_000;
 
 fn hears_of(application: &mut Application, user: RoadUser, now_ms: u64) {
     let mut map = LocalDynamicMap::default();
     map.observe(user, now_ms);
-    application.listen(&map, &Robot::new(StationId(1), 1), now_ms);
+    let moment = Moment::after(BEGAN_ITS, now_ms);
+    application.listen(&map, &Robot::new(StationId(1), 1), moment);
 }
 
 /// A robot that watches the simulated street, and has seen it empty once.
@@ -289,6 +294,46 @@ fn whoever_is_as_fast_as_a_vehicle_hinders_like_one() {
         };
         let what = format!("{user:?}");
         hears_of(&mut application, user, 10_000);
+        let hindered = application.crossing.hindered(&application.setup);
+        assert_eq!(hindered.is_some(), expected, "{what}: {hindered:?}");
+    }
+}
+
+/// Hazard: a vehicle that does not say how fast it is, or that was measured a while ago, counts as none, or as where it was.
+#[test]
+fn what_a_vehicle_does_not_say_makes_nothing_safer() {
+    let (itself, seen) = (Identity::Station(9), Identity::Object { by: 9, number: 1 });
+    for (identity, east, mps, heading, ago_ms, expected) in [
+        (itself, -60.0, Some(13.9), Some(90.0), 0, true),
+        (itself, -60.0, None, Some(90.0), 0, true),
+        (itself, -60.0, None, None, 0, true),
+        (itself, -60.0, Some(0.0), None, 0, false),
+        (itself, -60.0, None, Some(270.0), 0, false),
+        (itself, -100.0, None, None, 0, false),
+        // It needs 60 m, and has 71 m when it is measured.
+        (itself, -80.0, Some(13.9), Some(90.0), 0, false),
+        (itself, -80.0, Some(13.9), Some(90.0), 1_000, true),
+        // Its clock is ahead of the robot's, or a minute behind.
+        (itself, -80.0, Some(13.9), Some(90.0), -1_000, false),
+        (itself, -80.0, Some(13.9), Some(90.0), 60_000, true),
+        (itself, -120.0, Some(13.9), Some(90.0), 60_000, false),
+        // The front of a bus is 6 m ahead of its middle.
+        (itself, -72.0, Some(13.9), Some(90.0), 0, false),
+        (seen, -72.0, Some(13.9), Some(90.0), 0, true),
+        (seen, -84.0, Some(13.9), Some(90.0), 0, false),
+    ] {
+        let mut application = watching();
+        let known = vehicle(east, (0.0, 0.0));
+        let user = RoadUser {
+            identity,
+            speed: mps,
+            heading,
+            measured_its: known.measured_its.strict_sub_signed(ago_ms),
+            ..known
+        };
+        let what = format!("{user:?}");
+        hears_of(&mut application, user, 10_000);
+        application.advance(10.0);
         let hindered = application.crossing.hindered(&application.setup);
         assert_eq!(hindered.is_some(), expected, "{what}: {hindered:?}");
     }

@@ -4,9 +4,9 @@ use std::rc::Rc;
 
 use crossguard_codec::geonet::{EgoPosition, Stack};
 use crossguard_codec::{Heard, Identity, Kind, RoadUser, RobotState, Service};
-use crossguard_endpoint::Stimulus;
 use crossguard_endpoint::station::LocalDynamicMap;
 use crossguard_endpoint::station::vehicle::{Question, passenger_car};
+use crossguard_endpoint::{Moment, Stimulus};
 use crossguard_protocol::StationId;
 use crossguard_robot::site::Place;
 use rand::Rng;
@@ -99,7 +99,10 @@ impl World<'_> {
         is_westward: bool,
     ) -> Result<(), Finding> {
         let seat = &mut self.seats[place];
-        let now_ms = seat.clock.shows_us(self.now_us) / 1_000;
+        let moment = Moment {
+            now_ms: seat.clock.shows_us(self.now_us) / 1_000,
+            timestamp_its: timestamp_at(self.now_us / 1_000),
+        };
         let Some(machine) = &mut seat.machine else {
             return Ok(());
         };
@@ -112,12 +115,12 @@ impl World<'_> {
             heading: Some(if is_westward { 270.0 } else { 90.0 }),
             cardinality: 1,
             signals: None,
-            measured_its: 0,
+            measured_its: moment.timestamp_its,
         };
         let mut map = LocalDynamicMap::default();
-        map.observe(user, now_ms);
-        let robot = machine.endpoint.robot().clone();
-        machine.application.listen(&map, &robot, now_ms);
+        map.observe(user, moment.now_ms);
+        let robot = machine.endpoint().robot().clone();
+        machine.application_mut().listen(&map, &robot, moment);
         seat.heard_us.insert(number, self.now_us);
         self.handle(place, Stimulus::Time)
     }
