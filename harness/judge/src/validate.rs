@@ -268,15 +268,21 @@ impl Default for LoggedRobots {
 }
 
 impl LoggedRobots {
-    /// The log whose next record is taken: the earliest of the logs that need not wait for another, and
-    /// if all do, the earliest of all. `None` when all are at their ends.
+    /// The log whose next record is taken: the earliest of the logs that need not wait for another. If all do, the earliest
+    /// of those that wait for a station which no log has had so far, for that may be a stranger; or else of all. `None` when all
+    /// are at their ends.
     fn choose(&self, cursors: &[Cursor]) -> Option<usize> {
         let with_head = || (0..cursors.len()).filter(|&i| cursors[i].head.is_some());
         let earliest = |i: &usize| cursors[*i].unix_us();
         let alone = with_head().nth(1).is_none();
         let ready = with_head().filter(|&i| alone || !self.must_wait(cursors, i));
+        let is_of_stranger = |i: &usize| {
+            let record = cursors[*i].head.as_ref();
+            record.is_some_and(|it| matches!(it.entry, Entry::Heard { from, .. } if !self.stations.contains_key(&from)))
+        };
         ready
             .min_by_key(earliest)
+            .or_else(|| with_head().filter(is_of_stranger).min_by_key(earliest))
             .or_else(|| with_head().min_by_key(earliest))
     }
 
