@@ -62,7 +62,11 @@ def name_of(field: str) -> str:
 
 def dumps(value: object) -> str:
     """The JSON of a value."""
-    return json.dumps(plain(value), allow_nan=False)
+    try:
+        return json.dumps(plain(value), allow_nan=False)
+    except ValueError:
+        why = "a number is NaN or infinite: None stands for what is not known"
+        raise ValueError(why) from None
 
 
 def loads(kind: Any, text: str) -> Any:
