@@ -166,6 +166,9 @@ fn story() -> String {
             Tell(event) => Input::Local(event),
             Fires(timer) => Input::Expired(timer),
         };
+        if let Input::Ram { ram, .. } = input {
+            assert_eq!(format!("{input:#}"), format!("{ram:#}"), "as in a chart");
+        }
         writeln!(text, "{}: {input}", who + 1).unwrap();
         for output in robots[who].step(&Config::default(), input).iter() {
             writeln!(text, "   {output}").unwrap();

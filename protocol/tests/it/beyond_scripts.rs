@@ -104,6 +104,14 @@ fn the_edge_is_that_of_the_inequality() {
 }
 
 #[test]
+fn a_set_without_another_has_no_task_of_it() {
+    let of = |tasks: [TaskType; 2]| TaskSet::of(&tasks);
+    let two = of([TaskType::MOVE, TaskType::BLOCK]);
+    let left = two.without(of([TaskType::BLOCK, TaskType::INITIAL_POS]));
+    assert_eq!(left, TaskSet::of(&[TaskType::MOVE]));
+}
+
+#[test]
 fn the_newest_request_is_the_one_that_was_answered_last() {
     let street = Street::with_roles(&[ARI, GO2]);
     assert_eq!(street.following(GO2).newest_request(), None);
@@ -113,11 +121,17 @@ fn the_newest_request_is_the_one_that_was_answered_last() {
         street.following(GO2).newest_request(),
         Some(running.request)
     );
+    let has_completed = |street: &Street| {
+        let member = street.leading(ARI).member(GO2);
+        member.is_some_and(Member::has_completed)
+    };
+    assert!(!has_completed(&street));
     street.tell(GO2, Event::ManeuverCompleted(running));
     assert_eq!(
         street.following(GO2).newest_request(),
         Some(running.request)
     );
+    assert!(has_completed(&street));
 }
 
 /// Each step of each script is measured.

@@ -206,7 +206,9 @@ impl Street {
         let robot = self.robots.get_mut(&who).expect("no such robot");
         let before = robot.clone();
         let mut outputs = Outputs::default();
-        let allocated = allocation_counter::measure(|| outputs = robot.step(config, input));
+        let allocated = allocation_counter::measure(|| {
+            outputs = StateMachine::step(robot, config, input);
+        });
         assert_eq!(
             allocated.count_total, 0,
             "{input:?} allocates in {before:#?}"
@@ -218,6 +220,14 @@ impl Street {
         if outputs.ignored().is_some() {
             assert_eq!(*robot, before, "{input:?} is ignored, but has an effect");
         }
+        // What others read says the same in two ways.
+        let timers = robot.timers();
+        let ram = timers.iter().find(|(timer, _)| *timer == Timer::Ram);
+        assert_eq!(robot.next_due(), timers.iter().map(|it| it.1).min());
+        assert_eq!(robot.next_ram(), ram.map(|it| it.1));
+        assert_eq!(robot.boot(), robot.next_number().boot);
+        let notices = outputs.iter().filter(|it| matches!(it, Output::Notify(_)));
+        assert_eq!(outputs.notices().count(), notices.count());
         for &output in outputs.iter() {
             match output {
                 Output::CorridorOpened(left) | Output::CorridorExtended(left) => {
