@@ -352,7 +352,9 @@ impl Loop {
             Order::Finish { well } => event(self.machine.finish(well)),
             Order::Perceived(vru) => {
                 let place = self.machine.application.body().place();
-                self.machine.application.perceive(&vru);
+                let station = self.machine.endpoint.robot().station();
+                let application = &mut self.machine.application;
+                application.perceive(station, &vru);
                 seen = vec![seen_from(place, vru)];
                 Stimulus::Perceived(&seen)
             }
