@@ -6,6 +6,7 @@
 mod answers;
 #[cfg_attr(not(feature = "foreign"), path = "endpoint/no_others.rs")]
 mod others;
+#[cfg_attr(not(feature = "security"), path = "endpoint/no_pseudonyms.rs")]
 mod pseudonyms;
 mod turn;
 

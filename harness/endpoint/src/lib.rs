@@ -17,7 +17,7 @@
 //! - [`cause`] names why something is dropped, [`counters`] counts it.
 //!
 //! Without the feature `std` there are [`exchange`], [`cause`] and the generation rules. Without `foreign`, messages
-//! of other stations than robots are neither read nor sent.
+//! of other stations than robots are neither read nor sent; without `security`, nothing is signed or verified.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 pub mod cause;
@@ -35,6 +35,6 @@ pub use endpoint::{Effect, Endpoint, Stimulus};
 pub use exchange::Moment;
 
 /// The Rust in the README compiles.
-#[cfg(all(doctest, feature = "foreign"))]
+#[cfg(all(doctest, feature = "foreign", feature = "security"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

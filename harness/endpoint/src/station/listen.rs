@@ -1,7 +1,10 @@
 //! Packets and messages as any receiver can read them, without verifying them: for sniffers, captures and charts.
 
-use crossguard_codec::geonet::{BasicHeader, Discarded, EnvelopeError, Headers, NextHeader};
-use crossguard_codec::security::SignedMessage;
+#[cfg(feature = "security")]
+use crossguard_codec::geonet::EnvelopeError;
+#[cfg(not(feature = "security"))]
+use crossguard_codec::geonet::GeonetError;
+use crossguard_codec::geonet::{BasicHeader, Discarded, Headers, NextHeader};
 use crossguard_codec::{Heard, Identifiers, Position, Unheard};
 use crossguard_protocol::StationId;
 
@@ -14,13 +17,22 @@ pub fn peek(packet: &[u8]) -> Result<(Headers, &[u8]), Discarded> {
     let (basic, rest) = BasicHeader::decode(packet)?;
     let plain = match basic.next {
         NextHeader::Common => rest,
-        NextHeader::Secured => {
-            SignedMessage::decode(rest)
-                .map_err(EnvelopeError::from)?
-                .payload
-        }
+        NextHeader::Secured => signed(rest)?,
     };
     Ok(Headers::decode_behind(basic, plain)?)
+}
+
+/// The payload of a security envelope, whose signature is not looked at.
+#[cfg(feature = "security")]
+fn signed(envelope: &[u8]) -> Result<&[u8], Discarded> {
+    let signed = crossguard_codec::security::SignedMessage::decode(envelope);
+    Ok(signed.map_err(EnvelopeError::from)?.payload)
+}
+
+/// Nothing is known of security envelopes.
+#[cfg(not(feature = "security"))]
+const fn signed(_: &[u8]) -> Result<&[u8], Discarded> {
+    Err(Discarded::Headers(GeonetError::Secured))
 }
 
 /// The message in a packet, as [`peek`] has it; or the octets, where they are no packet.

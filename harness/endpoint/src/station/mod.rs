@@ -11,7 +11,9 @@ mod namesakes;
 mod neighbours;
 #[cfg(feature = "foreign")]
 mod observe;
+#[cfg(feature = "security")]
 mod pseudonyms;
+#[cfg(feature = "security")]
 mod security;
 pub mod vehicle;
 
@@ -20,6 +22,9 @@ pub use namesakes::{NAMES_MAX, NotAdmitted};
 pub(crate) use neighbours::Neighbours;
 #[cfg(feature = "foreign")]
 pub use observe::{Unobserved, service_of};
+#[cfg(feature = "security")]
 pub(crate) use pseudonyms::Pseudonyms;
+#[cfg(feature = "security")]
 pub use pseudonyms::Secret;
+#[cfg(feature = "security")]
 pub use security::{Credentials, Mode, NoSuchMode, Security};
