@@ -44,12 +44,15 @@ impl Crossings {
         let (session, Phase::Leading(leading)) = (after.session()?, after.phase()) else {
             return None;
         };
-        let opens = |output: &Output| matches!(output, Output::CorridorOpened(_));
-        if !outputs.iter().any(opens) || !self.0.insert(session) {
+        if !outputs.iter().any(is_go) || !self.0.insert(session) {
             return None;
         }
         monitor.step_on_road(session, usize::from(leading.request.followers))
     }
+}
+
+fn is_go(output: &Output) -> bool {
+    matches!(output, Output::CorridorOpened(_))
 }
 
 #[cfg(test)]
