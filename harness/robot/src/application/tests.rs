@@ -157,7 +157,7 @@ fn a_hindrance_is_told_once_until_go_is_shown_again() {
     let mut told = |output| {
         let outputs: Outputs = [output].into_iter().collect();
         application.carry_out(&outputs);
-        application.next_hindrance()
+        application.untold_hindrance.take()
     };
     let go = Output::Go(Millis(100));
     let once = Some(Hindrance::NoSight);
