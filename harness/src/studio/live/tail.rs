@@ -1,8 +1,9 @@
 //! Logs that grow: whole lines are taken as they come, and a file that is cut short or replaced is read anew.
 
 use std::cell::RefCell;
-use std::fs::File;
+use std::fs::{File, Metadata};
 use std::io::{BufRead, Read, Seek, SeekFrom};
+use std::os::unix::fs::MetadataExt as _;
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::{Duration, SystemTime};
@@ -173,15 +174,8 @@ fn records(path: &std::path::Path, lines: &Rc<RefCell<Vec<u8>>>) -> Records<'sta
     Records::new(Log::new(path.display().to_string(), lines))
 }
 
-#[cfg(unix)]
-fn is_same(one: &std::fs::Metadata, other: &std::fs::Metadata) -> bool {
-    use std::os::unix::fs::MetadataExt as _;
+fn is_same(one: &Metadata, other: &Metadata) -> bool {
     (one.dev(), one.ino()) == (other.dev(), other.ino())
-}
-
-#[cfg(not(unix))]
-fn is_same(_: &std::fs::Metadata, _: &std::fs::Metadata) -> bool {
-    true
 }
 
 /// Whole lines that have come; at an end of them more may come.
