@@ -72,10 +72,9 @@ pub struct Quantile {
 pub struct ReachedBy {
     /// The time, in ms.
     pub ms: u64,
-    /// No less than this.
-    pub lower: f64,
-    /// No more than this.
-    pub upper: f64,
+    /// The probability.
+    #[serde(flatten)]
+    pub probability: Enclosure,
 }
 
 /// Bounds of the probability that a stage begins.
@@ -134,17 +133,16 @@ impl MilestoneOdds {
         };
         let probability = at(curve.len() - 1);
         let distribution: Vec<ReachedBy> = (0..curve.len())
-            .map(|tick| {
-                let Enclosure { lower, upper } = at(tick);
-                let ms = grid.millis(tick);
-                ReachedBy { ms, lower, upper }
+            .map(|tick| ReachedBy {
+                ms: grid.millis(tick),
+                probability: at(tick),
             })
             .collect();
         let quantile = |probability| Quantile {
             probability,
             ms: distribution
                 .iter()
-                .find(|reached| reached.lower >= probability)
+                .find(|reached| reached.probability.lower >= probability)
                 .map(|reached| reached.ms),
         };
         let quantiles = QUANTILES.map(quantile).into();
@@ -171,31 +169,24 @@ impl MilestoneOdds {
             .iter()
             .rev()
             .find(|reached| reached.ms <= ms);
-        before.map_or(
-            Enclosure {
-                lower: 0.0,
-                upper: 0.0,
-            },
-            |reached| Enclosure {
-                lower: reached.lower,
-                upper: reached.upper,
-            },
-        )
+        let never = Enclosure::probability(0.0, 0.0);
+        before.map_or(never, |reached| reached.probability)
     }
 }
 
 /// Mean and standard deviation of the time of an event, in ms, given that it happens. In a run that was not
 /// followed it may happen at once, or at the latest possible time.
 fn moments(distribution: &[ReachedBy], unknown: f64, latest: Millis) -> Option<(Enclosure, f64)> {
-    let total = distribution.last().map(|reached| reached.lower);
+    let total = distribution.last().map(|reached| reached.probability.lower);
     let total = total.filter(|total| *total > 0.0)?;
     let (mut first, mut second, mut before) = (0.0, 0.0, 0.0);
     for reached in distribution {
         #[expect(clippy::cast_precision_loss, reason = "a time in ms is far below 2^52")]
         let ms = reached.ms as f64;
-        first += ms * (reached.lower - before);
-        second += ms * ms * (reached.lower - before);
-        before = reached.lower;
+        let lower = reached.probability.lower;
+        first += ms * (lower - before);
+        second += ms * ms * (lower - before);
+        before = lower;
     }
     let mean = Enclosure {
         lower: first / (total + unknown),
@@ -207,11 +198,13 @@ fn moments(distribution: &[ReachedBy], unknown: f64, latest: Millis) -> Option<(
 
 /// Without the points before the first chance and after the last change.
 fn trimmed(mut distribution: Vec<ReachedBy>) -> Vec<ReachedBy> {
-    let first = distribution.iter().position(|reached| reached.lower > 0.0);
+    let first = distribution
+        .iter()
+        .position(|reached| reached.probability.lower > 0.0);
     let Some(last) = distribution.last().copied() else {
         return distribution;
     };
-    let settled = |reached: &ReachedBy| (reached.lower, reached.upper) == (last.lower, last.upper);
+    let settled = |reached: &ReachedBy| reached.probability == last.probability;
     let end = distribution.iter().position(settled).unwrap_or(0);
     distribution.truncate(end + 1);
     distribution.drain(..first.unwrap_or(end).min(end));
