@@ -180,8 +180,8 @@ fn a_person_who_tells_of_themselves_by_vam_is_called_for() {
         let mut map = LocalDynamicMap::default();
         map.observe(user, now_ms.into());
         let leader = crossing.0.robot(0);
-        let robot = leader.endpoint().robot().clone();
-        let application = leader.application_mut();
+        let robot = leader.endpoint.robot().clone();
+        let application = &mut leader.application;
         application.listen(&map, &robot, Moment::after(BEGAN_ITS, now_ms.into()));
         crossing.pass(500, None);
     }

@@ -119,8 +119,8 @@ impl World<'_> {
         };
         let mut map = LocalDynamicMap::default();
         map.observe(user, moment.now_ms);
-        let robot = machine.endpoint().robot().clone();
-        machine.application_mut().listen(&map, &robot, moment);
+        let robot = machine.endpoint.robot().clone();
+        machine.application.listen(&map, &robot, moment);
         seat.heard_us.insert(number, self.now_us);
         self.handle(place, Stimulus::Time)
     }
