@@ -1,14 +1,14 @@
 //! A stack that keeps rule 1 of the integrator's guide badly: its clock goes back, as a wall clock does that is put.
 
 use crossguard_endpoint::cause::Cause;
-use crossguard_endpoint::{Act, Effect, Endpoint, Stimulus};
-use crossguard_protocol::{Event, ManeuverId, Phase};
+use crossguard_endpoint::{Effect, Endpoint, Stimulus};
+use crossguard_protocol::{Event, ManeuverId, Output, Phase};
 
 use crate::same_request::team_with_a_command;
 use crate::support::{handle, hear, sent};
 
 fn opens(effects: &[Effect]) -> bool {
-    let opens = |it: &Effect| matches!(it, Effect::Act(Act::OpenCorridor(_)));
+    let opens = |it: &Effect| matches!(it, Effect::Act(Output::CorridorOpened(_), _));
     effects.iter().any(opens)
 }
 

@@ -6,11 +6,10 @@ mod support;
 mod zone;
 
 use crossguard_codec::{Identity, Kind, RoadUser};
-use crossguard_endpoint::Effect;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::station::{LocalDynamicMap, Security};
-use crossguard_endpoint::{Act, Effect, Moment};
-use crossguard_protocol::{EndReason, Event, Input, Millis, Notice, Urgency};
+use crossguard_endpoint::{Effect, Moment};
+use crossguard_protocol::{EndReason, Event, Input, Millis, Notice, Output, Urgency};
 use crossguard_robot::body::Build;
 use crossguard_robot::machine::{Machine, is_at_rest};
 use crossguard_robot::perception::SensorFrame;
