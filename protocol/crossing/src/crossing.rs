@@ -319,9 +319,7 @@ impl<const N: usize> Crossing<N> {
         if let Err(why) = self.occupancy.admit(setup, frame) {
             let mut people = frame.sightings.iter();
             let is_person = |it: &Sighting| it.what != RoadUser::Vehicle;
-            if matches!(why, FrameDrop::OutOfOrder | FrameDrop::Stale)
-                && people.any(|it| is_person(it) && may_be_on_road(setup, it))
-            {
+            if people.any(|it| is_person(it) && may_be_on_road(setup, it)) {
                 self.occupy(setup);
             }
             return out.put(Output::Dropped(why));

@@ -528,7 +528,7 @@ impl Lead {
                 } else if self.patience == Millis::ZERO {
                     out.tell(Event::LeaveRequested);
                     return false;
-                } else if may_try && is_done && goes_with_escort {
+                } else if may_try && is_done && goes_with_escort && !self.is_full() {
                     // The escort is over there, and nobody came along.
                     self.tried = OPENING_PERIOD;
                     self.begin_stage(view, 0, out);

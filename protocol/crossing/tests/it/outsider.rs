@@ -179,3 +179,19 @@ fn nobody_on_the_road_is_taken_off_it_by_another_station() {
         assert!((0..=250).contains(&ahead), "liar {liar}: {ahead} cm");
     }
 }
+
+/// Hazard: there are five cameras, and the fifth alone has somebody on the road.
+#[test]
+fn somebody_in_a_frame_that_does_not_count_is_on_the_road_all_the_same() {
+    for (name, source, age) in [("no such source", 9, 0), ("stale", 0, 600), ("late", 0, 50)] {
+        let mut scene = Scene::new(street());
+        scene.pass(5_000);
+        for _ in 0..10 {
+            scene.look(100, &[]);
+        }
+        assert!(scene.is_clear(), "{name}");
+        scene.pass(10);
+        scene.frame(source, age, 0b11, &[person(1, 100, 300)]);
+        assert!(!scene.is_clear(), "{name}");
+    }
+}
