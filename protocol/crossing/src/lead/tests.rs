@@ -330,6 +330,13 @@ fn an_escort_is_commanded_anew_at_the_opening_period_and_not_without_end() {
         said = leader.pass(10);
     }
     assert!((15..=21).contains(&orders), "{orders} orders in 10 s");
+    // The session lets nobody on the road any more, and ends once nobody is lost.
+    leader.view.has_opened = true;
+    leader.pass(10_000);
+    leader.hear(Notice::ManeuverCompleted(FIRST, ID));
+    assert_eq!(leader.pass(500), "");
+    leader.view.nobody_is_lost = true;
+    assert_eq!(leader.pass(10), "completed");
 }
 
 #[test]
