@@ -1,7 +1,8 @@
 //! The theorem: one step of a robot keeps what holds of any exchange, whatever part it has in it, and breaks no property of it.
 //!
 //! Each harness has any settings, a robot in any valid state of a stage, any exchange, any history that agrees with both, and
-//! any input of a kind that such a history allows. The robot may be the leader of the exchange, its follower or neither.
+//! any input of a kind that such a history allows. The robot may be the leader of the exchange, its follower or neither. The
+//! state after the step is valid with the same settings; of time, as [`timers`] says.
 //!
 //! [`leader`] and [`follower`] have a harness for each stage and each kind of input by which something comes about. All other
 //! pairs are ignored, which [`frame`] proves of whatever these two do not name: no pair is left out.
@@ -10,13 +11,16 @@ use crossguard_protocol::laws::Source;
 use crossguard_protocol::laws::arbitrary::{self, AnyWord, Kind, Part};
 use crossguard_protocol::laws::exchange::steps::Laws;
 use crossguard_protocol::laws::exchange::{Exchange, History, messages, robots, steps};
+use crossguard_protocol::laws::road::{go_is_a_lease, the_corridor_is_open_only_over_guards};
+use crossguard_protocol::laws::steps::keeps_the_state_valid;
+use crossguard_protocol::laws::taken::Taken;
 use crossguard_protocol::laws::timers;
+use crossguard_protocol::laws::watch::Watch;
 use crossguard_protocol::{
-    Config, EventKind, Millis, Phase, Robot, Role, StationId, Timer, TimerKind,
+    Config, EventKind, Input, Millis, OutputKind, Phase, Robot, Role, StationId, Timer, TimerKind,
 };
 
-use super::stage::{self, any_valid};
-use super::timers::any_within_a_step;
+use super::stage;
 use crate::{Symbolic, kani};
 
 /// A robot, an exchange and a history that agree.
@@ -46,9 +50,20 @@ fn config() -> Config {
     }
 }
 
+/// How many offers or followers a robot in `stage` has, at least and at most. To a proof there are three, so that a rule that
+/// looks at the first two alone is noticed.
+const fn peers(stage: Role) -> (usize, usize) {
+    let (least, most) = stage::peers(stage);
+    (least, if cfg!(kani) && most > 0 { 3 } else { most })
+}
+
+fn any_valid(config: &Config, stage: Role) -> Robot {
+    stage::any_valid(config, stage, peers(stage))
+}
+
 fn any_watched(stage: Role) -> Watched {
     let config = config();
-    let robot = any_valid(&config, stage, stage::peers(stage));
+    let robot = any_valid(&config, stage);
     of(config, robot)
 }
 
@@ -89,7 +104,8 @@ fn any_step(stage: Role, kind: Kind, laws: Laws) -> Kept {
 fn any_firing(stage: Role, countdown: TimerKind, laws: Laws) -> Kept {
     let config = config();
     let timer = Timer::any_of(countdown, &mut Symbolic);
-    let robot = timers::with_due(any_within_a_step(&config, stage), timer);
+    let robot = arbitrary::robot(&mut Symbolic, &config, stage, peers(stage));
+    let robot = timers::with_due(robot, timer);
     kani::assume(timers::is_due(&robot, timer) && timers::is_consistent(&robot, &config));
     let Watched {
         config,
@@ -101,12 +117,16 @@ fn any_firing(stage: Role, countdown: TimerKind, laws: Laws) -> Kept {
     kani::assume(countdown != TimerKind::Ram || steps::can_pass(&config, late));
     let watched = (&exchange, &history);
     let (now, after) = steps::keeps_when_fired(laws, &config, watched, &robot, (timer, late));
+    let fired = taken(robot, Input::Expired(timer), after);
+    if laws != Laws::Heartbeats {
+        timers::firing_keeps_the_state_consistent(&config, &fired);
+    }
     Kept {
         exchange,
         was: history,
         now,
-        before: robot,
-        after,
+        before: fired.before,
+        after: fired.after,
     }
 }
 
@@ -116,14 +136,59 @@ impl Watched {
         let input = arbitrary::input(&mut Symbolic, kind, true);
         kani::assume(steps::can_be_next(&exchange, &was, &before, &input));
         let (now, after) = steps::keeps(laws, &self.config, (&exchange, &was), &before, input);
+        let step = taken(before, input, after);
+        if laws != Laws::Heartbeats {
+            keeps_the_state_valid(&self.config, &step);
+            the_corridor_is_open_only_over_guards(&self.config, &step);
+        }
         Kept {
             exchange,
             was,
             now,
-            before,
-            after,
+            before: step.before,
+            after: step.after,
         }
     }
+}
+
+/// The step, but for what it said: the history has seen that.
+fn taken(before: Robot, input: Input, after: Robot) -> Taken {
+    Taken {
+        said: Watch::new(&before, &input),
+        before,
+        input,
+        after,
+    }
+}
+
+/// Countdowns run: the state stays consistent, whatever is due then.
+fn runs(stage: Role) {
+    let config = config();
+    let robot = any_valid(&config, stage);
+    let elapsed = Millis(Symbolic.number(u32::MAX, 100));
+    timers::running_keeps_the_state_consistent(&config, &robot, elapsed);
+    let is_any_due = robot.next_due().is_some_and(|due| due <= elapsed);
+    kani::cover!(is_any_due, "some are due");
+}
+
+/// When no timer is due any more, the step settles: all that is left to do where the input is ignored.
+fn settles(stage: Role, ignored: Kind) {
+    let config = config();
+    let robot = arbitrary::robot(&mut Symbolic, &config, stage, peers(stage));
+    kani::assume(timers::is_consistent(&robot, &config) && robot.next_due() != Some(Millis::ZERO));
+    let kept = of(config, robot).step(ignored, Laws::All);
+    kani::cover!(kept.before != kept.after, "settles");
+}
+
+/// *Go* is shown over guards alone, for no longer than the lease on any of them.
+fn shows_go(kind: Kind, shows: OutputKind) {
+    let config = config();
+    let robot = any_valid(&config, Role::Leader);
+    let input = arbitrary::input(&mut Symbolic, kind, true);
+    let step = Taken::new(&config, robot, input);
+    the_corridor_is_open_only_over_guards(&config, &step);
+    go_is_a_lease(&step);
+    kani::cover!(step.said.has(shows), "shows go");
 }
 
 impl Kept {
@@ -179,6 +244,19 @@ pub mod any_age {
         Millis(any)
     }
 
+    /// How long a requester counts on an offer, once it was asked for: a harness has one configuration.
+    static LEASE: AtomicU32 = AtomicU32::new(NONE);
+
+    /// In place of a quotient: any time that is not above `t_offer`.
+    pub fn t_offer_lease(config: &Config) -> Millis {
+        let any: u32 = kani::any();
+        kani::assume(any <= config.settings().t_offer.0);
+        if LEASE.load(Relaxed) == NONE {
+            LEASE.store(any, Relaxed);
+        }
+        Millis(LEASE.load(Relaxed))
+    }
+
     /// In place of the protocol's.
     pub fn age_of(config: &Config, newest: Heartbeat, heard: Heartbeat, next: Millis) -> Millis {
         let in_this_period = config.settings().ram_period.saturating_sub(next);
@@ -199,16 +277,18 @@ macro_rules! with_any_age {
             #[unwind(6)]
             #[stub(crossguard_protocol::roles::age_of, crate::protocol::exchange::any_age::age_of)]
             #[stub(crossguard_protocol::laws::arithmetic::age_ms, crate::protocol::exchange::any_age::age_ms)]
+            #[stub(crossguard_protocol::Config::t_offer_lease, crate::protocol::exchange::any_age::t_offer_lease)]
             fn $name() $body
         )+ }
     };
 }
 
 /// Declares harnesses: stage, kind of input, which laws if not all, and what must be able to come of it. Those of which any
-/// part must be able to take the step stand in front, as a list.
+/// part must be able to take the step stand in front, as a list; behind it, what is no step by an input.
 macro_rules! steps {
     (
         @each { $($each:ident($from:ident, $any:expr $(, $of:ident)?);)+ }
+        @others { $($other:ident => $case:expr;)+ }
         $(
             $(#[doc = $doc:literal])*
             $name:ident($stage:ident, $kind:expr $(, $laws:ident)?) |$kept:ident| $marks:tt
@@ -231,6 +311,12 @@ macro_rules! steps {
                 fn $name() {
                     let $kept = &any_step(Role::$stage, $kind, stage::laws_of!(Laws::All $(, Laws::$laws)?));
                     stage::marks!($marks);
+                }
+            )+
+            $(
+                #[doc = concat!("`", stringify!($case), "`.")]
+                fn $other() {
+                    $case;
                 }
             )+
         }

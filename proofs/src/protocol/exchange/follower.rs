@@ -1,6 +1,6 @@
 //! A robot that helps or follows, or has no part in a session yet.
 
-use super::{EventKind, Kind, Laws, Part, Phase, Role, TimerKind, any_step, stage};
+use super::{EventKind, Kind, Laws, Part, Phase, Role, TimerKind, any_step, runs, settles, stage};
 
 steps! {
     @each {
@@ -29,6 +29,14 @@ steps! {
         renews_its_epoch_as_it_follows(Follower, Kind::Local(EventKind::EpochRenewed));
         leaves_its_position(Follower, Kind::Local(EventKind::OutOfPosition));
         sees_a_person(Follower, Kind::Local(EventKind::PersonOnRoad));
+    }
+    @others {
+        runs_without_a_part => runs(Role::None);
+        runs_as_it_helps => runs(Role::Helper);
+        runs_as_it_follows => runs(Role::Follower);
+        settles_without_a_part => settles(Role::None, Kind::Local(EventKind::AllAnswered));
+        settles_as_it_helps => settles(Role::Helper, Kind::Local(EventKind::AllAnswered));
+        settles_as_it_follows => settles(Role::Follower, Kind::Local(EventKind::AllAnswered));
     }
 
     /// It opens a session, which may be the watched one.

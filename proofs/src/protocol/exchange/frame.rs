@@ -1,13 +1,11 @@
 //! What is needed besides the steps.
 
 use super::{
-    Config, EventKind, Kind, Laws, Part, Proved, Role, Source, StationId, Symbolic, TimerKind,
-    any_valid, any_watched, any_within_a_step, arbitrary, config, follower, kani, leader, messages,
-    of, stage, steps, timers,
+    EventKind, Kind, Part, Proved, Role, Source, StationId, Symbolic, Taken, TimerKind, any_valid,
+    any_watched, arbitrary, config, follower, kani, leader, messages, steps,
 };
+use crossguard_protocol::Rmcm;
 use crossguard_protocol::laws::steps::ignores_without_effect;
-use crossguard_protocol::laws::taken::Taken;
-use crossguard_protocol::{Millis, Rmcm};
 
 use crate::harness::cases;
 
@@ -78,7 +76,7 @@ pub const fn is_proved(stage: Role, kind: Kind) -> bool {
 macro_rules! ignores_all_else {
     ($stage:ident $($kind:expr,)+) => {{
         let config = config();
-        let robot = any_valid(&config, Role::$stage, stage::peers(Role::$stage));
+        let robot = any_valid(&config, Role::$stage);
         $(
             if const { !is_proved(Role::$stage, $kind) } {
                 let input = arbitrary::input(&mut Symbolic, $kind, true);
@@ -120,14 +118,6 @@ fn keeps_what_it_ignores(stage: Role, ignored: u64) {
         "its follower"
     );
     kani::cover!(it.history == now, "no fact becomes known");
-}
-
-/// When no timer is due any more, the step settles: all that is left to do where the input is ignored.
-fn settles(config: Config, stage: Role, ignored: Kind, laws: Laws) {
-    let robot = any_within_a_step(&config, stage);
-    kani::assume(timers::is_consistent(&robot, &config) && robot.next_due() != Some(Millis::ZERO));
-    let kept = of(config, robot).step(ignored, laws);
-    kani::cover!(kept.before != kept.after, "settles");
 }
 
 fn is_left_so(stage: Role) {
@@ -189,19 +179,6 @@ lemmas! {
         a_helper_keeps_what_it_ignores => keeps_what_it_ignores(Role::Helper, const { ignored(Role::Helper) });
         a_follower_keeps_what_it_ignores => keeps_what_it_ignores(Role::Follower, const { ignored(Role::Follower) });
         a_leader_keeps_what_it_ignores => keeps_what_it_ignores(Role::Leader, const { ignored(Role::Leader) });
-    }
-
-    "A step settles after the last timer." {
-        an_idle_robot_settles => settles(config(), Role::None, Kind::Local(EventKind::AllAnswered), Laws::All);
-        a_requester_settles => settles(config(), Role::Requester, Kind::Local(EventKind::PedestrianDetected), Laws::All);
-        a_helper_settles => settles(config(), Role::Helper, Kind::Local(EventKind::AllAnswered), Laws::All);
-        a_follower_settles => settles(config(), Role::Follower, Kind::Local(EventKind::AllAnswered), Laws::All);
-        a_leader_settles => settles(config(), Role::Leader, Kind::Local(EventKind::AllAnswered), Laws::Facts);
-    }
-
-    "Heartbeats and leases, to a proof with the default settings: to multiply by any `ram_period` took more than 150 s." {
-        a_leader_settles_within_leases =>
-            settles(stage::config(), Role::Leader, Kind::Local(EventKind::AllAnswered), Laws::Heartbeats);
     }
 
     "What others do leaves the robot as it is." {

@@ -1,6 +1,9 @@
 //! A robot that asks for help or leads.
 
-use super::{EventKind, Kind, Laws, Part, Phase, Role, TimerKind, any_step, stage};
+use super::{
+    EventKind, Kind, Laws, OutputKind, Part, Phase, Role, TimerKind, any_step, runs, settles,
+    shows_go, stage,
+};
 
 steps! {
     @each {
@@ -21,6 +24,14 @@ steps! {
         changes_its_availability(Leader, Kind::Local(EventKind::AvailabilityChanged));
         closes_the_corridor(Leader, Kind::Local(EventKind::CloseCorridor));
         renews_its_epoch(Leader, Kind::Local(EventKind::EpochRenewed));
+    }
+    @others {
+        shows_go_as_it_opens_the_corridor => shows_go(Kind::Local(EventKind::OpenCorridor), OutputKind::CorridorOpened);
+        shows_go_as_it_hears_a_follower => shows_go(Kind::RamFollower, OutputKind::CorridorExtended);
+        runs_as_it_asks => runs(Role::Requester);
+        runs_as_it_leads => runs(Role::Leader);
+        settles_as_it_asks => settles(Role::Requester, Kind::Local(EventKind::PedestrianDetected));
+        settles_as_it_leads => settles(Role::Leader, Kind::Local(EventKind::AllAnswered));
     }
 
     /// It is offered help.
