@@ -325,24 +325,22 @@ impl Times {
 impl fmt::Display for ClockDifference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (leader, follower) = (&self.leader, &self.follower);
-        match self.ahead {
-            Some(offset) => write!(
+        let Some(offset) = self.ahead else {
+            let why = self.error.as_deref().unwrap_or_default();
+            return write!(
                 f,
-                "The clock of {follower} is {} ms ± {} ms ahead of that of {leader}, by {} messages there and {} back; \
-                 T_neg is without it, and as uncertain",
-                milliseconds(offset.offset_us),
-                milliseconds(offset.bound_us),
-                offset.there,
-                offset.back,
-            ),
-            None => {
-                let why = self.error.as_deref().unwrap_or_default();
-                write!(
-                    f,
-                    "Maneuvers of {leader} and {follower} are left out: {why}"
-                )
-            }
-        }
+                "Maneuvers of {leader} and {follower} are left out: {why}"
+            );
+        };
+        write!(
+            f,
+            "The clock of {follower} is {} ms ± {} ms ahead of that of {leader}, by {} messages there and {} back; \
+             T_neg is without it, and as uncertain",
+            milliseconds(offset.offset_us),
+            milliseconds(offset.bound_us),
+            offset.there,
+            offset.back,
+        )
     }
 }
 

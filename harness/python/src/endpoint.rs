@@ -58,7 +58,8 @@ impl<'a> Told<'a> {
     /// The effect as the application receives it; `None` for one that is for the log alone.
     fn of(effect: &'a Effect) -> Option<Self> {
         Some(match effect {
-            Effect::Stepped { .. } => return None,
+            // An application in Python asks no vehicle.
+            Effect::Stepped { .. } | Effect::VehicleAnswered(..) => return None,
             Effect::Heard {
                 kind, from, octets, ..
             } => Self::Heard {
@@ -81,8 +82,6 @@ impl<'a> Told<'a> {
                 cause: (*cause).into(),
                 detail,
             },
-            // Nobody asks a vehicle here.
-            Effect::VehicleAnswered(..) => return None,
             Effect::Ignored(_, why) => Self::Ignored(why),
             Effect::Act(output, parameters) => match output {
                 Output::StartManeuver(maneuver) => Self::StartManeuver(maneuver, parameters),

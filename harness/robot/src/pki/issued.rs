@@ -159,8 +159,8 @@ pub fn drawn_ticket(
     let [a, b, c, d, ..] = issued(term)?.certificate.id().0;
     let drawn = u64::from(u32::from_be_bytes([a, b, c, d])) * 1_000_000;
     let from_us = term.from.0;
-    let issuer = authority.certificate.content().validity;
-    let earliest_us = issuer.from().0 + EARLY_S * 1_000_000;
+    let validity = authority.certificate.content().validity;
+    let earliest_us = validity.from().0 + EARLY_S * 1_000_000;
     let span_us = early_us(term.duration).min(from_us.saturating_sub(earliest_us));
     let from = Time64(from_us - drawn % (span_us + 1));
     issued(Term { from, ..term })

@@ -67,7 +67,7 @@ fn a_vehicle_hinders_that_can_no_longer_stop_comfortably() {
 fn a_vehicle_in_a_bend_hinders_from_where_it_can_no_longer_stop() {
     #[expect(clippy::cast_possible_truncation, reason = "a few hundred metres")]
     let cm = |metres: f64| (metres * 100.0).round() as i32;
-    for case in 0..18 * 24 * 6 * 3 * 20 {
+    for case in 0..18 * 24 * 6 * 3 * 20_u32 {
         let speed = f64::from(3 + case % 18);
         let turned = f64::from(case / 18 % 24 * 15).to_radians();
         // To the left where it is positive.
