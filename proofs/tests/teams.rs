@@ -1,7 +1,8 @@
 //! Leaders of three and four followers, and requesters with as many offers: the laws of one step with random values.
 //!
-//! Proofs have two of them at most. A rule that looks at the first two alone is noticed here: each input comes from any of
-//! them or is about it, and a mark says in how many steps one after the second decided.
+//! Proofs of one stage have two of them at most, those of the theorem three. A rule that looks at the first two alone is
+//! noticed here: each input comes from any of them or is about it, and a mark says in how many steps one after the second
+//! decided.
 
 use std::collections::BTreeMap;
 
