@@ -268,8 +268,8 @@ impl Default for LoggedRobots {
 }
 
 impl LoggedRobots {
-    /// The log whose next record is taken: the earliest of the logs that need not wait for another. If all do, the earliest
-    /// of those that wait for a station which no log has had so far, for that may be a stranger; or else of all. `None` when all
+    /// The log whose next record is taken: the earliest log that need not wait for another one. If each log waits, it is the
+    /// earliest log that waits for a station without a log, which may be a stranger; or else the earliest log. `None` when all logs
     /// are at their ends.
     fn choose(&self, cursors: &[Cursor]) -> Option<usize> {
         let with_head = || (0..cursors.len()).filter(|&i| cursors[i].head.is_some());

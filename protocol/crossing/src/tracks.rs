@@ -54,8 +54,8 @@ pub(crate) enum Origin {
 }
 
 impl Origin {
-    /// Whether an observation from `other` may continue a track of this one. Other stations say nothing of people whom the robot sees
-    /// itself, and nothing of people of whom another station told.
+    /// Whether an observation of origin `other` may continue a track of this origin. A station continues its own tracks alone, and
+    /// sensors continue those of all sensors.
     fn may_continue(self, other: Self) -> bool {
         matches!((self, other), (Self::Sensor(_), Self::Sensor(_))) || self == other
     }

@@ -68,33 +68,51 @@ fn crowd_elsewhere(team: &mut Team, robot: usize) {
     }
 }
 
+/// An escort of robot 1 at the kerb of its person.
+fn escort(sees: bool) -> Team {
+    let mut team = team(plan(&[leg(TaskType::MOVE, Point::new(100, 800))]), sees);
+    team.robots[1].body.at = Point::new(0, -100);
+    team
+}
+
+/// Has the person of an escort walk at *go* for so long, and stop on the road for 10 s. How far the escort is ahead of the person
+/// then, in centimetres. `tell` tells the robots something before each 100 ms, and knows whether the person stopped.
+fn ahead_cm(team: &mut Team, walks_ms: u32, mut tell: impl FnMut(&mut Team, bool)) -> i32 {
+    let mut pass = |team: &mut Team, ms: u32, has_stopped: bool| {
+        for _ in 0..ms / 100 {
+            tell(team, has_stopped);
+            team.pass(100);
+        }
+    };
+    team.people = vec![person(1, 100, -100)];
+    for _ in 0..200 {
+        if !team.shows_go() {
+            pass(team, 100, false);
+        }
+    }
+    assert!(team.shows_go());
+    team.people[0] = walking(team.people[0], 0, 40);
+    pass(team, walks_ms, false);
+    team.people[0] = walking(team.people[0], 0, 0);
+    pass(team, 10_000, true);
+    team.robots[1].body.at.north_cm() - team.people[0].at.north_cm()
+}
+
 #[test]
 fn an_escort_stays_with_its_person_however_many_others_are_reported() {
     for crowd in [false, true] {
-        let mut team = team(plan(&[leg(TaskType::MOVE, Point::new(100, 800))]), true);
-        team.robots[1].body.at = Point::new(0, -100);
-        let pass = |team: &mut Team, ms: u32| {
-            for _ in 0..ms / 100 {
-                if crowd {
-                    crowd_elsewhere(team, 0);
-                    crowd_elsewhere(team, 1);
-                }
-                team.pass(100);
+        let mut team = escort(true);
+        let tell = |team: &mut Team, _: bool| {
+            if crowd {
+                crowd_elsewhere(team, 0);
+                crowd_elsewhere(team, 1);
             }
         };
-        pass(&mut team, 1_000);
-        team.people = vec![person(1, 100, -100)];
-        for _ in 0..200 {
-            if !team.shows_go() {
-                pass(&mut team, 100);
-            }
+        for _ in 0..10 {
+            tell(&mut team, false);
+            team.pass(100);
         }
-        assert!(team.shows_go());
-        team.people[0] = walking(team.people[0], 0, 40);
-        pass(&mut team, 5_000);
-        team.people[0] = walking(team.people[0], 0, 0);
-        pass(&mut team, 10_000);
-        let ahead = team.robots[1].body.at.north_cm() - team.people[0].at.north_cm();
+        let ahead = ahead_cm(&mut team, 5_000, tell);
         assert!((0..=250).contains(&ahead), "crowd {crowd}: {ahead} cm");
     }
 }
@@ -103,36 +121,21 @@ fn an_escort_stays_with_its_person_however_many_others_are_reported() {
 #[test]
 fn a_source_that_covers_nothing_takes_nobody_off_the_road() {
     for looks in [false, true] {
-        let mut team = team(plan(&[leg(TaskType::MOVE, Point::new(100, 800))]), false);
-        team.people = vec![person(1, 100, -100)];
-        team.robots[1].body.at = Point::new(0, -100);
-        let pass = |team: &mut Team, ms: u32, is_reported: bool| {
-            for _ in 0..ms / 100 {
+        let ahead = ahead_cm(&mut escort(false), 6_000, |team, has_stopped| {
+            if !has_stopped {
                 let who = team.people[0];
-                if is_reported {
-                    team.hear(1, Input::Heard(WITNESS, who, Millis(0)));
-                }
-                if looks {
-                    let frame = Frame {
-                        source: 0,
-                        age: Millis(0),
-                        covers: Coverage::NONE,
-                        sightings: &[],
-                    };
-                    team.hear(1, Input::Frame(frame));
-                }
-                team.pass(100);
+                team.hear(1, Input::Heard(WITNESS, who, Millis(0)));
             }
-        };
-        while !team.shows_go() {
-            assert!(team.now < 30_000);
-            pass(&mut team, 100, true);
-        }
-        team.people[0] = walking(team.people[0], 0, 40);
-        pass(&mut team, 6_000, true);
-        team.people[0] = walking(team.people[0], 0, 0);
-        pass(&mut team, 10_000, false);
-        let ahead = team.robots[1].body.at.north_cm() - team.people[0].at.north_cm();
+            if looks {
+                let frame = Frame {
+                    source: 0,
+                    age: Millis(0),
+                    covers: Coverage::NONE,
+                    sightings: &[],
+                };
+                team.hear(1, Input::Frame(frame));
+            }
+        });
         assert!((0..=250).contains(&ahead), "looks: {looks}, {ahead} cm");
     }
 }
@@ -140,42 +143,24 @@ fn a_source_that_covers_nothing_takes_nobody_off_the_road() {
 #[test]
 fn nobody_on_the_road_is_taken_off_it_by_another_station() {
     for liar in [false, true] {
-        let mut team = team(plan(&[leg(TaskType::MOVE, Point::new(100, 800))]), false);
-        team.people = vec![person(1, 100, -100)];
-        team.robots[1].body.at = Point::new(0, -100);
-        let pass = |team: &mut Team, ms: u32| {
-            for step in 0..ms / 100 {
-                // The leader's RAM have the person, once a second.
-                if step % 10 == 0 {
-                    let mut who = team.people[0];
-                    who.id = Some(77);
-                    team.hear(1, Input::Heard(WITNESS, who, Millis(0)));
-                }
-                if liar {
-                    for at in [team.people[0].at, Point::new(100, -100)] {
-                        let number = 1_000 + team.now;
-                        let lie = Sighting {
-                            at,
-                            error_cm: 4_000,
-                            ..person(number, 0, 0)
-                        };
-                        team.hear(1, Input::Heard(StationId(66), lie, Millis(0)));
-                    }
-                }
-                team.pass(100);
+        let ahead = ahead_cm(&mut escort(false), 6_000, |team, _| {
+            let id = Some(77);
+            let who = team.people[0];
+            // The leader's RAM have the person, once a second.
+            if team.now % 1_000 == 0 {
+                team.hear(1, Input::Heard(WITNESS, Sighting { id, ..who }, Millis(0)));
             }
-        };
-        for _ in 0..200 {
-            if !team.shows_go() {
-                pass(&mut team, 100);
+            if liar {
+                for at in [who.at, Point::new(100, -100)] {
+                    let lie = Sighting {
+                        at,
+                        error_cm: 4_000,
+                        ..person(1_000 + team.now, 0, 0)
+                    };
+                    team.hear(1, Input::Heard(StationId(66), lie, Millis(0)));
+                }
             }
-        }
-        assert!(team.shows_go());
-        team.people[0] = walking(team.people[0], 0, 40);
-        pass(&mut team, 6_000);
-        team.people[0] = walking(team.people[0], 0, 0);
-        pass(&mut team, 10_000);
-        let ahead = team.robots[1].body.at.north_cm() - team.people[0].at.north_cm();
+        });
         assert!((0..=250).contains(&ahead), "liar {liar}: {ahead} cm");
     }
 }

@@ -142,13 +142,15 @@ fn too_many_vehicles_hinder() {
     let numbered = |key: u64, vehicle| Vehicle { key, ..vehicle };
     let far = vehicle(-60_000, 200, 1_389, 0);
     let count = u64::try_from(traffic::VEHICLES).unwrap();
-    // Vehicles that stand take nobody's place.
-    (0..count).for_each(|key| {
-        scene.tell(Input::Vehicle(
-            numbered(key, vehicle(-900, 200, 0, 0)),
-            Millis(0),
-        ));
-    });
+    // Vehicles that stand take nobody's place, nor ones that no bend leads to the crossing while reports of them are kept.
+    for (first, it) in [
+        (0, vehicle(-900, 200, 0, 0)),
+        (500, vehicle(-60_000, 20_000, 1_389, 0)),
+    ] {
+        (0..=count).for_each(|key| {
+            scene.tell(Input::Vehicle(numbered(first + key, it), Millis(0)));
+        });
+    }
     for key in 0..=count {
         assert_eq!(
             scene.crossing.hindered(&scene.setup),
@@ -202,7 +204,8 @@ fn a_sign_that_shows_go_is_turned_before_a_vehicle_that_cannot_stop() {
     }
 }
 
-/// A body waits for vehicles within 2 m of the road that its way leads on or over, and nowhere else beside it.
+/// A body waits for vehicles within 2 m of the road that its way leads on or over, and nowhere else beside it; and not for vehicles
+/// that would have to bend.
 #[test]
 fn a_body_waits_at_the_kerb_and_not_before_it_or_along_it() {
     let mut setup = street();
@@ -220,6 +223,13 @@ fn a_body_waits_at_the_kerb_and_not_before_it_or_along_it() {
         let out = scene.tell(Input::Started(maneuver(TaskType::BLOCK, 0), to));
         assert_eq!(out.contains(&Output::Wait), expected, "{north}, {to:?}");
     }
+    let mut scene = Scene::new(setup);
+    scene.tell(Input::Vehicle(vehicle(-5_000, 2_000, 1_389, 0), Millis(0)));
+    assert!(scene.crossing.hindered(&scene.setup).is_some());
+    scene.is_at(0, -100, 0);
+    let to = Some(Point::new(0, 200));
+    let out = scene.tell(Input::Started(maneuver(TaskType::BLOCK, 0), to));
+    assert!(!out.contains(&Output::Wait));
 }
 
 #[test]
@@ -254,6 +264,10 @@ fn a_vehicle_that_can_stop_hinders_until_it_has_said_that_it_will() {
         station,
         ..vehicle(-9_000, 200, 1_389, 0)
     };
+    let bends = Vehicle {
+        station,
+        ..vehicle(-9_000, 4_000, 1_389, 0)
+    };
     let hinders = |asks: u32, vehicle: Vehicle, answers: &[bool], later: u32| {
         let mut setup = street();
         (setup.watches, setup.traffic.asks) = (false, Millis(asks));
@@ -271,6 +285,7 @@ fn a_vehicle_that_can_stop_hinders_until_it_has_said_that_it_will() {
         ("silent", 10_000, asked, &[][..], 0, true),
         ("no vehicle is asked", 0, asked, &[], 0, false),
         ("far", 6_000, asked, &[], 0, false),
+        ("it would have to bend", 10_000, bends, &[], 0, false),
         ("it promises", 10_000, asked, &[true], 0, false),
         (
             "it promised 4.9 s ago",

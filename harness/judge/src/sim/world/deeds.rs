@@ -16,8 +16,7 @@ use rand::seq::IndexedRandom;
 use super::{EPOCH_UNIX_MS, Finding, Next, World};
 use crate::sim::ruled::Ruled;
 use crate::sim::security;
-use crate::sim::swarm::PSEUDONYM_STEP;
-use crate::sim::swarm::{Deed, Happening};
+use crate::sim::swarm::{Deed, Happening, PSEUDONYM_STEP};
 
 /// How long after a sign began to show *go* something happens to its team, at most.
 const STRIKES_WITHIN_US: u64 = 1_500_000;
