@@ -166,8 +166,9 @@ impl Plane {
     }
 }
 
-/// Latitude and longitude, where both are known and numbers.
-fn degrees(position: &Position) -> Option<[f64; 2]> {
+/// Latitude and longitude in degrees, if both are known and finite.
+#[must_use]
+pub fn degrees(position: &Position) -> Option<[f64; 2]> {
     let both = [position.latitude?, position.longitude?];
     both.iter().all(|it| it.is_finite()).then_some(both)
 }

@@ -10,6 +10,7 @@ use crossguard_crossing::{
 use crossguard_endpoint::Moment;
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
+use crossguard_endpoint::ras::motion::degrees;
 use crossguard_endpoint::station::{LocalDynamicMap, Neighbour};
 use crossguard_protocol::{Millis, Phase, Robot, StationId};
 
@@ -228,7 +229,7 @@ impl Application {
     }
 
     fn at_point(&self, position: &Position) -> Option<Point> {
-        let (latitude, longitude) = position.latitude.zip(position.longitude)?;
+        let [latitude, longitude] = degrees(position)?;
         Some(point(self.site.place(latitude, longitude)))
     }
 

@@ -299,6 +299,16 @@ fn whoever_is_as_fast_as_a_vehicle_hinders_like_one() {
     }
 }
 
+/// A body that says NaN is not at the origin of the site.
+#[test]
+fn a_position_that_is_no_number_is_no_place() {
+    let application = watching();
+    assert!(application.pose(&Position::at(49.0, 8.4)).is_some());
+    for (latitude, longitude) in [(f64::NAN, 8.4), (49.0, f64::INFINITY)] {
+        assert_eq!(application.pose(&Position::at(latitude, longitude)), None);
+    }
+}
+
 /// Hazard: a vehicle that does not say how fast it is, or that was measured a while ago, counts as none, or as where it was.
 #[test]
 fn what_a_vehicle_does_not_say_makes_nothing_safer() {
