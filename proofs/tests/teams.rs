@@ -125,6 +125,7 @@ fn the_laws_hold_for_each_of_three_and_four_followers() {
             ),
         };
         let step = Taken::new(&config, robot, input);
+        steps::keeps_the_state_valid(&config, &step);
         steps::all(&config, &step);
         let mark = match &leading {
             Some(leading) => mark(&step, leading, nth),

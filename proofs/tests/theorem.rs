@@ -8,10 +8,10 @@ use crossguard_proofs::Symbolic;
 use crossguard_proofs::protocol::exchange::frame::{KINDS, is_proved};
 use crossguard_proofs::protocol::exchange::{Proved, follower, leader};
 use crossguard_protocol::laws::arbitrary::{self, Kind, Part};
-use crossguard_protocol::laws::exchange::robots;
 use crossguard_protocol::laws::exchange::steps::{self, Laws};
+use crossguard_protocol::laws::exchange::{Exchange, History, robots};
 use crossguard_protocol::laws::taken::Taken;
-use crossguard_protocol::{Config, EventKind, Input, Robot, Role, TimerKind};
+use crossguard_protocol::{Config, EventKind, Input, Robot, Role, SessionId, StationId, TimerKind};
 
 const README: &str = include_str!("../README.md");
 
@@ -72,6 +72,35 @@ fn the_table_has_every_kind_of_input_once_and_the_page_its_numbers() {
             KINDS.len() - act
         );
         assert!(README.contains(&row), "the page lacks {row}");
+    }
+}
+
+/// So validity after a step, which the theorem's harnesses ask for, rests on nothing that messages say.
+#[test]
+fn an_exchange_of_strangers_allows_any_input() {
+    let config = Config::default();
+    // Random values hardly draw these two.
+    let [leader, follower] = [0xFEED_0001, 0xFEED_0002].map(StationId);
+    for stage in Role::ALL {
+        for robot in states(stage, 2_000) {
+            let exchange = arbitrary::exchange(&mut Symbolic, Part::Bystander, &robot, &config);
+            let exchange = Exchange {
+                session: SessionId {
+                    leader,
+                    ..exchange.session
+                },
+                follower,
+                ..exchange
+            };
+            let unknown = History::default();
+            assert!(robots::are_near(&exchange, &robot));
+            assert!(steps::holds(&exchange, &unknown, &robot));
+            for &kind in KINDS {
+                let input = arbitrary::input(&mut Symbolic, kind, true);
+                let is_allowed = steps::can_be_next(&exchange, &unknown, &robot, &input);
+                assert!(is_allowed, "{stage:?} {input:?}");
+            }
+        }
     }
 }
 

@@ -14,8 +14,8 @@ use crossguard_protocol::laws::exchange::{Exchange, History, messages, robots, s
 use crossguard_protocol::laws::road::{go_is_a_lease, the_corridor_is_open_only_over_guards};
 use crossguard_protocol::laws::steps::keeps_the_state_valid;
 use crossguard_protocol::laws::taken::Taken;
-use crossguard_protocol::laws::timers;
 use crossguard_protocol::laws::watch::Watch;
+use crossguard_protocol::laws::{budgets, timers};
 use crossguard_protocol::{
     Config, EventKind, Input, Millis, OutputKind, Phase, Robot, Role, StationId, Timer, TimerKind,
 };
@@ -161,14 +161,16 @@ fn taken(before: Robot, input: Input, after: Robot) -> Taken {
     }
 }
 
-/// Countdowns run: the state stays consistent, whatever is due then.
+/// Countdowns run: the state stays consistent, whatever is due then, and what is left of each budget is less.
 fn runs(stage: Role) {
     let config = config();
     let robot = any_valid(&config, stage);
     let elapsed = Millis(Symbolic.number(u32::MAX, 100));
     timers::running_keeps_the_state_consistent(&config, &robot, elapsed);
+    budgets::time_uses_them_up(&robot, elapsed);
     let is_any_due = robot.next_due().is_some_and(|due| due <= elapsed);
     kani::cover!(is_any_due, "some are due");
+    kani::cover!(!is_any_due, "none is due");
 }
 
 /// When no timer is due any more, the step settles: all that is left to do where the input is ignored.
@@ -176,6 +178,7 @@ fn settles(stage: Role, ignored: Kind) {
     let config = config();
     let robot = arbitrary::robot(&mut Symbolic, &config, stage, peers(stage));
     kani::assume(timers::is_consistent(&robot, &config) && robot.next_due() != Some(Millis::ZERO));
+    timers::settling_needs_few_outputs(&config, &robot);
     let kept = of(config, robot).step(ignored, Laws::All);
     kani::cover!(kept.before != kept.after, "settles");
 }

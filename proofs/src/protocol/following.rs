@@ -1,7 +1,7 @@
 //! Stages 3 and 4: a follower.
 
 use crossguard_protocol::laws::arbitrary::Kind;
-use crossguard_protocol::laws::steps::{all, all_but_validity, keeps_the_state_valid};
+use crossguard_protocol::laws::steps::all;
 use crossguard_protocol::{EventKind, OutputKind, Phase, Robot, Role};
 
 use super::stage::{From, becomes, steps_with_those_of_leaders};
@@ -39,14 +39,8 @@ steps_with_those_of_leaders! { FROM, all;
         hears_a_follower(Kind::RamFollower);
     }
 
-    /// A RAM of a leader: the state stays valid.
-    stays_valid_as_it_hears_a_leader(Kind::RamLeader, keeps_the_state_valid) |step| {
-        "is not listed any more": becomes(step, Role::None),
-        "stays": becomes(step, Role::Follower),
-    }
-
-    /// A RAM of a leader: all other laws.
-    hears_a_leader(Kind::RamLeader, all_but_validity) |step| {
+    /// A RAM of a leader.
+    hears_a_leader(Kind::RamLeader) |step| {
         "is not listed any more": becomes(step, Role::None),
         "falls back": step.said.has(OutputKind::FallBack),
         "hears a newer heartbeat": !step.is_ignored() && step.said.is_empty(),

@@ -1,4 +1,4 @@
-//! Stages 3 and 4: a leader, with one or two followers. The laws of its steps are proved in four parts, each of
+//! Stages 3 and 4: a leader, with one or two followers. The laws of its steps are proved in three parts, each of
 //! which takes less than its share of all.
 
 use crossguard_protocol::laws::arbitrary::Kind;
@@ -27,10 +27,10 @@ pub(super) const IGNORED: [Kind; 10] = [
     Kind::Local(EventKind::PersonOnRoad),
 ];
 
-/// Declares one harness of these laws for each message and event that a leader can act on, and for the timers that
-/// are passed. [`conduct`] marks the outcomes.
+/// Declares one harness of these laws for each message, event and timer that a leader can act on. [`conduct`] marks the
+/// outcomes.
 macro_rules! of_each_input {
-    ($laws:expr $(; $($timers:tt)+)?) => {
+    ($laws:expr) => {
         $crate::protocol::stage::steps_with_those_of_leaders! { super::FROM, $laws;
             @each |step| { "a step": step.before.role() == Role::Leader } {
                 hears_a_follower(Kind::RamFollower);
@@ -43,23 +43,14 @@ macro_rules! of_each_input {
                 changes_its_availability(Kind::Local(EventKind::AvailabilityChanged));
                 clears_the_road(Kind::Local(EventKind::RoadClear));
                 renews_its_epoch(Kind::Local(EventKind::EpochRenewed));
-                $($($timers)+)?
+                loses_a_lease(Kind::Fires(TimerKind::Lease));
+                gives_up_a_follower(Kind::Fires(TimerKind::Lost));
+                limits_an_execution(Kind::Fires(TimerKind::Execution));
+                misses_an_acknowledgement(Kind::Fires(TimerKind::Acknowledgement));
+                must_unlock(Kind::Fires(TimerKind::IdentityLock));
+                repeats_itself(Kind::Fires(TimerKind::Ram));
+                ends_a_farewell(Kind::Fires(TimerKind::Farewell));
             }
-        }
-    };
-}
-
-/// The same, and for each timer.
-macro_rules! of_each_input_and_timer {
-    ($laws:expr) => {
-        of_each_input! { $laws;
-            loses_a_lease(Kind::Fires(TimerKind::Lease));
-            gives_up_a_follower(Kind::Fires(TimerKind::Lost));
-            limits_an_execution(Kind::Fires(TimerKind::Execution));
-            misses_an_acknowledgement(Kind::Fires(TimerKind::Acknowledgement));
-            must_unlock(Kind::Fires(TimerKind::IdentityLock));
-            repeats_itself(Kind::Fires(TimerKind::Ram));
-            ends_a_farewell(Kind::Fires(TimerKind::Farewell));
         }
     };
 }
@@ -67,4 +58,3 @@ macro_rules! of_each_input_and_timer {
 pub mod conduct;
 pub mod peers;
 pub mod road;
-pub mod validity;

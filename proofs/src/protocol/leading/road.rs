@@ -4,4 +4,4 @@ use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::of_the_road;
 use crossguard_protocol::{EventKind, Role, TimerKind};
 
-of_each_input_and_timer! { of_the_road }
+of_each_input! { of_the_road }
