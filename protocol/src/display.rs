@@ -3,7 +3,7 @@
 use core::fmt::{self, Display, Formatter, Write};
 
 use crate::id::{SessionId, UniqueNumber};
-use crate::input::{Decimetres, Input};
+use crate::input::Input;
 use crate::message::{Answer, Command, Coordination, Farewell, Ram, Report, Rmcm, Verdict};
 use crate::output::Maneuver;
 use crate::state::{Duty, Robot};
@@ -33,15 +33,6 @@ impl Display for Availability {
 impl Display for Millis {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{} ms", self.0)
-    }
-}
-
-impl Display for Decimetres {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::UNKNOWN => f.write_str("unknown distance"),
-            Self(distance) => write!(f, "{}.{} m", distance / 10, distance % 10),
-        }
     }
 }
 

@@ -97,11 +97,11 @@ impl<T: Copy, const N: usize> List<T, N> {
         None
     }
 
-    /// What `of` makes of each of the first `most` items.
-    pub(crate) fn first<U: Copy>(&self, most: usize, of: impl Fn(&T) -> U) -> List<U, N> {
+    /// The first `count` items, of which there are as many, each changed by `of`.
+    pub(crate) fn first<U: Copy>(&self, count: usize, of: impl Fn(&T) -> U) -> List<U, N> {
         let mut made = List::EMPTY;
         let mut i = 0;
-        while i < N && i < most {
+        while i < count {
             made.0[i] = self.0[i].as_ref().map(&of);
             i += 1;
         }

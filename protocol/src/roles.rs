@@ -198,14 +198,10 @@ impl Robot {
         let Phase::Leading(leading) = &mut self.phase else {
             return;
         };
-        if leading
+        // R22: this record alone.
+        leading
             .members
-            // R22: this record alone.
-            .remove_first(|member| member.station == station)
-            .is_none()
-        {
-            return;
-        }
+            .remove_first(|member| member.station == station);
         let nobody_left = leading.members.is_empty();
         step.out.notify(Notice::FollowerGone(station, why));
         // The new list tells the follower, should it still be there.
@@ -242,13 +238,6 @@ impl Leading {
         };
         let member = self.members.iter().find(out_of_order)?;
         Some(member.station)
-    }
-
-    /// How long ago `heartbeat` can have been sent at the earliest, where the next RAM is due in
-    /// `next_ram`.
-    #[must_use]
-    pub fn age_of(&self, config: &Config, heartbeat: Heartbeat, next_ram: Millis) -> Millis {
-        age_of(config, self.heartbeat, heartbeat, next_ram)
     }
 }
 

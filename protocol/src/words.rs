@@ -249,7 +249,6 @@ pub(crate) const fn letters<const N: usize>(variant: &str, case: &str) -> [u8; N
 /// What stands between two words of a name; 0 for nothing.
 const fn separator(case: &str) -> u8 {
     match case.as_bytes() {
-        b"snake_case" => b'_',
         b"kebab-case" => b'-',
         b"words" => b' ',
         _ => 0,
@@ -517,18 +516,6 @@ macro_rules! words {
             #[must_use]
             pub const fn code(self) -> u8 {
                 self.word().code
-            }
-
-            /// What it means.
-            #[must_use]
-            pub const fn meaning(self) -> &'static str {
-                self.word().meaning
-            }
-
-            /// What comes with it, in order.
-            #[must_use]
-            pub const fn fields(self) -> &'static [$crate::words::Field] {
-                self.word().fields
             }
 
             /// The one of this name.

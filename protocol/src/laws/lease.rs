@@ -6,7 +6,8 @@ use crate::config::{Config, Inequality, Settings};
 use crate::id::{Heartbeat, StationId};
 use crate::input::{Input, Timer};
 use crate::message::Coordination;
-use crate::state::{Lease, Member, Phase, Robot};
+use crate::roles;
+use crate::state::{Lease, Member, Robot};
 use crate::time::Millis;
 
 use super::arithmetic::age_ms;
@@ -193,8 +194,6 @@ pub fn time_leaves_leases_covered(config: &Config, robot: &Robot, elapsed: Milli
 }
 
 fn age_of(config: &Config, robot: &Robot, heartbeat: Heartbeat) -> Option<Millis> {
-    match robot.phase() {
-        Phase::Leading(leading) => Some(leading.age_of(config, heartbeat, robot.next_ram()?)),
-        _ => None,
-    }
+    let newest = leading(robot)?.heartbeat;
+    Some(roles::age_of(config, newest, heartbeat, robot.next_ram()?))
 }
