@@ -13,19 +13,12 @@ pub(crate) struct Claim {
     pub(crate) place: Place,
 }
 
-/// The place of a claim in the total order of claims: the smaller key goes before.
-type Precedence = (Reverse<Urgency>, StationId);
-
 impl Claim {
     pub(crate) const fn of(request: HelpRequest) -> Self {
         Self {
             urgency: request.urgency,
             place: request.place,
         }
-    }
-
-    const fn precedence(self, station: StationId) -> Precedence {
-        (Reverse(self.urgency), station)
     }
 
     /// Whether this claim of `station` goes before the one of `other_station` at the same place.
@@ -39,7 +32,7 @@ impl Claim {
             return Err(Ignored::OtherPlace);
         }
         // R6: one of two goes before.
-        if self.precedence(station) > other.precedence(other_station) {
+        if (Reverse(self.urgency), station) > (Reverse(other.urgency), other_station) {
             return Err(Ignored::LowerPrecedence);
         }
         Ok(())

@@ -2,7 +2,6 @@
 
 use core::fmt;
 
-use crate::MAX_FOLLOWERS;
 use crate::id::{Heartbeat, RequestId};
 use crate::task::{FallbackPolicy, TaskSet, TaskType};
 use crate::time::Millis;
@@ -348,12 +347,6 @@ impl Config {
     #[must_use]
     pub const fn t_lock_session(&self) -> Millis {
         self.0.t_lock.saturating_sub(self.0.t_farewell)
-    }
-
-    /// Whether a request for this many followers can be met at all.
-    #[must_use]
-    pub(crate) const fn can_ask_for(followers: u8) -> bool {
-        followers >= 1 && followers as usize <= MAX_FOLLOWERS
     }
 }
 

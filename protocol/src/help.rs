@@ -137,7 +137,7 @@ impl Robot {
         };
         let settings = step.config.settings();
         // R4: enough offers, or `t_select` once more.
-        if requesting.offers.len() < usize::from(requesting.request.followers) {
+        if !requesting.has_enough_offers() {
             requesting.selection = Countdown::armed(settings.t_select);
             return;
         }
@@ -171,15 +171,14 @@ impl Robot {
 
     /// No other offer can come: what stands is what there is to choose from.
     pub(crate) fn select_early(&mut self, step: &mut Step<'_, impl Sink>) -> Effect {
-        let Phase::Requesting(requesting) = &self.phase else {
-            return Err(Ignored::NothingNew);
-        };
-        // R4: at once, where enough have offered.
-        if requesting.offers.len() < usize::from(requesting.request.followers) {
-            return Err(Ignored::NothingNew);
+        match &self.phase {
+            // R4: at once, where enough have offered.
+            Phase::Requesting(requesting) if requesting.has_enough_offers() => {
+                self.selection_expired(step);
+                Ok(())
+            }
+            _ => Err(Ignored::NothingNew),
         }
-        self.selection_expired(step);
-        Ok(())
     }
 
     /// The offer of a helper has lapsed: the helper may be free for others by now.
@@ -190,15 +189,13 @@ impl Robot {
         requesting.forget_offer(|offer| offer.station == station);
         step.out.notify(Notice::OfferLapsed(station));
     }
-
-    /// `T_help` has run out.
-    pub(crate) fn help_expired(&mut self, step: &mut Step<'_, impl Sink>) {
-        // R5
-        self.end_session(step, EndReason::NoHelp);
-    }
 }
 
 impl Requesting {
+    fn has_enough_offers(&self) -> bool {
+        self.offers.len() >= usize::from(self.request.followers)
+    }
+
     /// Takes an offer in, or its newer echo. An older offer of the same helper replaces nothing.
     fn take_offer(
         &mut self,

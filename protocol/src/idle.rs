@@ -1,6 +1,5 @@
 //! Stage 1, Initialization: from `Idle` into a session of one's own, and availability.
 
-use crate::config::Config;
 use crate::id::{SessionNumber, StationId, UniqueNumber};
 use crate::list::List;
 use crate::message::{Failure, Progress};
@@ -17,7 +16,7 @@ impl Robot {
         step: &mut Step<'_, impl Sink>,
         request: HelpRequest,
     ) -> Effect {
-        if !Config::can_ask_for(request.followers) || request.tasks.is_empty() {
+        if !request.is_possible() {
             return Err(Ignored::ImpossibleRequest);
         }
         if !matches!(self.phase, Phase::Idle) {

@@ -140,7 +140,7 @@ const fn capacity(text: Option<&str>) -> usize {
     }
 }
 
-/// How many timers a robot can have armed at once.
+/// How many timers a robot can have armed at once: three for each follower, and identity lock, farewell and RAM.
 pub const MAX_TIMERS: usize = 3 * MAX_FOLLOWERS + 3;
 
 /// How many outputs one step can have: one for each timer and each follower, a RAM, and four with which a part in a

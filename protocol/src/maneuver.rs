@@ -73,12 +73,11 @@ impl Robot {
         step: &mut Step<'_, impl Sink>,
         station: StationId,
     ) {
-        let session = self.session();
         let Phase::Leading(leading) = &mut self.phase else {
             return;
         };
+        let session = SessionId::of(self.station, leading.number);
         let n_ack = step.config.settings().n_ack;
-        let Some(session) = session else { return };
         let repeated = leading.update_member(station, |member| {
             let outstanding = member.outstanding.as_mut()?;
             // R10: `n_ack` repeats, then the follower is given up.
@@ -95,11 +94,10 @@ impl Robot {
 
     /// `T_exec` ran out: the command counts as failed.
     pub(crate) fn execution_expired(&mut self, step: &mut Step<'_, impl Sink>, station: StationId) {
-        let session = self.session();
         let Phase::Leading(leading) = &mut self.phase else {
             return;
         };
-        let Some(session) = session else { return };
+        let session = SessionId::of(self.station, leading.number);
         leading.update_member(station, |member| {
             let Some(order) = &mut member.order else {
                 return;
@@ -107,8 +105,7 @@ impl Robot {
             let failure = Failure::ExecutionLimit;
             order.progress = Some(Progress::Failed(failure));
             order.execution = Countdown::OFF;
-            let request = order.request;
-            let id = ManeuverId::of(session, request);
+            let id = ManeuverId::of(session, order.request);
             step.out
                 .notify(Notice::ManeuverFailed(station, id, failure));
         });
@@ -297,15 +294,19 @@ impl Robot {
         }
     }
 
-    /// The body holds the place from which the maneuver guards, or is on its way there, perhaps once more.
-    pub(crate) fn report_place(
+    /// The body holds the place from which the maneuver guards, or is on its way there, perhaps once more; or it has
+    /// finished the maneuver, or cannot.
+    pub(crate) fn report_progress(
         &mut self,
         step: &mut Step<'_, impl Sink>,
         id: ManeuverId,
         progress: Progress,
     ) -> Effect {
-        let following = self.executor_of(id)?;
-        let Some(job) = &mut following.job else {
+        let Phase::Following(following) = &mut self.phase else {
+            return Err(Ignored::NotExecuting);
+        };
+        let runs = following.executing().is_some_and(|it| it.id == id);
+        let Some(job) = following.job.as_mut().filter(|_| runs) else {
             return Err(Ignored::NotExecuting);
         };
         if job.progress == progress {
@@ -313,32 +314,6 @@ impl Robot {
         }
         // R28: the RAM that says so is sent at once.
         job.progress = progress;
-        step.out.push(Output::SendRam);
-        Ok(())
-    }
-
-    /// The follower's state, if it executes this maneuver.
-    fn executor_of(&mut self, id: ManeuverId) -> Result<&mut Following, Ignored> {
-        match &mut self.phase {
-            Phase::Following(following)
-                if following
-                    .executing()
-                    .is_some_and(|maneuver| maneuver.id == id) =>
-            {
-                Ok(following)
-            }
-            _ => Err(Ignored::NotExecuting),
-        }
-    }
-
-    /// The application has finished the maneuver, or cannot.
-    pub(crate) fn finish_maneuver(
-        &mut self,
-        step: &mut Step<'_, impl Sink>,
-        id: ManeuverId,
-        progress: Progress,
-    ) -> Effect {
-        self.executor_of(id)?.finish(progress);
         step.out.push(Output::SendRam);
         Ok(())
     }

@@ -178,11 +178,11 @@ impl Robot {
         match event {
             Event::PedestrianDetected(request) => self.detect_pedestrian(step, request),
             Event::CommandManeuver { follower, task } => self.command(step, follower, task),
-            Event::InPosition(id) => self.report_place(step, id, Progress::InPosition),
-            Event::OutOfPosition(id) => self.report_place(step, id, Progress::Executing),
-            Event::ManeuverCompleted(id) => self.finish_maneuver(step, id, Progress::Completed),
+            Event::InPosition(id) => self.report_progress(step, id, Progress::InPosition),
+            Event::OutOfPosition(id) => self.report_progress(step, id, Progress::Executing),
+            Event::ManeuverCompleted(id) => self.report_progress(step, id, Progress::Completed),
             Event::ManeuverFailed(id) => {
-                self.finish_maneuver(step, id, Progress::Failed(Failure::Maneuver))
+                self.report_progress(step, id, Progress::Failed(Failure::Maneuver))
             }
             Event::TaskCompleted => self.complete_task(step),
             Event::RoadClear => self.clear_road(step),

@@ -37,7 +37,7 @@ impl Robot {
                 // R2: listed by the number of this offer.
                 if listed == Some(offering.number) {
                     let offer = offering.number;
-                    self.join(step, Following::new(step.config, session, offer, heartbeat));
+                    self.join(step, heard, offer);
                     return Ok(());
                 }
             }
@@ -114,9 +114,17 @@ impl Robot {
         }
     }
 
-    fn join(&mut self, step: &mut Step<'_, impl Sink>, following: Following) {
-        step.out.notify(Notice::Joined(following.session));
-        self.phase = Phase::Following(following);
+    fn join(&mut self, step: &mut Step<'_, impl Sink>, leader: Rival, offer: OfferNumber) {
+        step.out.notify(Notice::Joined(leader.session));
+        self.phase = Phase::Following(Following {
+            session: leader.session,
+            offer,
+            heard: leader.heartbeat,
+            contact: Contact::Fresh(Countdown::armed(step.config.settings().t_safety)),
+            job: None,
+            refused: None,
+            sees_people: false,
+        });
         step.out.push(Output::SendRam);
     }
 
@@ -169,12 +177,6 @@ impl Robot {
             step.out.push(Output::SendRam);
         }
         step.out.notify(Notice::ContactLost(session));
-    }
-
-    /// `T_leave` ran out as well.
-    pub(crate) fn leave_expired(&mut self, step: &mut Step<'_, impl Sink>) {
-        // R14
-        self.leave(step, ReleaseReason::ContactLost);
     }
 
     /// The lease on a follower ran out.
@@ -269,24 +271,6 @@ impl Member {
 }
 
 impl Following {
-    fn new(
-        config: &Config,
-        session: SessionId,
-        offer: crate::id::OfferNumber,
-        heard: Heartbeat,
-    ) -> Self {
-        let contact = Contact::Fresh(Countdown::armed(config.settings().t_safety));
-        Self {
-            session,
-            offer,
-            heard,
-            contact,
-            job: None,
-            refused: None,
-            sees_people: false,
-        }
-    }
-
     /// Only a *newer* heartbeat restarts `T_safety`: a delayed or repeated RAM proves nothing about
     /// the leader's present.
     fn hear_heartbeat(&mut self, step: &mut Step<'_, impl Sink>, heartbeat: Heartbeat) -> Effect {

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use crate::MAX_FOLLOWERS;
 use crate::words::words;
 
 /// The kind of a maneuver, `taskType` of the paper (0..15 on the wire).
@@ -213,13 +214,20 @@ impl Default for Urgency {
 pub struct HelpRequest {
     /// How urgent it is; the first key in the order of requests.
     pub urgency: Urgency,
-    /// How many followers the task needs, 1..=[`MAX_FOLLOWERS`](crate::MAX_FOLLOWERS).
+    /// How many followers the task needs, 1..=[`MAX_FOLLOWERS`].
     pub followers: u8,
     /// The maneuvers that the followers will be asked for.
     pub tasks: TaskSet,
     /// The crossing that the help is for. Requests and leaders compete where they may be at one place.
     #[cfg_attr(feature = "serde", serde(default))]
     pub place: Place,
+}
+
+impl HelpRequest {
+    /// True if the request can be met at all.
+    pub(crate) const fn is_possible(self) -> bool {
+        self.followers >= 1 && self.followers as usize <= MAX_FOLLOWERS && !self.tasks.is_empty()
+    }
 }
 
 /// The crossing of a request and of its session, as `IntersectionReferenceID` of ISO/TS 19091 names it:

@@ -1,13 +1,13 @@
 //! The timers: which are armed, which is due, what each does.
 
+use crate::MAX_TIMERS;
 use crate::config::Config;
 use crate::input::Timer;
 use crate::list::List;
-use crate::output::{GoneReason, Ignored, Output, ReleaseReason, Sink};
+use crate::output::{EndReason, GoneReason, Ignored, Output, ReleaseReason, Sink};
 use crate::robot::{Effect, Step};
 use crate::state::{Contact, Identity, Lease, Phase, Robot};
 use crate::time::{Countdown, Millis};
-use crate::{MAX_FOLLOWERS, MAX_TIMERS};
 
 /// Visits every countdown of a robot, with its timer, in the order in which due timers fire: what
 /// keeps people safe first, the RAM that tells of it last. Works on `&Robot` and `&mut Robot`.
@@ -140,14 +140,16 @@ impl Robot {
     pub(crate) fn fire(&mut self, step: &mut Step<'_, impl Sink>, timer: Timer, late: Millis) {
         match timer {
             Timer::Safety => self.safety_expired(step),
-            Timer::Leave => self.leave_expired(step),
+            // R14: and `t_leave` as well.
+            Timer::Leave => self.leave(step, ReleaseReason::ContactLost),
             Timer::Lease(station) => self.lease_expired(step, station),
             // Without a lease for so long, it must have left.
             Timer::Lost(station) => self.drop_follower(step, station, GoneReason::NoContact),
             Timer::Execution(station) => self.execution_expired(step, station),
             Timer::Acknowledgement(station) => self.acknowledgement_expired(step, station),
             Timer::Offer(station) => self.offer_expired(step, station),
-            Timer::Help => self.help_expired(step),
+            // R5
+            Timer::Help => self.end_session(step, EndReason::NoHelp),
             Timer::Selection => self.selection_expired(step),
             // Free for other requesters. A leader that confirms it all the same is told that it has no part in the session.
             Timer::Reservation => self.release(step, ReleaseReason::ReservationExpired),
@@ -233,6 +235,3 @@ fn timer_limit(config: &Config, timer: Timer) -> Millis {
         Timer::Ram => settings.ram_period,
     }
 }
-
-/// Three timers for each follower, and identity lock, farewell and RAM.
-const _: () = assert!(MAX_TIMERS == 3 * MAX_FOLLOWERS + 3);

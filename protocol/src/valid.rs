@@ -115,8 +115,7 @@ impl Robot {
 
 impl Requesting {
     fn is_valid(&self) -> bool {
-        Config::can_ask_for(self.request.followers)
-            && !self.request.tasks.is_empty()
+        self.request.is_possible()
             && self.help.is_armed()
             && (self.selection.is_armed() || self.offers.is_empty())
             && self.offers.iter().all(|offer| offer.standing.is_armed())
@@ -127,9 +126,8 @@ impl Requesting {
 impl Leading {
     fn is_valid(&self, config: &Config) -> bool {
         let at_most = usize::from(self.request.followers);
-        Config::can_ask_for(self.request.followers)
-            // It is asked for again when the session is renewed.
-            && !self.request.tasks.is_empty()
+        // It is asked for again when the session is renewed.
+        self.request.is_possible()
             && self.members.is_dense()
             && (1..=at_most).contains(&self.members.len())
             // W3: one that has yielded ends as soon as its road is clear.
@@ -142,12 +140,10 @@ impl Leading {
 
 impl Member {
     fn is_valid(&self, config: &Config, leading: &Leading) -> bool {
-        let issued = |request: RequestId| {
-            let first = config.settings().first_request;
-            request.distance_from(first) < self.next_request.distance_from(first)
-        };
         let first = config.settings().first_request;
-        self.next_request.distance_from(first) <= RequestId::MAX_PER_SESSION
+        let count = self.next_request.distance_from(first);
+        let issued = |request: RequestId| request.distance_from(first) < count;
+        count <= RequestId::MAX_PER_SESSION
             && self.lease.countdown().is_armed()
             // It echoed what this leader sent, and not so long ago that the order is in doubt.
             && self.echoed.is_none_or(|echoed| leading.heartbeat.can_follow(echoed))
