@@ -31,9 +31,15 @@ pub(super) fn age_ms(
     (periods + 1) * period - period.min(next_ram.0.into())
 }
 
-/// When a timer of `own_ms` on the slowest clock is over at the latest, with what its endpoint may be late by,
-/// and one of `theirs_ms` on the fastest clock at the earliest, in one unit.
-pub(super) fn latest_and_earliest(settings: &Settings, own_ms: u64, theirs_ms: u64) -> (u64, u64) {
+/// True if a timer of `own_ms` is over before one of `theirs_ms`, on any two clocks.
+pub(super) fn is_over_before(settings: &Settings, own_ms: u64, theirs_ms: u64) -> bool {
+    let (own, theirs) = latest_and_earliest(settings, own_ms, theirs_ms);
+    own < theirs
+}
+
+/// The latest end of a timer of `own_ms` on the slowest clock, with the time by which its endpoint may be late, and the
+/// earliest end of one of `theirs_ms` on the fastest clock, in one unit.
+fn latest_and_earliest(settings: &Settings, own_ms: u64, theirs_ms: u64) -> (u64, u64) {
     let (million, drift) = (1_000_000, u64::from(settings.drift_ppm));
     let slowest = million - drift.min(million);
     let own_ms = own_ms + u64::from(settings.delay_max.0);

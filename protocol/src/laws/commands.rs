@@ -24,19 +24,15 @@ pub fn all(config: &Config, step: &Taken) {
 
 /// Whether no command may take this follower off its task while people may be on the road: what it is at, or
 /// may be at, guards them.
-fn may_guard(config: &Config, member: &Member) -> bool {
+pub(super) fn may_guard(config: &Config, member: &Member) -> bool {
     member.order.is_some_and(|order| {
-        let is_over = matches!(
-            order.progress,
-            Some(Progress::Completed | Progress::SafeIdle)
-        );
-        let has_failed = match order.progress {
+        let may_be_at_it = match order.progress {
+            None | Some(Progress::Executing | Progress::InPosition) => true,
             // The limit is the leader's own: the follower knows nothing of it and goes on.
-            Some(Progress::Failed(failure)) => failure != Failure::ExecutionLimit,
-            _ => false,
+            Some(Progress::Failed(failure)) => failure == Failure::ExecutionLimit,
+            Some(Progress::Completed | Progress::SafeIdle) => false,
         };
-        let guards = config.settings().guarding.0 >> order.task.value() & 1 == 1;
-        guards && !is_over && !has_failed
+        may_be_at_it && config.settings().guarding.0 >> order.task.value() & 1 == 1
     })
 }
 

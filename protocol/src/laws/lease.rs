@@ -79,6 +79,16 @@ pub fn an_offer_lapses_before_its_reservation(settings: &Settings, clocks: Clock
     counts
 }
 
+/// The robot once time has passed. Its RAM timer, which has `left`, has fired where it was due, and no other timer.
+fn once_passed(config: &Config, robot: &Robot, elapsed: Millis, left: Millis) -> Robot {
+    let mut after = robot.clone();
+    after.advance(elapsed);
+    if after.next_ram() != Some(Millis::ZERO) {
+        return after;
+    }
+    fire(config, &after, Timer::Ram, elapsed.saturating_sub(left)).after
+}
+
 /// The age of a heartbeat grows exactly as time passes, also when the RAM of several periods are
 /// late: so a lease that starts with it is never too long, and never loses time.
 ///
@@ -92,11 +102,7 @@ pub fn heartbeats_age_as_time_passes(
     let (Some(before), Some(left)) = (age_of(config, robot, heartbeat), robot.next_ram()) else {
         return;
     };
-    let mut after = robot.clone();
-    after.advance(elapsed);
-    if after.next_ram() == Some(Millis::ZERO) {
-        after = fire(config, &after, Timer::Ram, elapsed.saturating_sub(left)).after;
-    }
+    let after = once_passed(config, robot, elapsed, left);
     let Some(age) = age_of(config, &after, heartbeat) else {
         return;
     };
@@ -178,11 +184,7 @@ pub fn time_leaves_leases_covered(config: &Config, robot: &Robot, elapsed: Milli
     if !are_covered(config, robot) {
         return false;
     }
-    let mut after = robot.clone();
-    after.advance(elapsed);
-    if after.next_ram() == Some(Millis::ZERO) {
-        after = fire(config, &after, Timer::Ram, elapsed.saturating_sub(left)).after;
-    }
+    let after = once_passed(config, robot, elapsed, left);
     assert!(are_covered(config, &after));
     let stands = |robot: &Robot| {
         leading(robot).is_some_and(|leading| {

@@ -64,26 +64,19 @@ pub fn no_message_opens_a_corridor(step: &Taken) {
     assert!(!step.said.has(OutputKind::CorridorOpened));
 }
 
-fn is_member(leading: &Leading, station: StationId) -> bool {
-    leading
-        .members
-        .iter()
-        .any(|member| member.station == station)
-}
-
 /// I17: what one station says changes no other follower, and extends no corridor unless it is a follower.
 pub fn a_follower_speaks_for_itself_alone(step: &Taken, liar: StationId) {
     let Some(before) = leading(&step.before) else {
         return;
     };
-    let is_own_member = is_member(before, liar);
+    let is_own_member = before.member(liar).is_some();
     match leading(&step.after) {
         Some(after) => {
             for member in before.members.iter() {
                 assert!(member.station == liar || after.members.iter().any(|it| it == member));
             }
             for member in after.members.iter() {
-                assert!(is_member(before, member.station));
+                assert!(before.member(member.station).is_some());
             }
         }
         // It gives way to a session at the same place that goes before, while nobody is on the road.
@@ -101,7 +94,7 @@ pub fn a_stranger_closes_a_corridor_by_going_before(step: &Taken, liar: StationI
     };
     let after = leading(&step.after);
     let is_open = |it: &Leading| it.corridor == Corridor::Open;
-    if is_open(before) && !is_member(before, liar) && !after.is_some_and(is_open) {
+    if is_open(before) && before.member(liar).is_none() && !after.is_some_and(is_open) {
         assert!(after.is_some_and(|it| it.yields_to == Some(liar)));
     }
 }

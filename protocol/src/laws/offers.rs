@@ -8,7 +8,7 @@ use crate::message::{Coordination, Farewell};
 use crate::state::{Identity, Offer, Requesting, Role};
 use crate::time::Millis;
 
-use super::arithmetic::{a_reservation_outlasts, age_ms, beat_is_newer};
+use super::arithmetic::{a_reservation_outlasts, age_ms, beat_is_newer, is_over_before};
 use super::part::{each_offer, leading, own_number, requesting};
 use super::taken::Taken;
 
@@ -77,13 +77,10 @@ pub(super) fn made(config: &Config, step: &Taken) -> Option<Made> {
     }
 }
 
-/// Whether a lease of this robot ends before a follower with this `t_safety` can have fallen back, by the
-/// inequality as it is written.
+/// True if a lease of this robot ends before a follower with this `t_safety` can have fallen back.
 fn fits(config: &Config, t_safety: Millis) -> bool {
     let settings = config.settings();
-    let drift = u64::from(settings.drift_ppm);
-    let lease_ends = u64::from(settings.t_lease.0) + u64::from(settings.delay_max.0);
-    lease_ends * (1_000_000 + drift) < u64::from(t_safety.0) * (1_000_000 - drift)
+    is_over_before(settings, settings.t_lease.0.into(), t_safety.0.into())
 }
 
 /// An offer is taken in, or renewed, only from what its helper says, only if the lease fits its `t_safety`,

@@ -6,13 +6,14 @@
 use crate::config::Config;
 use crate::id::{Heartbeat, SessionId};
 use crate::input::{Event, Input};
-use crate::message::{Coordination, Ending, Failure, Farewell, Progress};
+use crate::message::{Coordination, Ending, Farewell, Progress};
 use crate::output::{EndReason, OutputKind, ReleaseReason, StopReason};
 use crate::state::{Corridor, Duty, Identity, Member, Rival, Robot, Role};
 use crate::task::{Availability, Place, TaskType, Unavailability, Urgency};
-use crate::time::{Countdown, Millis};
+use crate::time::Millis;
 
-use super::arithmetic::beat_is_newer;
+use super::arithmetic::{beat_is_newer, left_ms};
+use super::commands::may_guard;
 use super::lease::lease_left;
 use super::part::{each_follower, executing, following, leading, requesting};
 use super::taken::Taken;
@@ -30,11 +31,6 @@ pub fn all(config: &Config, step: &Taken) {
     a_duty_lasts_until_the_road_is_clear(step);
     way_is_given_at_the_second_message(step);
     the_first_rival_is_noted(step);
-}
-
-/// What a countdown has left, zero where it is off.
-fn left(countdown: Countdown) -> Millis {
-    countdown.left().unwrap_or(Millis::ZERO)
 }
 
 /// Whether the records of a follower say that it guards: nothing is outstanding, its task guards, it was
@@ -77,17 +73,14 @@ pub fn the_corridor_is_open_only_over_guards(config: &Config, step: &Taken) {
         return;
     }
     assert!(step.input == Input::Local(Event::OpenCorridor));
-    let t_cross = config.settings().t_cross;
+    let t_cross = u64::from(config.settings().t_cross.0);
     assert!(match step.after.identity() {
-        Identity::Locked(lock) => left(lock) >= t_cross,
+        Identity::Locked(lock) => left_ms(lock) >= t_cross,
         Identity::Unlocked | Identity::Expiring => false,
     });
     for member in after.members.iter() {
-        assert!(
-            member
-                .order
-                .is_some_and(|order| left(order.execution) >= t_cross)
-        );
+        let execution = member.order.map(|order| left_ms(order.execution));
+        assert!(execution.is_some_and(|left| left >= t_cross));
     }
 }
 
@@ -149,19 +142,7 @@ pub fn guards_are_kept_on_the_road(config: &Config, step: &Taken) {
     }
     assert!(step.said.ended != Some(EndReason::Renewed));
     each_follower(&step.after, &step.before, |member, known| {
-        let Some(order) = known.and_then(|known| known.order) else {
-            return;
-        };
-        let may_be_at_it = matches!(
-            order.progress,
-            None | Some(
-                Progress::Executing
-                    | Progress::InPosition
-                    | Progress::Failed(Failure::ExecutionLimit)
-            )
-        );
-        let guards = config.settings().guarding.0 >> order.task.value() & 1 == 1;
-        if may_be_at_it && guards && known.is_some_and(|known| known.outstanding.is_none()) {
+        if known.is_some_and(|it| may_guard(config, it) && it.outstanding.is_none()) {
             assert!(member.outstanding.is_none());
         }
     });

@@ -3,7 +3,7 @@
 //! The inequalities are written here once more, in numbers without a limit that they can reach, from what
 //! [`Inequality`] says of each.
 
-use super::arithmetic::latest_and_earliest;
+use super::arithmetic::is_over_before;
 use crate::config::{Config, Inequality, Settings};
 use crate::task::{FallbackPolicy, TaskType};
 use crate::time::Millis;
@@ -85,12 +85,6 @@ pub fn as_written(inequality: Inequality, settings: &Settings) -> bool {
 /// A time as a number in which nothing overflows.
 fn ms(time: Millis) -> u64 {
     time.0.into()
-}
-
-/// Whether a timer of `own` is over before one of `theirs`, on any two clocks.
-fn is_over_before(settings: &Settings, own: u64, theirs: u64) -> bool {
-    let (own, theirs) = latest_and_earliest(settings, own, theirs);
-    own < theirs
 }
 
 /// The limits of some tasks.

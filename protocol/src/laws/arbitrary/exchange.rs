@@ -6,6 +6,7 @@ use super::{
 use crate::config::Config;
 use crate::id::{Heartbeat, RequestId, SessionId, SessionNumber, StationId, UniqueNumber};
 use crate::laws::exchange::{Exchange, Heard, History};
+use crate::laws::part::leading;
 use crate::state::{Following, Member, Phase, Robot};
 
 /// The part that a robot has in an exchange.
@@ -70,11 +71,7 @@ fn session_like(source: &mut impl Source, robot: &Robot) -> SessionId {
 }
 
 fn record(robot: &Robot, follower: StationId) -> Option<&Member> {
-    let Phase::Leading(leading) = &robot.phase else {
-        return None;
-    };
-    let mut members = leading.members.iter();
-    members.find(|member| member.station == follower)
+    leading(robot)?.member(follower)
 }
 
 /// Any request; hints let it be the newest one that the state knows of the follower.

@@ -35,10 +35,7 @@ fn other(input: &Input) -> Option<StationId> {
 
 fn record<'a>(exchange: &Exchange, robot: &'a Robot) -> Option<&'a Member> {
     match &robot.phase {
-        Phase::Leading(leading) if leads(exchange, robot) => {
-            let mut members = leading.members.iter();
-            members.find(|member| member.station == exchange.follower)
-        }
+        Phase::Leading(leading) if leads(exchange, robot) => leading.member(exchange.follower),
         _ => None,
     }
 }

@@ -233,8 +233,7 @@ fn take_part(exchange: &Exchange, history: &mut History, robot: &Robot) {
         let heartbeat = newest_heartbeat(robot).filter(|_| leads);
         history.beaten |= heartbeat.is_some_and(|heartbeat| exchange.has_come(heartbeat));
         if let (true, Phase::Leading(leading)) = (leads, &robot.phase) {
-            let is_watched = |station| station == exchange.follower;
-            let listed = leading.members.iter().find(|m| is_watched(m.station));
+            let listed = leading.member(exchange.follower);
             history.listed = history.listed.or(listed.map(|member| member.offer));
         }
     }

@@ -78,13 +78,6 @@ pub fn are_near(exchange: &Exchange, robot: &Robot) -> bool {
     }
 }
 
-const fn next_of(robot: &Robot) -> UniqueNumber {
-    UniqueNumber {
-        boot: robot.boot,
-        count: robot.next_count,
-    }
-}
-
 fn leader_agrees(exchange: &Exchange, history: &History, robot: &Robot) -> bool {
     let leads = leads(exchange, robot);
     // I15: a number is given out once, and a session that has ended never is again.
@@ -116,8 +109,7 @@ fn requester_agrees(exchange: &Exchange, history: &History, requesting: &Request
 
 /// I17: the record of the follower is there until it is dropped itself.
 fn leading_agrees(exchange: &Exchange, history: &History, leading: &Leading) -> bool {
-    let mut members = leading.members.iter();
-    match members.find(|member| member.station == exchange.follower) {
+    match leading.member(exchange.follower) {
         None => history.listed.is_none() || history.dropped,
         Some(member) => {
             history.listed == Some(member.offer)
@@ -175,9 +167,7 @@ pub fn can_report(exchange: &Exchange, robot: &Robot, ram: &Ram) -> bool {
     if ram.station != exchange.follower || *session != exchange.session || !leads(exchange, robot) {
         return true;
     }
-    let mut members = leading.members.iter();
-    let member = members.find(|member| member.station == exchange.follower);
-    match (member, last) {
+    match (leading.member(exchange.follower), last) {
         (Some(member), Some(report)) => awaits_or_counts(exchange, member, report.request),
         _ => true,
     }
@@ -215,7 +205,7 @@ fn follower_agrees(exchange: &Exchange, history: &History, robot: &Robot) -> boo
 /// number of an offer that stands is taken back.
 fn is_used_up(robot: &Robot, number: UniqueNumber) -> bool {
     let stands = matches!(&robot.phase, Phase::Offering(offering) if offering.number.0 == number);
-    is_given_out(number, next_of(robot)) && !stands
+    is_given_out(number, robot.next_number()) && !stands
 }
 
 fn following_agrees(exchange: &Exchange, history: &History, following: &Following) -> bool {

@@ -31,10 +31,7 @@ pub fn can_be_next(exchange: &Exchange, history: &History, robot: &Robot, input:
         }
         Input::Rmcm(rmcm) => messages::rmcm_is_true(exchange, history, *rmcm),
         Input::Local(Event::IdentityChanged(station, next)) => {
-            let next = next.unwrap_or(UniqueNumber {
-                boot: robot.boot,
-                count: robot.next_count,
-            });
+            let next = next.unwrap_or(robot.next_number());
             *station == robot.station || can_be_taken(exchange, history, *station, next)
         }
         Input::Elapsed(_) | Input::Expired(_) | Input::Local(_) => true,
