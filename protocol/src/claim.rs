@@ -6,7 +6,7 @@ use crate::id::StationId;
 use crate::output::Ignored;
 use crate::task::{HelpRequest, Place, Urgency};
 
-/// What a request or a leader claims: a place, with this urgency.
+/// The claim of a request or a leader: a place, with this urgency.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Claim {
     pub(crate) urgency: Urgency,
@@ -21,7 +21,7 @@ impl Claim {
         }
     }
 
-    /// Whether this claim of `station` goes before the one of `other_station` at the same place.
+    /// Succeeds if this claim of `station` goes before the one of `other_station` at the same place.
     pub(crate) fn goes_before(
         self,
         station: StationId,

@@ -9,7 +9,7 @@ use crate::words::words;
 
 /// The values that a robot is configured with. [`Config::new`] checks them.
 ///
-/// Times are from 1 ms to one day. What holds between them is in [`Inequality`]. Robots of a team may have
+/// Times are from 1 ms to one day. [`Inequality`] has the conditions between them. Robots of a team may have
 /// different settings: a helper tells its `t_safety` in its offer, and a requester takes no offer whose
 /// `t_safety` its own lease does not fit. Drift and `delay_max` must be the same for all.
 ///
@@ -152,7 +152,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Whether a timer of `own` here ends before a timer of `theirs` on another robot that was started no
+    /// True if a timer of `own` here ends before a timer of `theirs` on another robot that was started no
     /// earlier, whatever the two clocks do and however late this robot learns of it.
     const fn ends_before(&self, own: Millis, theirs: Millis) -> bool {
         let drift = self.drift_ppm as u64;
@@ -317,7 +317,7 @@ impl Config {
         self.0.fallback[task.value() as usize]
     }
 
-    /// Whether a lease of this robot ends before a follower with this `t_safety` can have fallen back.
+    /// True if a lease of this robot ends before a follower with this `t_safety` can have fallen back.
     #[must_use]
     pub const fn lease_fits(&self, t_safety: Millis) -> bool {
         self.0.ends_before(self.0.t_lease, t_safety)

@@ -87,7 +87,7 @@ impl Leading {
         shortest.unwrap_or(Millis::ZERO)
     }
 
-    /// Whether every follower's command may run for this long yet.
+    /// True if every follower's command may run for this long yet.
     fn runs_for(&self, time: Millis) -> bool {
         let left = |member: &Member| member.order.and_then(|order| order.execution.left());
         self.members

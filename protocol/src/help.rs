@@ -234,7 +234,7 @@ impl Requesting {
         self.offers.remove_first(is_meant).is_some()
     }
 
-    /// Whether the offers stand in the order of selection, one per station.
+    /// True if the offers stand in the order of selection, one per station.
     pub(crate) fn offers_are_ranked(&self) -> bool {
         self.offers.is_dense()
             && all_in_order(&self.offers, |a, b| rank(a) < rank(b))
@@ -254,7 +254,7 @@ impl Offering {
     }
 }
 
-/// Whether each item and the next one stand in order.
+/// True if each item and the next one stand in order.
 fn all_in_order<T: Copy, const N: usize>(
     list: &List<T, N>,
     in_order: impl Fn(&T, &T) -> bool,
@@ -269,7 +269,7 @@ fn all_in_order<T: Copy, const N: usize>(
     true
 }
 
-/// Whether no two items have the same key.
+/// True if no two items have the same key.
 pub(crate) fn all_distinct<T: Copy, K: PartialEq, const N: usize>(
     list: &List<T, N>,
     key: impl Fn(&T) -> K,

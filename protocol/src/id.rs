@@ -104,7 +104,7 @@ impl RequestId {
     /// that the order of any two numbers of a session is never in doubt.
     pub const MAX_PER_SESSION: u8 = 127;
 
-    /// Whether this number comes after `other` in serial number order (RFC 1982, 8 bits).
+    /// True if this number comes after `other` in serial number order (RFC 1982, 8 bits).
     #[must_use]
     pub const fn is_newer_than(self, other: Self) -> bool {
         let distance = self.distance_from(other);
@@ -144,14 +144,14 @@ impl Heartbeat {
     /// Half the number space: two heartbeats of one session are always closer than this.
     pub const HALF_SPACE: u32 = 1 << 15;
 
-    /// Whether this number comes after `other` in serial number order (RFC 1982, 16 bits).
+    /// True if this number comes after `other` in serial number order (RFC 1982, 16 bits).
     #[must_use]
     pub const fn is_newer_than(self, other: Self) -> bool {
         let distance = self.distance_from(other);
         distance != 0 && (distance as u32) < Self::HALF_SPACE
     }
 
-    /// Whether this number is `other` or less than half the number space newer: a robot whose newest
+    /// True if this number is `other` or less than half the number space newer: a robot whose newest
     /// heartbeat is this one can have sent `other`.
     #[must_use]
     pub(crate) const fn can_follow(self, other: Self) -> bool {

@@ -44,13 +44,12 @@ impl Robot {
             help: Countdown::armed(step.config.settings().t_help),
             selection: Countdown::OFF,
         });
-        // Somebody may have asked about this number before it was given out, and been told that no
-        // such session exists.
+        // A peer may have asked about this number before it was given out, and been told that no such session exists.
         self.withdraw_farewell(self.own_session(number));
         step.out.push(Output::SendRam);
     }
 
-    /// Whether the robot itself stands in the way of taking part in a session.
+    /// Refuses a new part in a session where the robot itself stands in its way.
     pub(crate) fn may_join(&self) -> Effect {
         if let Availability::Unavailable(reason) = self.availability {
             return Err(Ignored::Unavailable(reason));

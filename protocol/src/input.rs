@@ -1,4 +1,4 @@
-//! What the transition function takes in.
+//! Inputs of the transition function.
 
 use crate::display::NumbersFrom;
 use crate::id::{ManeuverId, StationId, UniqueNumber};

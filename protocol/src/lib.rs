@@ -8,7 +8,7 @@
 //! the live endpoint all call.
 //!
 //! It is `no_std`, free of heap and of unsafe code, total, and reads no clock: time enters as an
-//! [`Input`]. What it decides comes out as [`Outputs`] for the endpoint to carry out in order.
+//! [`Input`]. Its decisions come out as [`Outputs`] for the endpoint to carry out in order.
 //!
 //! ```
 //! use crossguard_protocol::{

@@ -78,7 +78,7 @@ impl<T: Copy, const N: usize> List<T, N> {
         removed
     }
 
-    /// Changes the first item that satisfies `condition`. What `change` says, `None` where there is
+    /// Changes the first item that satisfies `condition` and returns the result of `change`, `None` where there is
     /// no such item.
     pub(crate) fn update_first<R>(
         &mut self,
@@ -118,7 +118,7 @@ impl<T: Copy, const N: usize> List<T, N> {
         i
     }
 
-    /// Whether the list holds nothing.
+    /// True if the list holds nothing.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         N == 0 || self.0[0].is_none()
@@ -143,7 +143,7 @@ impl<T: Copy, const N: usize> List<T, N> {
         Self(slots)
     }
 
-    /// Whether no item stands behind a gap; true for every list that this type's methods made.
+    /// True if no item stands behind a gap; true for every list that this type's methods made.
     pub(crate) fn is_dense(&self) -> bool {
         let mut i = self.len();
         while i < N {

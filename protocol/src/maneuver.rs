@@ -132,7 +132,7 @@ impl Outstanding {
 }
 
 impl Member {
-    /// Whether the follower has its role and has acknowledged the command before.
+    /// Refuses a command to a follower without its role, or before the answer to the last one.
     fn may_be_commanded(&self) -> Effect {
         if !self.has_joined() {
             return Err(Ignored::NotJoined);
@@ -143,7 +143,7 @@ impl Member {
         Ok(())
     }
 
-    /// Whether the follower guards people by what it is known to do or may have begun to do.
+    /// True if the follower guards people by what it is known to do or may have begun to do.
     fn guards(&self, config: &Config) -> bool {
         self.order.is_some_and(|order| {
             // The execution limit is the leader's own: the follower knows nothing of it and goes on.
@@ -152,7 +152,7 @@ impl Member {
         })
     }
 
-    /// Whether the follower's request numbers of this session are used up.
+    /// True if the follower's request numbers of this session are used up.
     fn is_used_up(&self, step: &Step<'_, impl Sink>) -> bool {
         let first = step.config.settings().first_request;
         self.next_request.distance_from(first) >= RequestId::MAX_PER_SESSION
@@ -280,7 +280,7 @@ impl Robot {
             Phase::Following(following) if following.session == command.session => {
                 let taken = following.take_command(step, station, rejection, command);
                 if following.executing().is_some() {
-                    // What runs now is the duty, if there was one.
+                    // The maneuver that runs now is the duty, if there was one.
                     self.duty = None;
                 }
                 taken
@@ -335,7 +335,7 @@ impl Robot {
 }
 
 impl Duty {
-    /// Whether the leader for which the robot falls back commands the same task in the same session again.
+    /// True if the leader for which the robot falls back commands the same task in the same session again.
     fn is_resumed_by(self, command: Command) -> bool {
         matches!(self, Self::FallingBack(maneuver)
             if (maneuver.id.session, maneuver.task) == (command.session, command.task))

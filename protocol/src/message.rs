@@ -12,7 +12,7 @@ use crate::task::{HelpRequest, Place, TaskSet, TaskType, Unavailability, Urgency
 use crate::time::Millis;
 use crate::words::words;
 
-/// What a Robot Awareness Message says about coordination.
+/// The content of a Robot Awareness Message, as far as coordination goes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
@@ -23,7 +23,7 @@ pub struct Ram {
     pub coordination: Coordination,
     /// A session that it names as over.
     pub farewell: Option<Farewell>,
-    /// Whether it still has a duty on the road from a maneuver or session that ended early.
+    /// True if it still has a duty on the road from a maneuver or session that ended early.
     pub on_duty: bool,
 }
 
@@ -44,7 +44,7 @@ pub enum Coordination {
         number: SessionNumber,
         /// Newest heartbeat: it tells a request that stands from a late message.
         heartbeat: Heartbeat,
-        /// What it asks for.
+        /// The help that it asks for.
         request: HelpRequest,
     },
     /// `helpStatus = offerHelp`: reserved for one requester.
@@ -72,7 +72,7 @@ pub enum Coordination {
         urgency: Urgency,
         /// The crossing of the session.
         place: Place,
-        /// Whether it has yielded the place to another leader and lets nobody cross any more.
+        /// True if it has yielded the place to another leader and lets nobody cross any more.
         yields: bool,
     },
     /// Follows the leader of `session`.
@@ -126,13 +126,13 @@ words! {
 }
 
 impl Progress {
-    /// Whether the maneuver runs; every other progress is final for its command.
+    /// True if the maneuver runs; every other progress is final for its command.
     #[must_use]
     pub const fn is_running(self) -> bool {
         matches!(self, Self::Executing | Self::InPosition)
     }
 
-    /// Whether this progress of a command is later than the `known` one, in a RAM whose echo is so much newer than all before.
+    /// True if this progress of a command is later than the `known` one, in a RAM whose echo is so much newer than all before.
     /// A place is left and taken again, so there the echo tells which was later. Where it cannot, the worse one counts.
     #[must_use]
     pub(crate) const fn is_news(self, known: Self, echo: Ordering) -> bool {
@@ -172,7 +172,7 @@ pub enum Farewell {
 }
 
 impl Farewell {
-    /// Whether it takes this offer back.
+    /// True if it takes this offer back.
     pub(crate) fn leaves(self, session: SessionId, offer: OfferNumber) -> bool {
         matches!(self, Self::Left(left, by) if left == session && offer <= by)
     }
@@ -188,7 +188,7 @@ words! {
     }
 }
 
-/// What a Robot Maneuver Coordination Message says.
+/// The content of a Robot Maneuver Coordination Message.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
@@ -224,7 +224,7 @@ pub struct Answer {
     pub session: SessionId,
     /// `jobAdviceID`: the `requestID` that is answered.
     pub request: RequestId,
-    /// What it says.
+    /// Acknowledgement or rejection.
     pub verdict: Verdict,
 }
 

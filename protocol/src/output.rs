@@ -1,4 +1,4 @@
-//! What the transition function gives out.
+//! Outputs of the transition function.
 
 use crate::MAX_OUTPUTS;
 use crate::id::{ManeuverId, SessionId, StationId};
@@ -22,8 +22,8 @@ words! {
         /// End this maneuver by the task's policy. The robot is on duty until the application says
         /// `RoadClear`.
         FallBack(maneuver: Maneuver, policy: FallbackPolicy) = 3, "fall back from {maneuver}: {policy}";
-        /// The pedestrian may cross from now on, for this long. What shows it must end by itself then, without
-        /// this robot's help.
+        /// The pedestrian may cross from now on, for this long. The sign must end by itself then, without this
+        /// robot's help.
         CorridorOpened(left: Millis) = 4, "corridor opened for {left}";
         /// The pedestrian may go on crossing, for this long from now.
         CorridorExtended(left: Millis) = 5, "corridor open for another {left}";
@@ -49,7 +49,7 @@ words! {
 pub struct Maneuver {
     /// The command it belongs to.
     pub id: ManeuverId,
-    /// What to do.
+    /// Its task.
     pub task: TaskType,
 }
 
@@ -340,7 +340,7 @@ impl Outputs {
         self.0.len()
     }
 
-    /// Whether there is no output.
+    /// True if there is no output.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()

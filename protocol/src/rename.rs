@@ -3,7 +3,7 @@
 //! The transition function compares numbers and never looks at their absolute values: of two
 //! heartbeats or offer numbers it asks which is newer, of two session numbers whether they are the same. So
 //! two states that differ in such a renaming alone behave alike, and a model checker need visit only
-//! one of them. That keeps a model with unbounded counters finite without bounding the counters.
+//! one of them. So a model with unbounded counters is finite, and no counter is bounded.
 //!
 //! Of two station ids it asks which request goes before and which of two equal offers is the better one.
 //! Where neither makes a difference, stations may be exchanged; [`Renaming::station`] says when.
@@ -19,7 +19,7 @@ use crate::output::Maneuver;
 use crate::state::{Duty, Leading, Member, Offering, Phase, Requesting, Rival, Robot};
 use crate::time::Millis;
 
-/// A renaming of what states and messages hold. What a method is not given stays as it is.
+/// A renaming of the contents of states and messages. A value that is given to no method stays as it is.
 ///
 /// The renamed state is a valid one if the renaming keeps stations apart, keeps the order of the
 /// heartbeats of each session and keeps them less than half the number space apart, keeps the order of the
@@ -29,8 +29,8 @@ pub trait Renaming {
     /// A station. It is exchanged for another one wherever it occurs; numbers and heartbeats are still
     /// given by the old names of their stations.
     ///
-    /// What the renamed robots do is what the robots did, renamed, if the order of requesters stays, all
-    /// offers are equally good, and a requester confirms all that it hears. Then the followers that a leader has
+    /// The renamed robots do the same under the new names if the order of requesters stays, all offers are equally
+    /// good, and a requester confirms all that it hears. Then the followers that a leader has
     /// confirmed stand in the order of their station ids, and do so again under the new ones.
     fn station(&mut self, station: StationId) -> StationId {
         station

@@ -19,15 +19,15 @@ use crate::state::{Duty, Identity, Offer, Phase, Rival, Robot, Role, State};
 use crate::task::Availability;
 use crate::time::{Countdown, Millis};
 
-/// What a stage needs for one step: the configuration to read, the outputs to add to.
+/// The context of one step: the configuration to read, the outputs to add to.
 pub(crate) struct Step<'a, S> {
     pub(crate) config: &'a Config,
     pub(crate) out: &'a mut S,
-    /// Whether a lease was renewed in this step, so that an open corridor is extended.
+    /// True if a lease was renewed in this step, so that an open corridor is extended.
     pub(crate) renewed: bool,
 }
 
-/// What came of an input: it had an effect, or it is ignored for a reason.
+/// The outcome of an input: it had an effect, or it is ignored for a reason.
 pub(crate) type Effect = Result<(), Ignored>;
 
 /// A transition function together with its state: what an endpoint drives. The kit has one, [`Robot`]; a test
@@ -210,7 +210,7 @@ impl Robot {
         }
     }
 
-    /// Whether the robot has a part in a session or says farewell to one.
+    /// True if the robot has a part in a session or says farewell to one.
     pub(crate) const fn is_bound(&self) -> bool {
         !matches!(self.phase, Phase::Idle) || self.farewell.is_some()
     }
@@ -242,7 +242,7 @@ impl Robot {
         }
     }
 
-    /// Whether this robot has given the number out, in this life or an earlier one.
+    /// True if this robot has given the number out, in this life or an earlier one.
     pub(crate) const fn has_issued(&self, number: UniqueNumber) -> bool {
         number.boot < self.boot || (number.boot == self.boot && number.count < self.next_count)
     }
@@ -378,19 +378,19 @@ impl Robot {
         self.boot
     }
 
-    /// Whether it takes part in coordination.
+    /// Its readiness for coordination.
     #[must_use]
     pub const fn availability(&self) -> Availability {
         self.availability
     }
 
-    /// Whether its pseudonym may change.
+    /// The lock of its pseudonym.
     #[must_use]
     pub const fn identity(&self) -> Identity {
         self.identity
     }
 
-    /// What it still does on the road from a maneuver or session that ended early.
+    /// Its duty on the road from a maneuver or session that ended early.
     #[must_use]
     pub const fn duty(&self) -> Option<Duty> {
         self.duty
@@ -407,7 +407,7 @@ impl Robot {
         }
     }
 
-    /// What it names as over.
+    /// The session that it names as over.
     #[must_use]
     pub fn farewell(&self) -> Option<Farewell> {
         self.farewell.map(|standing| standing.farewell)

@@ -40,7 +40,7 @@ pub struct Robot {
     pub(crate) next_count: u16,
     pub(crate) availability: Availability,
     pub(crate) identity: Identity,
-    /// What the robot still does on the road, or must find clear, before it takes part in anything new.
+    /// The duty on the road that must end before the robot takes part in anything new.
     pub(crate) duty: Option<Duty>,
     /// Time to the next periodic RAM; armed in a session and while a farewell stands.
     pub(crate) ram: Countdown,
@@ -100,7 +100,7 @@ words! {
     }
 }
 
-/// Whether the pseudonym may change.
+/// The lock of the pseudonym.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
@@ -130,7 +130,7 @@ pub enum Duty {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StandingFarewell {
-    /// What the RAM says.
+    /// The farewell itself.
     pub farewell: Farewell,
     /// For how long yet.
     pub left: Countdown,
@@ -142,7 +142,7 @@ pub struct StandingFarewell {
 pub struct Requesting {
     /// Number of the session.
     pub number: SessionNumber,
-    /// What it asks for.
+    /// The help that it asks for.
     pub request: HelpRequest,
     /// Newest heartbeat.
     pub heartbeat: Heartbeat,
@@ -175,7 +175,7 @@ pub struct Offer {
     pub station: StationId,
     /// Number of the offer.
     pub number: OfferNumber,
-    /// What the helper can do.
+    /// Maneuvers that the helper can do.
     pub capabilities: TaskSet,
     /// How far away the helper is.
     pub distance: Decimetres,
@@ -194,7 +194,7 @@ pub struct Offering {
     pub session: SessionId,
     /// Number of the offer.
     pub number: OfferNumber,
-    /// What it can do of what is asked for.
+    /// Maneuvers that it can do, of those that are asked for.
     pub capabilities: TaskSet,
     /// Newest heartbeat of the request that it heard.
     pub heard: Heartbeat,
@@ -211,13 +211,13 @@ pub struct Offering {
 pub struct Leading {
     /// Number of the session.
     pub number: SessionNumber,
-    /// What was asked for.
+    /// The help that was asked for.
     pub request: HelpRequest,
     /// Newest heartbeat.
     pub heartbeat: Heartbeat,
     /// The followers.
     pub members: List<Member, MAX_FOLLOWERS>,
-    /// Whether the pedestrian may cross, and whether the road is known to be clear.
+    /// The right of the pedestrian to cross, and the knowledge that the road is clear.
     pub corridor: Corridor,
     /// A leader at the same place that goes before, as heard first.
     pub rival: Option<Rival>,
@@ -302,7 +302,7 @@ pub struct Order {
     pub request: RequestId,
     /// Its task.
     pub task: TaskType,
-    /// What the follower reported; `None` before its first report.
+    /// The progress that the follower reported; `None` before its first report.
     pub progress: Option<Progress>,
     /// `T_exec`; armed until the progress is final.
     pub execution: Countdown,
@@ -325,7 +325,7 @@ pub struct Following {
     pub job: Option<Job>,
     /// Newest command that it rejected, where that is newer than the job.
     pub refused: Option<Refusal>,
-    /// Whether it has seen somebody on the road itself, and has not said since then that the road is clear.
+    /// True if it has seen somebody on the road itself, and has not said since then that the road is clear.
     pub sees_people: bool,
 }
 
@@ -369,7 +369,7 @@ impl Leading {
         self.members.iter().find(|member| member.station == station)
     }
 
-    /// Changes the record of `station`. What `change` says, `None` where there is no such follower.
+    /// Changes the record of `station` and returns the result of `change`, `None` where there is no such follower.
     pub(crate) fn update_member<R>(
         &mut self,
         station: StationId,
@@ -379,7 +379,7 @@ impl Leading {
             .update_first(|member| member.station == station, change)
     }
 
-    /// Whether a follower executes an acknowledged command.
+    /// True if a follower executes an acknowledged command.
     #[must_use]
     pub fn is_executing(&self) -> bool {
         self.members
@@ -389,13 +389,13 @@ impl Leading {
 }
 
 impl Member {
-    /// Whether the follower has taken its role.
+    /// True if the follower has taken its role.
     #[must_use]
     pub const fn has_joined(&self) -> bool {
         self.echoed.is_some()
     }
 
-    /// Whether the follower has completed its newest acknowledged command.
+    /// True if the follower has completed its newest acknowledged command.
     #[must_use]
     pub fn has_completed(&self) -> bool {
         self.order
@@ -404,7 +404,7 @@ impl Member {
 }
 
 impl Lease {
-    /// Whether the lease stands.
+    /// True if the lease stands.
     #[must_use]
     pub const fn stands(self) -> bool {
         matches!(self, Self::Stands(_))
@@ -418,7 +418,7 @@ impl Lease {
 }
 
 impl Order {
-    /// Whether the command is acknowledged and not finished.
+    /// True if the command is acknowledged and not finished.
     #[must_use]
     pub const fn is_running(self) -> bool {
         match self.progress {
@@ -447,7 +447,7 @@ impl Following {
 }
 
 impl Contact {
-    /// Whether `T_safety` has run out without a newer heartbeat or command.
+    /// True if `T_safety` has run out without a newer heartbeat or command.
     #[must_use]
     pub const fn is_lost(self) -> bool {
         matches!(self, Self::Lost(_))

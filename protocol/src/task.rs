@@ -146,7 +146,7 @@ impl TaskSet {
         Self(bits)
     }
 
-    /// Whether `task` is in the set.
+    /// True if `task` is in the set.
     #[must_use]
     pub const fn contains(self, task: TaskType) -> bool {
         self.0 >> task.0 & 1 == 1
@@ -164,7 +164,7 @@ impl TaskSet {
         Self(self.0 & !other.0)
     }
 
-    /// Whether the set is empty.
+    /// True if the set is empty.
     #[must_use]
     pub const fn is_empty(self) -> bool {
         self.0 == 0
@@ -208,7 +208,7 @@ impl Default for Urgency {
     }
 }
 
-/// What a leader asks for when it has detected a pedestrian.
+/// The help that a leader asks for when it has detected a pedestrian.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct HelpRequest {
@@ -241,7 +241,7 @@ impl Place {
     /// Not known. It may be any place, so it competes with all of them.
     pub const UNKNOWN: Self = Self(0);
 
-    /// Whether the two may be one place: they are equal, or one of them is unknown.
+    /// True if the two may be one place: they are equal, or one of them is unknown.
     #[must_use]
     pub const fn may_be(self, other: Self) -> bool {
         self.0 == other.0 || self.0 == Self::UNKNOWN.0 || other.0 == Self::UNKNOWN.0
@@ -257,7 +257,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// Whether the robot takes part in coordination.
+/// The readiness of a robot for coordination.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
@@ -286,7 +286,7 @@ words! {
 }
 
 impl Unavailability {
-    /// Whether the robot can still carry out a fallback policy. A robot under emergency stop, with a
+    /// True if the robot can still carry out a fallback policy. A robot under emergency stop, with a
     /// fault, or steered by a person cannot: its body is not its own to command.
     #[must_use]
     pub const fn can_fall_back(self) -> bool {
@@ -295,7 +295,7 @@ impl Unavailability {
 }
 
 words! {
-    /// What a follower does with a running maneuver at every end but a completed crossing: contact lost,
+    /// A follower's act with a running maneuver at every end but a completed crossing: contact lost,
     /// session aborted, left, or not listed any more.
     pub enum FallbackPolicy {
         /// Stop where it stands.

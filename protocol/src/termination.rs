@@ -248,8 +248,8 @@ impl Robot {
         }
     }
 
-    /// Somebody still takes part in a session of this robot that is over, perhaps one of an earlier
-    /// life: name it as ended once more.
+    /// Names a session of this robot as ended once more, perhaps one of an earlier life, for a peer that still takes
+    /// part in it.
     ///
     /// Anybody can ask so, with any number. While a farewell stands nobody is answered, so made-up numbers bring about
     /// one RAM in the time of a farewell, and take no farewell's place.

@@ -56,13 +56,13 @@ impl Countdown {
         }
     }
 
-    /// Whether the countdown is armed.
+    /// True if the countdown is armed.
     #[must_use]
     pub const fn is_armed(self) -> bool {
         self.0 != Self::OFF.0
     }
 
-    /// Whether the countdown has reached zero.
+    /// True if the countdown has reached zero.
     #[must_use]
     pub const fn is_due(self) -> bool {
         self.0 == 0
@@ -75,7 +75,7 @@ impl Countdown {
         }
     }
 
-    /// Whether the time left is at most `limit`; an unarmed countdown is within every limit.
+    /// True if the time left is at most `limit`; an unarmed countdown is within every limit.
     pub(crate) const fn is_within(self, limit: Millis) -> bool {
         !self.is_armed() || self.0 <= limit.0
     }

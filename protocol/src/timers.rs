@@ -96,7 +96,7 @@ impl Robot {
         due
     }
 
-    /// Lets time pass. What is due fires, each timer once: a robot that was told late does what it
+    /// Lets time pass. Due timers fire, each once: a robot that was told late does what it
     /// missed now, not several times over.
     pub(crate) fn elapse(&mut self, step: &mut Step<'_, impl Sink>, elapsed: Millis) {
         let late = match self.ram.left() {
@@ -204,7 +204,7 @@ impl Robot {
         due
     }
 
-    /// Whether every armed timer has at most the time it was started with.
+    /// True if every armed timer has at most the time it was started with.
     pub(crate) fn timers_within_limits(&self, config: &Config) -> bool {
         let mut within = true;
         visit_countdowns!(self, iter, (), |timer, countdown: &Countdown| {

@@ -1,4 +1,4 @@
-//! What is true of every reachable state.
+//! The invariant of all reachable states.
 //!
 //! [`Robot::is_valid`] holds in the initial state and is kept by every input (property I13): it is
 //! inductive, so it holds after runs of any length. The local parts of other properties are among
@@ -18,7 +18,7 @@ use crate::task::Availability;
 use crate::time::Millis;
 
 impl Robot {
-    /// Whether the state is one that [`Robot::step`] can produce under `config`.
+    /// True if the state is one that [`Robot::step`] can produce under `config`.
     #[must_use]
     pub fn is_valid(&self, config: &Config) -> bool {
         self.is_consistent(config)
@@ -38,8 +38,8 @@ impl Robot {
             }
     }
 
-    /// What holds within a step too, between its parts: what is missing from it to
-    /// [`is_valid`](Self::is_valid) is what fires and what settles at the end of the step.
+    /// The part of [`is_valid`](Self::is_valid) that holds between the parts of a step too: all but the clauses about
+    /// due timers and about matters that settle at its end.
     pub(crate) fn is_consistent(&self, config: &Config) -> bool {
         // I16: every timer is within its limit.
         self.timers_within_limits(config)
@@ -178,7 +178,7 @@ impl Following {
             })
             // I9: once contact is lost, nothing runs until a newer command comes.
             && (!self.contact.is_lost() || self.executing().is_none())
-            // I5: what was refused is newer than what was accepted.
+            // I5: a refused command is newer than the accepted one.
             && match (self.refused, self.job) {
                 (Some(refused), Some(job)) => refused.request.is_newer_than(job.request),
                 _ => true,

@@ -25,7 +25,7 @@ use crate::time::Millis;
 pub struct Words {
     /// Its name in Rust.
     pub name: &'static str,
-    /// What it is, in one paragraph.
+    /// Its meaning, in one paragraph.
     pub meaning: &'static str,
     /// Its words, in order.
     pub words: &'static [Word],
@@ -38,18 +38,18 @@ pub struct Word {
     pub variant: &'static str,
     /// Its name in JSON.
     pub name: &'static str,
-    /// Its number in the enumeration. Those of all [reasons](REASONS) are one space: a code has one name, and a
+    /// Its number in the enumeration. The numbers of all [reasons](REASONS) are one space: a code has one name, and a
     /// word that only carries another reason has code 0.
     pub code: u8,
-    /// What it means, in one paragraph.
+    /// The meaning, in one paragraph.
     pub meaning: &'static str,
-    /// What comes with it, in order.
+    /// Its fields, in order.
     pub fields: &'static [Field],
-    /// Whether JSON names the fields: one field is not named otherwise, and several are a list.
+    /// True if JSON names the fields: one field is not named otherwise, and several are a list.
     pub names_fields: bool,
 }
 
-/// What comes with a word.
+/// A field of a word.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Field {
     /// Its name.
@@ -58,7 +58,7 @@ pub struct Field {
     pub of: &'static str,
 }
 
-/// What an output says, with one place for each thing that outputs come with: for interfaces of plain records.
+/// The content of an output, with one place for each thing that outputs come with: for interfaces of plain records.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Said {
     /// Which output it is.
@@ -84,7 +84,7 @@ pub struct Said {
 }
 
 impl Said {
-    /// What `output` says.
+    /// The content of `output`.
     #[must_use]
     pub fn by(output: &Output) -> Self {
         let mut said = Self {
@@ -104,7 +104,7 @@ impl Said {
     }
 }
 
-/// What can come with a word.
+/// A type of values that come with words.
 pub(crate) trait Content {
     /// A value for examples.
     const SAMPLE: Self;
@@ -200,7 +200,7 @@ macro_rules! enumerations {
     ) => {
         /// All enumerations.
         pub const TABLE: &[&Words] = &[$($(&$name::WORDS,)+)+ $(&$reason::WORDS),+];
-        /// Those that say why something is as it is.
+        /// Enumerations of reasons.
         pub const REASONS: &[&Words] = &[$(&$reason::WORDS),+];
 
         $($(content!($name $note);)+)+
@@ -246,7 +246,7 @@ pub(crate) const fn letters<const N: usize>(variant: &str, case: &str) -> [u8; N
     to
 }
 
-/// What stands between two words of a name; 0 for nothing.
+/// The character between two words of a name; 0 for none.
 const fn separator(case: &str) -> u8 {
     match case.as_bytes() {
         b"kebab-case" => b'-',
@@ -500,7 +500,7 @@ macro_rules! words {
             /// All of them, in order.
             pub const ALL: [Self; $name::WORDS.words.len()] = [$(Self::$variant),+];
 
-            /// What there is to know of it.
+            /// Its entry in the table.
             #[must_use]
             pub const fn word(self) -> &'static $crate::words::Word {
                 &$name::WORDS.words[self as usize]

@@ -204,7 +204,7 @@ typedef uint8_t CrossguardUnavailability;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What a follower does with a running maneuver at every end but a completed crossing: contact lost, session aborted, left, or not listed any more.
+// A follower's act with a running maneuver at every end but a completed crossing: contact lost, session aborted, left, or not listed any more.
 enum CrossguardFallback
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint8_t
@@ -380,7 +380,7 @@ enum CrossguardOutputKind
   CROSSGUARD_OUTPUT_KIND_STOP_MANEUVER = 2,
   // End this maneuver by the task's policy. The robot is on duty until the application says `RoadClear`. With `session`, `request`, `task`, `policy`.
   CROSSGUARD_OUTPUT_KIND_FALL_BACK = 3,
-  // The pedestrian may cross from now on, for this long. What shows it must end by itself then, without this robot's help. With `open_ms`.
+  // The pedestrian may cross from now on, for this long. The sign must end by itself then, without this robot's help. With `open_ms`.
   CROSSGUARD_OUTPUT_KIND_CORRIDOR_OPENED = 4,
   // The pedestrian may go on crossing, for this long from now. With `open_ms`.
   CROSSGUARD_OUTPUT_KIND_CORRIDOR_EXTENDED = 5,

@@ -14,7 +14,7 @@ pub(super) const fn request_is_newer(request: RequestId, known: RequestId) -> bo
     matches!(request.0.wrapping_sub(known.0), 1..0x80)
 }
 
-/// What is left, in ms; nothing where nothing runs.
+/// The time that is left, in ms; none where nothing runs.
 pub(super) fn left_ms(countdown: Countdown) -> u64 {
     u64::from(countdown.left().unwrap_or(Millis::ZERO).0)
 }
@@ -46,7 +46,7 @@ fn latest_and_earliest(settings: &Settings, own_ms: u64, theirs_ms: u64) -> (u64
     (own_ms * (million + drift), theirs_ms * slowest)
 }
 
-/// Whether a reservation of `t_offer` on the fastest clock outlasts `time_ms` on the slowest, what an endpoint
+/// True if a reservation of `t_offer` on the fastest clock outlasts `time_ms` on the slowest, what an endpoint
 /// may be late by, and the millisecond to which both count.
 pub(super) fn a_reservation_outlasts(config: &Config, time_ms: u64) -> bool {
     let settings = config.settings();

@@ -69,7 +69,7 @@ pub fn a_command_gets_no_more_time(config: &Config, step: &Taken) {
 }
 
 /// L4, L5: a follower that has lost contact leaves at the end of `T_leave`, unless it hears of its leader; it executes
-/// nothing meanwhile. What is news of a leader, [`contact`](super::contact) says.
+/// nothing meanwhile. [`contact`](super::contact) says what is news of a leader.
 pub fn a_lost_leader_gets_no_more_time(config: &Config, step: &Taken) {
     let Some(after) = following(&step.after) else {
         return;

@@ -93,7 +93,7 @@ pub fn the_cause_is_so(step: &Taken) {
         // Before the roles are assigned, nobody has a part of which an answer or a farewell could speak.
         Some(Ignored::OtherSession) => assert!(
             !is_of_its_session
-                || is_farewell_alone(input)
+                || matches!(input, Input::Ram { ram, .. } if ram.farewell.is_some())
                 || matches!(before.role(), Role::Requester | Role::Helper)
         ),
         Some(Ignored::NotAFollower) => {
@@ -109,9 +109,4 @@ pub fn the_cause_is_so(step: &Taken) {
         Some(Ignored::OnDuty) => assert!(before.duty().is_some()),
         _ => {}
     }
-}
-
-/// Whether a RAM may have been ignored for what its farewell names.
-fn is_farewell_alone(input: &Input) -> bool {
-    matches!(input, Input::Ram { ram, .. } if ram.farewell.is_some())
 }

@@ -22,7 +22,7 @@ pub fn all(config: &Config, step: &Taken) {
     the_body_is_believed(step);
 }
 
-/// Whether no command may take this follower off its task while people may be on the road: what it is at, or
+/// True if no command may take this follower off its task while people may be on the road: what it is at, or
 /// may be at, guards them.
 pub(super) fn may_guard(config: &Config, member: &Member) -> bool {
     member.order.is_some_and(|order| {
@@ -166,7 +166,7 @@ pub fn each_command_is_answered(config: &Config, step: &Taken) {
     }
 }
 
-/// I8: what the body says of the maneuver that runs is what the robot reports; of any other it is ignored.
+/// I8: the robot reports the words of its body about the maneuver that runs; about any other they are ignored.
 pub fn the_body_is_believed(step: &Taken) {
     let (id, told) = match step.input {
         Input::Local(Event::InPosition(id)) => (id, Progress::InPosition),

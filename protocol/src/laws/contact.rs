@@ -19,7 +19,7 @@ pub fn all(config: &Config, step: &Taken) {
     a_reservation_beats_with_its_request(config, step);
 }
 
-/// Whether the input is news of the leader: its RAM with a newer heartbeat that lists the follower, or a
+/// True if the input is news of the leader: its RAM with a newer heartbeat that lists the follower, or a
 /// command that is newer than all that were answered.
 fn is_news(step: &Taken, before: &Following) -> bool {
     match step.input {

@@ -1,8 +1,8 @@
 //! The theorem: safety of any number of robots, sessions and messages, by induction over the steps of a run.
 //!
 //! One [`Exchange`] is watched: any leader, any of its sessions, any follower, any offer of it, any request. Its
-//! [`History`] holds facts about the past, each of which becomes known once and stays known. What is proved for one exchange
-//! is proved for all, because all parts of it are arbitrary.
+//! [`History`] holds facts about the past, each of which becomes known once and stays known. A proof for one exchange is one
+//! for all, because all parts of it are arbitrary.
 //!
 //! ```text
 //!  messages::ram_is_true, rmcm_is_true    what a message implies of the history, whenever it arrives
@@ -45,13 +45,13 @@ pub struct Exchange {
 }
 
 impl Exchange {
-    /// What the leader's command is about.
+    /// The maneuver that the leader commands.
     #[must_use]
     pub const fn maneuver(&self) -> ManeuverId {
         ManeuverId::of(self.session, self.request)
     }
 
-    /// Whether this is the leader.
+    /// True if this is the leader.
     #[must_use]
     pub fn is_led_by(&self, station: StationId) -> bool {
         self.session.leader == station
@@ -62,13 +62,13 @@ impl Exchange {
         request.0.wrapping_sub(self.first.0)
     }
 
-    /// Whether this is the watched heartbeat or a later one, among heartbeats that are near it.
+    /// True if this is the watched heartbeat or a later one, among heartbeats that are near it.
     pub(super) const fn has_come(&self, heartbeat: Heartbeat) -> bool {
         heartbeat.0.wrapping_sub(self.heartbeat.0) < HALF_SPACE
     }
 
-    /// Whether a heartbeat is less than a quarter of the number space from the watched one, so that any two such
-    /// heartbeats can be put in order. That is 27 minutes with a RAM in 100 ms.
+    /// True if a heartbeat is less than a quarter of the number space from the watched one, so that any two such
+    /// heartbeats can be put in order: 27 minutes with a RAM in 100 ms.
     #[must_use]
     pub const fn is_near(&self, heartbeat: Heartbeat) -> bool {
         let from_quarter = self.heartbeat.0.wrapping_sub(HALF_SPACE / 2);
@@ -93,7 +93,7 @@ pub enum Heard {
     AfterTheEnd,
 }
 
-/// What has happened in an exchange. A fact that is known stays known.
+/// The facts of an exchange. A fact that is known stays known.
 #[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub struct History {
@@ -136,14 +136,14 @@ pub struct History {
 }
 
 impl History {
-    /// Whether the body of the follower executes the watched request.
+    /// True if the body of the follower executes the watched request.
     #[must_use]
     pub const fn runs(&self) -> bool {
         self.started && !self.over
     }
 }
 
-/// Whether a station that gives out `next` next has given out `number`.
+/// True if a station that gives out `next` next has given out `number`.
 pub(super) const fn is_given_out(number: UniqueNumber, next: UniqueNumber) -> bool {
     number.to_u32() < next.to_u32()
 }

@@ -1,4 +1,4 @@
-//! Laws of farewells: who leaves says so, and is let go.
+//! Laws of farewells: a robot that leaves says so, and is let go.
 
 use crate::id::{OfferNumber, SessionId};
 use crate::input::{Event, Input, Timer};
@@ -45,7 +45,7 @@ pub fn who_leaves_says_so(step: &Taken) {
     }
 }
 
-/// W6: what a helper names as left, by the offer that stands or a newer one, is over for its leader.
+/// W6: a session that a helper names as left, by the offer that stands or a newer one, is over for its leader.
 pub fn who_left_is_let_go(step: &Taken) {
     let Input::Ram { ram, .. } = step.input else {
         return;
@@ -73,8 +73,8 @@ pub fn who_left_is_let_go(step: &Taken) {
     }
 }
 
-/// I18, W2: what is named as over is named for its time and no longer, how it ended stays as it was said, and
-/// nothing more is named once the identity has been locked as long as it may.
+/// I18, W2: a session is named as over for its time and no longer, how it ended stays as it was said, and nothing
+/// more is named once the identity has been locked as long as it may.
 pub fn a_farewell_is_not_prolonged(step: &Taken) {
     let (before, after) = (step.before.farewell, step.after.farewell);
     let (Some(before), Some(after)) = (before, after) else {

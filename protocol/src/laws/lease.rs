@@ -1,6 +1,6 @@
 //! Laws of the lease: the arithmetic under the lease theorem (property I10).
 //!
-//! What one step does with leases and contact is among the laws of [`steps`](super::steps).
+//! The laws of [`steps`](super::steps) say how one step changes leases and contact.
 
 use crate::config::{Config, Inequality, Settings};
 use crate::id::{Heartbeat, StationId};
@@ -29,7 +29,7 @@ pub struct Clocks {
 }
 
 impl Clocks {
-    /// Whether both clocks are within `drift_ppm` of true time, to the millisecond that they count.
+    /// True if both clocks are within `drift_ppm` of true time, to the millisecond that they count.
     #[must_use]
     pub fn are_within(self, drift_ppm: u32) -> bool {
         let within = |clock: u32| {
@@ -127,20 +127,20 @@ pub(super) fn lease_left(member: &Member) -> Millis {
 pub(super) struct Echo {
     /// The follower.
     station: StationId,
-    /// What it echoes.
+    /// The heartbeat that it echoes.
     pub(super) heartbeat: Heartbeat,
     /// How long ago the leader sent that, in ms.
     pub(super) age_ms: u64,
 }
 
 impl Echo {
-    /// Whether this is what the leader has last heard echoed by this follower.
+    /// True if this is what the leader has last heard echoed by this follower.
     pub(super) fn is_newest_of(&self, member: &Member) -> bool {
         (self.station, Some(self.heartbeat)) == (member.station, member.echoed)
     }
 }
 
-/// What the input echoes, where it is a RAM of a follower in this leader's session.
+/// The echo in the input, where it is a RAM of a follower in this leader's session.
 pub(super) fn echo_heard(config: &Config, step: &Taken) -> Option<Echo> {
     let (Input::Ram { ram, .. }, Some(before)) = (step.input, leading(&step.before)) else {
         return None;

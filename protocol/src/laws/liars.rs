@@ -43,14 +43,14 @@ pub fn a_stranger_does_not_move_a_follower(step: &Taken, liar: StationId) {
     }
 }
 
-/// I3: what starts a maneuver is said by the leader that the robot follows.
+/// I3: a maneuver is started by the word of the leader that the robot follows.
 pub fn a_maneuver_is_started_by_its_leader(step: &Taken, liar: StationId) {
     if step.said.has(OutputKind::StartManeuver) {
         assert!(following(&step.before).is_some_and(|it| it.session.leader == liar));
     }
 }
 
-/// I2: who becomes a follower becomes that of the sender, which it has offered its help to.
+/// I2: a robot that becomes a follower becomes one of the sender, which it has offered its help to.
 pub fn a_role_comes_from_the_leader_that_has_the_offer(step: &Taken, liar: StationId) {
     if let (None, Some(follows)) = (following(&step.before), following(&step.after)) {
         assert!(matches!(step.before.phase(), Phase::Offering(_)));
@@ -64,7 +64,7 @@ pub fn no_message_opens_a_corridor(step: &Taken) {
     assert!(!step.said.has(OutputKind::CorridorOpened));
 }
 
-/// I17: what one station says changes no other follower, and extends no corridor unless it is a follower.
+/// I17: the words of one station change no other follower, and extend no corridor unless it is a follower.
 pub fn a_follower_speaks_for_itself_alone(step: &Taken, liar: StationId) {
     let Some(before) = leading(&step.before) else {
         return;
@@ -87,7 +87,7 @@ pub fn a_follower_speaks_for_itself_alone(step: &Taken, liar: StationId) {
     }
 }
 
-/// L6: who has no part in a session closes its corridor only as a leader at the same place that goes before.
+/// L6: a robot without a part in a session closes its corridor only as a leader at the same place that goes before.
 pub fn a_stranger_closes_a_corridor_by_going_before(step: &Taken, liar: StationId) {
     let Some(before) = leading(&step.before) else {
         return;

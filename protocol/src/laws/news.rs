@@ -20,7 +20,7 @@ pub fn all(step: &Taken) {
     what_the_ram_says_is_sent_at_once(step);
 }
 
-/// That of one kind it is told exactly if `happened`. When several timers fire in one step, more can have
+/// News of one kind is told exactly if `happened`. When several timers fire in one step, more can have
 /// happened than the state shows.
 fn is_told(step: &Taken, notice: NoticeKind, happened: bool) {
     let told = step.said.tells(notice);

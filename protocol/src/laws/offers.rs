@@ -24,7 +24,7 @@ pub fn all(config: &Config, step: &Taken) {
     an_offer_that_does_not_stand_is_declined(step);
 }
 
-/// Whether a heartbeat is one that the requester may have sent.
+/// True if a heartbeat is one that the requester may have sent.
 const fn is_echo_of(requesting: &Requesting, echo: Heartbeat) -> bool {
     requesting.heartbeat.0.wrapping_sub(echo.0) < 1 << 15
 }
@@ -47,7 +47,7 @@ pub(super) struct Made {
 }
 
 impl Made {
-    /// Whether this is what the requester knows of the helper.
+    /// True if this is what the requester knows of the helper.
     pub(super) fn is(&self, offer: &Offer) -> bool {
         (self.station, self.number, self.echo) == (offer.station, offer.number, offer.echo)
     }
@@ -109,7 +109,7 @@ pub fn an_older_offer_replaces_nothing(config: &Config, step: &Taken) {
     });
 }
 
-/// Whether a RAM of the helper names this offer as left, or a newer one.
+/// True if a RAM of the helper names this offer as left, or a newer one.
 fn leaves(step: &Taken, offer: &Offer) -> bool {
     let Input::Ram { ram, .. } = step.input else {
         return false;

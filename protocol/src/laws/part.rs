@@ -27,7 +27,7 @@ pub(super) fn requesting(robot: &Robot) -> Option<&Requesting> {
     }
 }
 
-/// Whether the body executes a command with this progress.
+/// True if the body executes a command with this progress.
 pub(super) const fn runs(progress: Progress) -> bool {
     match progress {
         Progress::Executing | Progress::InPosition => true,

@@ -16,7 +16,7 @@ pub fn all(config: &Config, step: &Taken) {
     a_request_begins_with_all_its_time(config, step);
 }
 
-/// Whether nothing in the robot stands in the way of a new part in a session.
+/// True if nothing in the robot stands in the way of a new part in a session.
 fn is_free(robot: &Robot) -> bool {
     matches!(robot.phase(), Phase::Idle)
         && robot.availability() == Availability::Available

@@ -1,6 +1,6 @@
 //! Laws of one step that reach the road: the corridor, duties, policies, and which of two robots gives way.
 //!
-//! What must hold is written here once more, from the records of a state and from the input alone. None
+//! The rules are written here once more, from the records of a state and from the input alone. None
 //! of these laws calls the function of the protocol that it judges.
 
 use crate::config::Config;
@@ -33,7 +33,7 @@ pub fn all(config: &Config, step: &Taken) {
     the_first_rival_is_noted(step);
 }
 
-/// Whether the records of a follower say that it guards: nothing is outstanding, its task guards, it was
+/// True if the records of a follower say that it guards: nothing is outstanding, its task guards, it was
 /// reported to be at it and, where the task guards from a place, there; and the lease stands.
 fn is_on_guard(config: &Config, member: &Member) -> bool {
     let settings = config.settings();
@@ -195,7 +195,7 @@ pub fn ends_follow_the_policy(config: &Config, step: &Taken) {
     });
 }
 
-/// Whether the application says that the body is not the robot's own to command any more.
+/// True if the application says that the body is not the robot's own to command any more.
 fn is_body_lost(step: &Taken) -> bool {
     matches!(
         step.input,
@@ -238,7 +238,7 @@ pub fn ends_say_how(step: &Taken) {
     }
 }
 
-/// Whether to do this task in this session is to go on with what the robot fell back from.
+/// True if to do this task in this session is to go on with what the robot fell back from.
 pub(super) fn takes_up(duty: Duty, session: SessionId, task: TaskType) -> bool {
     match duty {
         Duty::FallingBack(maneuver) => (maneuver.id.session, maneuver.task) == (session, task),
@@ -352,7 +352,7 @@ fn noted(robot: &Robot) -> Option<Rival> {
     rival.flatten()
 }
 
-/// Whether the input is the second one of rivals that go before `robot` at what may be the same place: of another session than
+/// True if the input is the second one of rivals that go before `robot` at what may be the same place: of another session than
 /// the first, or with a newer heartbeat.
 fn hears_a_second_rival(robot: &Robot, input: &Input) -> Option<SessionId> {
     let (heard, first) = (claim_that_counts(robot, input)?, noted(robot)?);
@@ -361,7 +361,7 @@ fn hears_a_second_rival(robot: &Robot, input: &Input) -> Option<SessionId> {
 }
 
 /// W3: a requester withdraws and a leader yields at the second message of rivals that go before at its place, whichever they
-/// are, and never at one alone. What yields stays so until it ends.
+/// are, and never at one alone. A leader that yields does so until it ends.
 pub fn way_is_given_at_the_second_message(step: &Taken) {
     let again = hears_a_second_rival(&step.before, &step.input).map(|session| session.leader);
     let yielded_before = leading(&step.before).and_then(|before| before.yields_to);

@@ -37,7 +37,7 @@ pub fn defaults_are_as_documented(settings: &Settings) {
     }
 }
 
-/// Whether settings satisfy one of them.
+/// True if settings satisfy one of them.
 #[must_use]
 pub fn as_written(inequality: Inequality, settings: &Settings) -> bool {
     let s = settings;

@@ -16,7 +16,7 @@ pub struct Taken {
     pub before: Robot,
     /// The input.
     pub input: Input,
-    /// What is to be done.
+    /// The outputs.
     pub said: Watch,
     /// The state after.
     pub after: Robot,
@@ -60,14 +60,14 @@ impl Taken {
         })
     }
 
-    /// Whether the input was ignored.
+    /// True if the input was ignored.
     #[must_use]
     pub fn is_ignored(&self) -> bool {
         self.said.has(OutputKind::Ignored)
     }
 }
 
-/// Whether the input is a RAM of the leader of `session` that lists this robot by `offer`.
+/// True if the input is a RAM of the leader of `session` that lists this robot by `offer`.
 pub(super) fn is_listed(step: &Taken, session: SessionId, offer: OfferNumber) -> bool {
     let Input::Ram { ram, .. } = step.input else {
         return false;

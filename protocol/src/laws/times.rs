@@ -1,5 +1,5 @@
-//! Laws of the times with which timers begin. That a timer has no more than its limit is a clause of a valid
-//! state; here is that it begins with no less.
+//! Laws of the times with which timers begin. A valid state has no timer above its limit; by these laws none begins
+//! with less.
 
 use crate::config::Config;
 use crate::input::Input;
@@ -82,7 +82,7 @@ pub fn offers_stand_as_long_as_they_can(config: &Config, step: &Taken) {
     }
 }
 
-/// I10, L2: what a leader waits for from a follower it waits for with all its time.
+/// I10, L2: each wait of a leader for a follower begins with all its time.
 pub fn timers_of_followers_begin_in_full(config: &Config, step: &Taken) {
     let echo = echo_heard(config, step);
     each_follower(&step.after, &step.before, |member, known| {

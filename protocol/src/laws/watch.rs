@@ -1,6 +1,6 @@
-//! What a step says, checked output by output as it comes.
+//! The outputs of a step, each checked as it comes.
 //!
-//! The laws do not ask for the list of outputs but for what this notes. To a proof a list of 24
+//! The laws do not ask for the list of outputs but for these notes. To a proof a list of 24
 //! outputs of any kind is most of a step.
 
 use crate::id::{RequestId, SessionId, StationId};
@@ -16,7 +16,7 @@ use crate::time::Millis;
 
 use super::part::executing;
 
-/// What has been said so far, and whether it was in order.
+/// Notes of all that has been said so far, and of its order.
 #[derive(Clone, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a law of its own")]
 pub struct Watch {
@@ -31,7 +31,7 @@ pub struct Watch {
     pub(super) tells_the_body: bool,
     /// The command that was accepted last.
     acknowledged: Option<(SessionId, RequestId)>,
-    /// Whether a command was sent.
+    /// True if a command was sent.
     pub commanded: bool,
     /// The command that was answered last, and how.
     pub answered: Option<(RequestId, Verdict)>,
@@ -41,10 +41,11 @@ pub struct Watch {
     pub(super) started: Option<Maneuver>,
     /// At most one was, behind its acknowledgement.
     pub(super) starts_in_order: bool,
-    /// Whether the identity is locked, and whether the corridor is open.
+    /// True if the identity is locked.
     pub(super) locked: bool,
+    /// True if the corridor is open.
     pub(super) open: bool,
-    /// Neither was said twice.
+    /// True if neither was said twice.
     pub(super) changes_lock_and_corridor: bool,
     /// For how long the corridor may be shown open, as it was told last.
     pub(super) shown: Option<Millis>,
@@ -99,19 +100,19 @@ impl Watch {
         self.len
     }
 
-    /// Whether there is none.
+    /// True if there is none.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.len == 0
     }
 
-    /// Whether one of this kind is among them.
+    /// True if one of this kind is among them.
     #[must_use]
     pub const fn has(&self, kind: OutputKind) -> bool {
         self.outputs & bit(kind as u8) != 0
     }
 
-    /// Whether the application is told of this.
+    /// True if the application is told of this.
     #[must_use]
     pub const fn tells(&self, kind: NoticeKind) -> bool {
         self.notices & bit(kind as u8) != 0
@@ -122,7 +123,7 @@ const fn bit(kind: u8) -> u32 {
     1 << kind
 }
 
-/// Whether the robot leads and has its corridor open.
+/// True if the robot leads and has its corridor open.
 pub(super) const fn is_open(robot: &Robot) -> bool {
     match robot.phase() {
         Phase::Leading(leading) => matches!(leading.corridor, Corridor::Open),

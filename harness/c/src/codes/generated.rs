@@ -46,7 +46,7 @@ pub enum CrossguardUrgency {
     Emergency = 3,
 }
 
-/// What a follower does with a running maneuver at every end but a completed crossing: contact lost, session aborted, left, or not listed any more.
+/// A follower's act with a running maneuver at every end but a completed crossing: contact lost, session aborted, left, or not listed any more.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
 pub enum CrossguardFallback {
@@ -208,7 +208,7 @@ pub enum CrossguardOutputKind {
     StopManeuver = 2,
     /// End this maneuver by the task's policy. The robot is on duty until the application says `RoadClear`. With `session`, `request`, `task`, `policy`.
     FallBack = 3,
-    /// The pedestrian may cross from now on, for this long. What shows it must end by itself then, without this robot's help. With `open_ms`.
+    /// The pedestrian may cross from now on, for this long. The sign must end by itself then, without this robot's help. With `open_ms`.
     CorridorOpened = 4,
     /// The pedestrian may go on crossing, for this long from now. With `open_ms`.
     CorridorExtended = 5,

@@ -58,8 +58,8 @@ class FallBack(Positional):
 
 @dataclass(frozen=True, slots=True)
 class CorridorOpened(Positional):
-    """The pedestrian may cross from now on, for this long. What shows it must end by itself then, without
-    this robot's help."""
+    """The pedestrian may cross from now on, for this long. The sign must end by itself then, without this
+    robot's help."""
 
     open_ms: int
 

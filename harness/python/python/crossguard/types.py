@@ -58,8 +58,8 @@ class Urgency(enum.Enum):
 
 
 class FallbackPolicy(enum.Enum):
-    """What a follower does with a running maneuver at every end but a completed crossing: contact lost,
-    session aborted, left, or not listed any more."""
+    """A follower's act with a running maneuver at every end but a completed crossing: contact lost, session
+    aborted, left, or not listed any more."""
 
     STOP_IN_PLACE = "stopInPlace"
     """Stop where it stands."""

@@ -21,7 +21,7 @@ pub enum Part {
 }
 
 impl Part {
-    /// Whether it is the part of `robot`.
+    /// True if it is the part of `robot`.
     #[must_use]
     pub fn is_of(self, exchange: &Exchange, robot: &Robot) -> bool {
         match self {
@@ -96,7 +96,7 @@ fn heartbeat_like(source: &mut impl Source, follower: StationId, robot: &Robot) 
     Heartbeat(source.u16(likely.map_or(HEARTBEAT, |heartbeat| heartbeat.0)))
 }
 
-/// What a state makes likely.
+/// Facts that a state makes likely.
 #[derive(Default)]
 struct Hints<'a> {
     is_open: bool,

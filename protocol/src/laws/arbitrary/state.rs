@@ -178,7 +178,7 @@ fn member(source: &mut impl Source, config: &Config, hint: u32, engaged: bool) -
     let settings = config.settings();
     let station: StationId = station(source, hint);
     let echoed = likely(source, engaged.then_some(true), echo);
-    // Who has not joined has no lease and no command.
+    // A follower that has not joined has no lease and no command.
     let unless_joined = echoed.is_none().then_some(false);
     let if_engaged = unless_joined.or(engaged.then_some(true));
     let unless_engaged = unless_joined.or(engaged.then_some(false));
@@ -194,7 +194,7 @@ fn member(source: &mut impl Source, config: &Config, hint: u32, engaged: bool) -
         repeats: s.u8(settings.n_ack.saturating_sub(1)),
         acknowledgement: countdown(s, settings.t_ack),
     });
-    // What is outstanding is newer.
+    // The outstanding command is newer.
     let accepted = REQUEST - u8::from(outstanding.is_some());
     Member {
         station,

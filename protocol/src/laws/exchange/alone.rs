@@ -1,4 +1,4 @@
-//! What two properties say of an exchange that is about one robot alone.
+//! Two properties of an exchange that are about one robot alone.
 
 use super::Exchange;
 use super::observer::leads;
@@ -40,7 +40,7 @@ fn record<'a>(exchange: &Exchange, robot: &'a Robot) -> Option<&'a Member> {
     }
 }
 
-/// I17: what another robot does, or does not, leaves the record of the follower as it is while the session goes on.
+/// I17: no act or silence of another robot changes the record of the follower while the session goes on.
 ///
 /// # Panics
 /// When it does not.

@@ -1,9 +1,9 @@
-//! What facts imply of each other, and who makes which known.
+//! Implications between facts, and who makes which known.
 
 use super::{Exchange, Heard, History};
 use crate::id::StationId;
 
-/// What facts imply of each other, for leader and follower alike. Each consequence is known before its cause becomes known,
+/// Implications between facts, for leader and follower alike. Each consequence is known before its cause becomes known,
 /// and stays known.
 #[must_use]
 pub fn are_consistent(exchange: &Exchange, history: &History) -> bool {
@@ -29,22 +29,22 @@ pub fn are_consistent(exchange: &Exchange, history: &History) -> bool {
     } = *history;
     (requested || (!ended && !dropped && !beaten && listed.is_none()))
         && (offered || listed != Some(exchange.offer))
-        // I2: who follows was listed.
+        // I2: a follower was listed.
         && (listed.is_some() || (!joined && commanded.is_none()))
-        // I10: what is heard was sent.
+        // I10: a heartbeat that is heard was sent.
         && ((joined && beaten) || heard.is_none())
         && (over || heard != Some(Heard::AfterTheEnd))
         && (joined || (!left && !accepted && !refused && !newer_started))
-        // I3: what is answered was commanded.
+        // I3: an answered request was commanded.
         && (commanded.is_some() || (!accepted && !refused))
         && !(accepted && refused)
-        // I6: what is accepted is started in the same step, and nothing else is.
+        // I6: an accepted request is started in the same step, and nothing else is.
         && started == accepted
         && (started || !over)
         && (over || !fell_back)
 }
 
-/// Whether all that is known before is known after, as it was.
+/// True if all that is known before is known after, as it was.
 #[must_use]
 pub fn only_grow(before: &History, after: &History) -> bool {
     the_leaders_only_grow(before, after) && the_followers_only_grow(before, after)
@@ -78,7 +78,7 @@ fn the_followers_only_grow(before: &History, after: &History) -> bool {
         && (!before.over || after.over)
 }
 
-/// Whether all facts are as they were that are not those of `station`.
+/// True if all facts are as they were that are not those of `station`.
 #[must_use]
 pub fn are_only_of(
     exchange: &Exchange,

@@ -6,7 +6,7 @@
 //!    counts on ([`a_corridor_rests_on_the_follower`]).
 //! 2. The lease ends `t_lease` after the heartbeat was sent at the latest, by the leader's clock: what is left of the
 //!    lease and the age of the heartbeat are no more than `t_lease` together ([`are_covered`]).
-//! 3. What it has heard gave the follower `T_safety` in full, and nothing but time shortens that
+//! 3. The heartbeat that it has heard gave the follower `T_safety` in full, and nothing but time shortens that
 //!    ([`are_kept`]).
 //!
 //! A heartbeat is heard after it was sent, so by [`lease`](super::super::lease) the follower's `T_safety` has not run out
@@ -22,7 +22,7 @@ use crate::laws::watch::is_open;
 use crate::state::{Contact, Lease, Member, Robot};
 use crate::time::Millis;
 
-/// Whether each lease that stands ends `t_lease` after the newest heartbeat that its follower has echoed, or earlier.
+/// True if each lease that stands ends `t_lease` after the newest heartbeat that its follower has echoed, or earlier.
 #[must_use]
 pub fn are_covered(config: &Config, robot: &Robot) -> bool {
     let Some(leading) = leading(robot) else {
@@ -40,7 +40,7 @@ pub fn are_covered(config: &Config, robot: &Robot) -> bool {
     leading.members.iter().all(is_covered)
 }
 
-/// What one step other than time does to leases and contact.
+/// The effect of one step other than time on leases and contact.
 ///
 /// # Panics
 /// When it breaks one of these laws.

@@ -1,5 +1,5 @@
-//! What a message implies of the history. Facts stay known, so it stays true, however late, often and in whatever order
-//! the message arrives.
+//! Implications of a message for the history. Facts stay known, so they stay true, however late, often and in whatever
+//! order the message arrives.
 //!
 //! A message of a robot that is neither leader nor follower of the exchange implies nothing of it; nor does a farewell: no
 //! property rests on what it says. Each `match` names all messages, so that a new one has to be given a meaning here.
@@ -11,7 +11,7 @@ use crate::message::{
     Answer, Command, Coordination, Farewell, Progress, Ram, Report, Rmcm, Verdict,
 };
 
-/// What a RAM implies.
+/// Implications of a RAM.
 #[must_use]
 pub fn ram_is_true(exchange: &Exchange, history: &History, ram: &Ram) -> bool {
     match ram.farewell {
@@ -65,7 +65,7 @@ pub fn ram_is_true(exchange: &Exchange, history: &History, ram: &Ram) -> bool {
     }
 }
 
-/// Whether the follower has heard the watched heartbeat, and before the end of the watched request, where nothing says that
+/// True if the follower has heard the watched heartbeat, and before the end of the watched request, where nothing says that
 /// this is over.
 pub(super) const fn was_heard(history: &History, is_over: bool) -> bool {
     match history.heard {
@@ -75,7 +75,7 @@ pub(super) const fn was_heard(history: &History, is_over: bool) -> bool {
     }
 }
 
-/// Whether a report says that the watched request is over.
+/// True if a report says that the watched request is over.
 fn says_over(exchange: &Exchange, last: Option<Report>) -> bool {
     last.is_some_and(|report| {
         let newer = exchange.position(report.request) > exchange.place();
@@ -83,7 +83,7 @@ fn says_over(exchange: &Exchange, last: Option<Report>) -> bool {
     })
 }
 
-/// What the progress of the watched request implies.
+/// Implications of the progress of the watched request.
 pub(super) const fn progress_is_true(history: &History, progress: Progress) -> bool {
     match progress {
         Progress::Executing => history.started,
@@ -94,7 +94,7 @@ pub(super) const fn progress_is_true(history: &History, progress: Progress) -> b
     }
 }
 
-/// Whether the heartbeat of the session that a RAM tells [is near](Exchange::is_near).
+/// True if the heartbeat of the session that a RAM tells [is near](Exchange::is_near).
 #[must_use]
 pub fn is_near(exchange: &Exchange, ram: &Ram) -> bool {
     let (session, heartbeat) = match ram.coordination {
@@ -110,7 +110,7 @@ pub fn is_near(exchange: &Exchange, ram: &Ram) -> bool {
     session != exchange.session || exchange.is_near(heartbeat)
 }
 
-/// What an RMCM implies.
+/// Implications of an RMCM.
 #[must_use]
 pub fn rmcm_is_true(exchange: &Exchange, history: &History, rmcm: Rmcm) -> bool {
     match rmcm {

@@ -16,12 +16,12 @@ use crate::state::{Phase, Robot};
 #[derive(Clone, Debug)]
 pub struct Observer {
     exchange: Exchange,
-    /// Who takes the step.
+    /// The robot that takes the step.
     station: StationId,
-    /// Whether it leads the session, or asks for help in it, before the step.
+    /// True if it leads the session, or asks for help in it, before the step.
     is_leader: bool,
     history: History,
-    /// Whether it sends its RAM.
+    /// True if it sends its RAM.
     sends_ram: bool,
 }
 
@@ -144,7 +144,7 @@ impl Observer {
         }
     }
 
-    /// What the leader tells its application of the follower.
+    /// News of the follower, as the leader tells its application.
     fn see_notice(&mut self, notice: &Notice) {
         let (exchange, history) = (&self.exchange, &mut self.history);
         let is_of = |station: StationId| station == exchange.follower;
@@ -224,7 +224,7 @@ impl Sink for Observer {
     }
 }
 
-/// What the part implies that the robot takes.
+/// Facts that the robot's part makes known.
 fn take_part(exchange: &Exchange, history: &mut History, robot: &Robot) {
     if exchange.is_led_by(robot.station) {
         let leads = leads(exchange, robot);
@@ -285,7 +285,7 @@ pub(super) fn newest_heartbeat(robot: &Robot) -> Option<Heartbeat> {
     }
 }
 
-/// Whether the robot leads the session, or asks for help in it.
+/// True if the robot leads the session, or asks for help in it.
 pub(super) fn leads(exchange: &Exchange, robot: &Robot) -> bool {
     let number = match &robot.phase {
         Phase::Requesting(requesting) => requesting.number,

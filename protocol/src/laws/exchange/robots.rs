@@ -1,4 +1,4 @@
-//! What the state of a robot and the history imply of each other.
+//! Implications between the state of a robot and the history.
 //!
 //! Each fact that is *not* known is used only where its owner is the robot itself, so that no step of another robot makes
 //! this untrue: [`steps::others_leave_it_so`](super::steps::others_leave_it_so).
@@ -13,14 +13,14 @@ use crate::state::{
     Following, Identity, Job, Leading, Member, Outstanding, Phase, Requesting, Robot,
 };
 
-/// Whether robot and history agree. A robot that is neither leader nor follower knows nothing of the exchange.
+/// True if robot and history agree. A robot that is neither leader nor follower knows nothing of the exchange.
 #[must_use]
 pub fn agrees(exchange: &Exchange, history: &History, robot: &Robot) -> bool {
     (!exchange.is_led_by(robot.station) || leader_agrees(exchange, history, robot))
         && (robot.station != exchange.follower || follower_agrees(exchange, history, robot))
 }
 
-/// Whether robot and history agree on heartbeats, where these [are near](Exchange::is_near).
+/// True if robot and history agree on heartbeats, where these [are near](Exchange::is_near).
 #[must_use]
 pub fn agrees_on_heartbeats(exchange: &Exchange, history: &History, robot: &Robot) -> bool {
     let is_follower = robot.station == exchange.follower;
@@ -48,7 +48,7 @@ pub fn agrees_on_heartbeats(exchange: &Exchange, history: &History, robot: &Robo
     }
 }
 
-/// Whether the leader counts the watched request as over.
+/// True if the leader counts the watched request as over.
 fn is_recorded_as_over(exchange: &Exchange, member: &Member) -> bool {
     member.order.is_some_and(|order| {
         let newer = exchange.position(order.request) > exchange.place();
@@ -57,7 +57,7 @@ fn is_recorded_as_over(exchange: &Exchange, member: &Member) -> bool {
     })
 }
 
-/// Whether all heartbeats that the robot knows of the session [are near](Exchange::is_near).
+/// True if all heartbeats that the robot knows of the session [are near](Exchange::is_near).
 #[must_use]
 pub fn are_near(exchange: &Exchange, robot: &Robot) -> bool {
     let is_near = |heartbeat| exchange.is_near(heartbeat);
@@ -129,7 +129,7 @@ fn member_agrees(exchange: &Exchange, history: &History, member: &Member) -> boo
         && member.outstanding.is_none_or(|outstanding| {
             outstanding.request != exchange.request || history.commanded == Some(outstanding.task)
         })
-        // I6, I8: what the leader counts as accepted or reached.
+        // I6, I8: requests that the leader counts as accepted or reached.
         && member.order.is_none_or(|order| {
             order.request != exchange.request
                 || (history.commanded == Some(order.task)
@@ -145,7 +145,7 @@ fn member_agrees(exchange: &Exchange, history: &History, member: &Member) -> boo
         })
 }
 
-/// Whether the leader waits for the answer to a request, or counts this or a newer one as accepted.
+/// True if the leader waits for the answer to a request, or counts this or a newer one as accepted.
 fn awaits_or_counts(exchange: &Exchange, member: &Member, request: RequestId) -> bool {
     let is_awaited = |outstanding: Outstanding| outstanding.request == request;
     let position = exchange.position(request);
@@ -155,7 +155,7 @@ fn awaits_or_counts(exchange: &Exchange, member: &Member, request: RequestId) ->
             .is_some_and(|order| position <= exchange.position(order.request))
 }
 
-/// What the theorem says of the exchange with the request that a RAM of the follower reports, which is another one than the
+/// The theorem about the exchange with the request that a RAM of the follower reports, which is another one than the
 /// watched: it was accepted, so it was commanded and not refused, and the leader waits for its answer or counts it.
 #[must_use]
 pub fn can_report(exchange: &Exchange, robot: &Robot, ram: &Ram) -> bool {
@@ -182,7 +182,7 @@ fn follower_agrees(exchange: &Exchange, history: &History, robot: &Robot) -> boo
         | Phase::Leading(_)
         | Phase::Following(_) => None,
     };
-    // I15: who has left never enters the session again, because the offer is never made again.
+    // I15: a robot that has left never enters the session again, because the offer is never made again.
     following.is_some() == (history.joined && !history.left)
         && (!history.joined
             || history
@@ -201,7 +201,7 @@ fn follower_agrees(exchange: &Exchange, history: &History, robot: &Robot) -> boo
         }
 }
 
-/// Whether the robot never gives out this number again: sessions and offers have theirs from one counter, and only the
+/// True if the robot never gives out this number again: sessions and offers have theirs from one counter, and only the
 /// number of an offer that stands is taken back.
 fn is_used_up(robot: &Robot, number: UniqueNumber) -> bool {
     let stands = matches!(&robot.phase, Phase::Offering(offering) if offering.number.0 == number);
@@ -216,7 +216,7 @@ fn following_agrees(exchange: &Exchange, history: &History, following: &Followin
     let is_behind = |newest: Option<u8>| newest.is_some_and(|it| exchange.place() <= it);
     job.is_none_or(|job| is_of_session(job.request))
         && following.refused.is_none_or(|it| is_of_session(it.request))
-        // I4, I5: what was answered is not answered anew.
+        // I4, I5: an answered request is not answered anew.
         && (!history.accepted || is_behind(accepted))
         && (!history.refused || is_behind(refused) || is_behind(accepted))
         && (!history.newer_started || accepted.is_some_and(|it| exchange.place() < it))

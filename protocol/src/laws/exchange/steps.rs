@@ -11,7 +11,7 @@ use crate::robot::Step;
 use crate::state::Robot;
 use crate::time::Millis;
 
-/// What holds between any two steps, of each robot.
+/// The invariant of each robot between any two steps.
 #[must_use]
 pub fn holds(exchange: &Exchange, history: &History, robot: &Robot) -> bool {
     facts::are_consistent(exchange, history)
@@ -19,7 +19,7 @@ pub fn holds(exchange: &Exchange, history: &History, robot: &Robot) -> bool {
         && robots::agrees_on_heartbeats(exchange, history, robot)
 }
 
-/// Whether this can be the next input of `robot`: what a message says is so, of a heartbeat that can be put in order, and a
+/// True if this can be the next input of `robot`: what a message says is so, of a heartbeat that can be put in order, and a
 /// new station id is that of nobody else, with numbers that it has not given out.
 #[must_use]
 pub fn can_be_next(exchange: &Exchange, history: &History, robot: &Robot, input: &Input) -> bool {
@@ -38,14 +38,14 @@ pub fn can_be_next(exchange: &Exchange, history: &History, robot: &Robot, input:
     }
 }
 
-/// Whether so little time passes at once that a leader's heartbeats, which it counts, can be put in order: less than a quarter
+/// True if so little time passes at once that a leader's heartbeats, which it counts, can be put in order: less than a quarter
 /// of their number space, 27 minutes with a RAM in 100 ms.
 #[must_use]
 pub fn can_pass(config: &Config, time: Millis) -> bool {
     time.0 / u32::from(HALF_SPACE / 2) < config.settings().ram_period.0
 }
 
-/// Whether a robot can start to be `station` and give out `next` next.
+/// True if a robot can start to be `station` and give out `next` next.
 #[must_use]
 pub fn can_be_taken(
     exchange: &Exchange,
@@ -74,7 +74,7 @@ pub enum Laws {
     Heartbeats,
 }
 
-/// One step of a robot keeps what holds, and breaks no property of the exchange. What it puts out is judged in any case.
+/// One step of a robot keeps what holds, and breaks no property of the exchange. Its outputs are judged in any case.
 ///
 /// # Panics
 /// When it does not.
@@ -155,7 +155,7 @@ fn judged(
     now
 }
 
-/// What a step may do.
+/// Limits of a step.
 ///
 /// # Panics
 /// When it did something else.
@@ -208,7 +208,7 @@ pub fn keeps_over_a_reboot(exchange: &Exchange, history: &History, before: &Robo
     judge(exchange, (history, before), (&now, &after));
 }
 
-/// What other robots do leaves this one as it is: of their facts more become known, and what holds still does.
+/// Steps of other robots leave this one as it is: of their facts more become known, and what holds still does.
 ///
 /// # Panics
 /// When it does not.
@@ -239,7 +239,7 @@ pub fn a_bystander_makes_nothing_known(
     assert!(robots::agrees_on_heartbeats(exchange, history, after));
 }
 
-/// What a message implies is still so when it arrives.
+/// The implications of a message still hold when it arrives.
 ///
 /// # Panics
 /// When it is not.
