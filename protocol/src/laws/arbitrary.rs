@@ -143,24 +143,11 @@ pub fn config(source: &mut impl Source) -> Option<Config> {
 }
 
 /// Something of each of the 16 types of task. To a proof, a loop over them would be to unwind every loop as often.
+#[rustfmt::skip]
 fn of_each_task<T>(mut of: impl FnMut(usize) -> T) -> [T; 16] {
     [
-        of(0),
-        of(1),
-        of(2),
-        of(3),
-        of(4),
-        of(5),
-        of(6),
-        of(7),
-        of(8),
-        of(9),
-        of(10),
-        of(11),
-        of(12),
-        of(13),
-        of(14),
-        of(15),
+        of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7),
+        of(8), of(9), of(10), of(11), of(12), of(13), of(14), of(15),
     ]
 }
 

@@ -5,11 +5,10 @@ use crate::id::RequestId;
 use crate::input::{Event, Input};
 use crate::message::{Command, Failure, Progress, Rejection, Rmcm, Verdict};
 use crate::output::{EndReason, OutputKind};
-use crate::state::{Corridor, Leading, Member, Robot};
+use crate::state::{Corridor, Member, Robot};
 use crate::task::Availability;
 
-use super::arithmetic::request_is_newer;
-use super::part::{executing, following, leading, requesting};
+use super::part::{each_follower, executing, following, is_newer_than_all, leading, requesting};
 use super::road::takes_up;
 use super::taken::Taken;
 
@@ -72,25 +71,14 @@ pub fn commands_are_given_where_they_may_be(config: &Config, step: &Taken) {
     }
 }
 
-fn outstanding_in(leading: &Leading, known: &Member) -> Option<RequestId> {
-    let member = leading.member(known.station)?;
-    member.outstanding.map(|outstanding| outstanding.request)
-}
-
 /// L2: no other command takes the place of one that is not answered yet.
 pub fn one_command_stands_at_a_time(step: &Taken) {
-    let (Some(before), Some(after)) = (leading(&step.before), leading(&step.after)) else {
-        return;
-    };
-    for known in before.members.iter() {
-        let (Some(stood), Some(stands)) = (
-            known.outstanding.map(|outstanding| outstanding.request),
-            outstanding_in(after, known),
-        ) else {
-            continue;
-        };
-        assert!(stood == stands);
-    }
+    each_follower(&step.after, &step.before, |member, known| {
+        let stood = known.and_then(|known| known.outstanding);
+        if let (Some(stood), Some(stands)) = (stood, member.outstanding) {
+            assert!(stood.request == stands.request);
+        }
+    });
 }
 
 /// A session that is renewed asks for the same again, at once.
@@ -126,24 +114,14 @@ pub fn each_command_is_answered(config: &Config, step: &Taken) {
     }
     let answered = step.said.answered;
     let refused = before.refused.filter(|r| r.request == command.request);
-    if let Some(refused) = refused {
-        assert!(answered == Some((command.request, Verdict::Rejected(refused.reason))));
+    let accepted = before.job.filter(|job| job.request == command.request);
+    let known = refused.map(|refused| Verdict::Rejected(refused.reason));
+    if let Some(verdict) = known.or(accepted.map(|_| Verdict::Accepted)) {
+        assert!(answered == Some((command.request, verdict)));
         assert!(step.after == step.before && step.said.len() == 1);
         return;
     }
-    if before.job.is_some_and(|job| job.request == command.request) {
-        assert!(answered == Some((command.request, Verdict::Accepted)));
-        assert!(step.after == step.before && step.said.len() == 1);
-        return;
-    }
-    let is_newer = |known: Option<RequestId>| {
-        known.is_none_or(|known| request_is_newer(command.request, known))
-    };
-    let (job, refused) = (
-        before.job.map(|job| job.request),
-        before.refused.map(|refused| refused.request),
-    );
-    if !is_newer(job) || !is_newer(refused) {
+    if !is_newer_than_all(command.request, before) {
         assert!(step.is_ignored());
         return;
     }

@@ -7,8 +7,8 @@ use crate::input::Input;
 use crate::message::{Coordination, Rmcm};
 use crate::state::{Contact, Following, Offering, Phase, Robot};
 
-use super::arithmetic::{beat_is_newer, request_is_newer};
-use super::part::following;
+use super::arithmetic::beat_is_newer;
+use super::part::{following, is_newer_than_all};
 use super::road::ending_told;
 use super::taken::{Taken, is_listed};
 
@@ -31,13 +31,9 @@ fn is_news(step: &Taken, before: &Following) -> bool {
             _ => false,
         },
         Input::Rmcm(Rmcm::Command(command)) => {
-            let is_newer = |answered| request_is_newer(command.request, answered);
             command.session == before.session
                 && command.to == step.before.station()
-                && before.job.is_none_or(|job| is_newer(job.request))
-                && before
-                    .refused
-                    .is_none_or(|refused| is_newer(refused.request))
+                && is_newer_than_all(command.request, before)
         }
         _ => false,
     }

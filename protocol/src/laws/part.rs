@@ -1,10 +1,12 @@
 //! The part that a robot has in a session, as the laws read it.
 
-use crate::id::{ManeuverId, SessionId, StationId, UniqueNumber};
+use crate::id::{ManeuverId, RequestId, SessionId, StationId, UniqueNumber};
 use crate::list::List;
 use crate::message::Progress;
 use crate::output::Maneuver;
 use crate::state::{Following, Leading, Member, Offer, Phase, Requesting, Robot};
+
+use super::arithmetic::request_is_newer;
 
 pub(super) fn following(robot: &Robot) -> Option<&Following> {
     match robot.phase() {
@@ -41,6 +43,13 @@ pub(super) fn executing(robot: &Robot) -> Option<Maneuver> {
     let job = following.job.filter(|job| runs(job.progress))?;
     let id = ManeuverId::of(following.session, job.request);
     Some(Maneuver { id, task: job.task })
+}
+
+/// True if a request is newer than all that the follower has answered.
+pub(super) fn is_newer_than_all(request: RequestId, following: &Following) -> bool {
+    let is_newer = |answered| request_is_newer(request, answered);
+    following.job.is_none_or(|job| is_newer(job.request))
+        && following.refused.is_none_or(|it| is_newer(it.request))
 }
 
 /// The session that a robot has a part in, and its own number for that part.

@@ -4,12 +4,12 @@
 //! of these laws calls the function of the protocol that it judges.
 
 use crate::config::Config;
-use crate::id::{Heartbeat, SessionId};
+use crate::id::SessionId;
 use crate::input::{Event, Input};
 use crate::message::{Coordination, Ending, Farewell, Progress};
 use crate::output::{EndReason, OutputKind, ReleaseReason, StopReason};
 use crate::state::{Corridor, Duty, Identity, Member, Rival, Robot, Role};
-use crate::task::{Availability, Place, TaskType, Unavailability, Urgency};
+use crate::task::{Availability, Place, TaskType, Unavailability};
 use crate::time::Millis;
 
 use super::arithmetic::{beat_is_newer, left_ms};
@@ -282,17 +282,8 @@ pub fn a_duty_lasts_until_the_road_is_clear(step: &Taken) {
     }
 }
 
-/// A request, or a leader that has not yielded, as the input tells of it.
-#[derive(Clone, Copy)]
-struct Claimant {
-    session: SessionId,
-    heartbeat: Heartbeat,
-    urgency: Urgency,
-    place: Place,
-    leads: bool,
-}
-
-fn claimant(input: &Input) -> Option<Claimant> {
+/// The request in the input, or the leader that has not yielded, that goes before `robot` at what may be the same place.
+fn claim_that_counts(robot: &Robot, input: &Input) -> Option<Rival> {
     let Input::Ram { ram, .. } = *input else {
         return None;
     };
@@ -312,19 +303,7 @@ fn claimant(input: &Input) -> Option<Claimant> {
         } => (number, heartbeat, urgency, place, true),
         _ => return None,
     };
-    Some(Claimant {
-        session: SessionId::of(ram.station, number),
-        heartbeat,
-        urgency,
-        place,
-        leads,
-    })
-}
-
-/// The claim in the input that goes before that of `robot` at what may be the same place.
-fn claim_that_counts(robot: &Robot, input: &Input) -> Option<Claimant> {
-    let heard = claimant(input)?;
-    if heard.session.leader == robot.station() {
+    if ram.station == robot.station() {
         return None;
     }
     let (own, asks) = match (requesting(robot), leading(robot)) {
@@ -332,17 +311,17 @@ fn claim_that_counts(robot: &Robot, input: &Input) -> Option<Claimant> {
         (_, Some(leading)) => (leading.request, false),
         _ => return None,
     };
-    let may_be_one =
-        heard.place == own.place || heard.place == Place::UNKNOWN || own.place == Place::UNKNOWN;
-    let goes_before = heard.urgency > own.urgency
-        || (heard.urgency == own.urgency && heard.session.leader < robot.station());
+    let may_be_one = place == own.place || place == Place::UNKNOWN || own.place == Place::UNKNOWN;
+    let goes_before =
+        urgency > own.urgency || (urgency == own.urgency && ram.station < robot.station());
     // A request does not move a leader, and a leader goes before every request.
     let counts = if asks {
-        heard.leads || goes_before
+        leads || goes_before
     } else {
-        heard.leads && goes_before
+        leads && goes_before
     };
-    (may_be_one && counts).then_some(heard)
+    let session = SessionId::of(ram.station, number);
+    (may_be_one && counts).then_some(Rival { session, heartbeat })
 }
 
 /// The rival that a requester or leader has noted.
@@ -391,7 +370,5 @@ pub fn the_first_rival_is_noted(step: &Taken) {
     let begins_to_lead = leading(&step.before).is_none() && leading(&step.after).is_some();
     let has_yielded = leading(&step.before).is_some_and(|before| before.yields_to.is_some());
     let heard = claim_that_counts(&step.before, &step.input).filter(|_| !has_yielded);
-    let heard = heard.map(|it| (it.session, it.heartbeat));
-    let first = |robot| noted(robot).map(|rival| (rival.session, rival.heartbeat));
-    assert!(begins_to_lead || first(&step.after) == first(&step.before).or(heard));
+    assert!(begins_to_lead || noted(&step.after) == noted(&step.before).or(heard));
 }

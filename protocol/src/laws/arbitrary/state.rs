@@ -58,7 +58,7 @@ pub fn robot(source: &mut impl Source, config: &Config, role: Role, peers: Peers
             _ => Identity::Expiring,
         },
         duty: likely(source, Some(false), duty),
-        ram: armed_or_off(source, settings.ram_period),
+        ram: armed_if(source, None, settings.ram_period),
         farewell: option(source, |s| StandingFarewell {
             farewell: farewell(s, ME),
             left: countdown(s, settings.t_farewell),
@@ -80,12 +80,7 @@ fn countdown(source: &mut impl Source, limit: Millis) -> Countdown {
     Countdown::from(Some(left).filter(|&left| left < u32::MAX))
 }
 
-/// Any countdown, often off.
-fn armed_or_off(source: &mut impl Source, limit: Millis) -> Countdown {
-    armed_if(source, None, limit)
-}
-
-/// Any countdown, off more often where the hint says so.
+/// Any countdown, often off, and more often where the hint says so.
 fn armed_if(source: &mut impl Source, hint: Option<bool>, limit: Millis) -> Countdown {
     let armed = countdown(source, limit);
     if source.likely(hint) {
@@ -106,7 +101,7 @@ fn phase(source: &mut impl Source, config: &Config, role: Role, peers: Peers) ->
             rival: option(source, rival),
             offers: list(source, peers, |s, i| offer(s, config, PEER + i)),
             help: countdown(source, settings.t_help),
-            selection: armed_or_off(source, settings.t_select),
+            selection: armed_if(source, None, settings.t_select),
         }),
         Role::Helper => Phase::Offering(Offering {
             session: session(source, PEER),
