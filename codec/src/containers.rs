@@ -1,6 +1,6 @@
 //! The containers of a RAM that hold the robot's state, from SI units and back.
 //!
-//! Encoding what was decoded gives the same containers again, so a state can be passed on without
+//! A state that was decoded encodes to containers that decode to it again, so it can be passed on without
 //! drifting.
 
 use crate::core::Uper;
@@ -70,13 +70,13 @@ pub(crate) fn basic_container(station_type: u8, position: &Position) -> BasicCon
 pub fn position_of(container: &BasicContainer) -> Position {
     let position = &container.reference_position;
     let ellipse = &position.position_confidence_ellipse;
-    let ellipse = (|| {
-        Some(ConfidenceEllipse {
-            semi_major: si::SEMI_AXIS.decode(ellipse.semi_major_axis_length.get())?,
-            semi_minor: si::SEMI_AXIS.decode(ellipse.semi_minor_axis_length.get())?,
-            orientation: si::angle_degrees(ellipse.semi_major_axis_orientation.get())?,
-        })
-    })();
+    let ellipse = ellipse_of(
+        [
+            ellipse.semi_major_axis_length.get(),
+            ellipse.semi_minor_axis_length.get(),
+        ],
+        ellipse.semi_major_axis_orientation.get(),
+    );
     let altitude = position.altitude;
     Position {
         latitude: si::LATITUDE.decode(position.latitude.get()),
@@ -85,6 +85,19 @@ pub fn position_of(container: &BasicContainer) -> Position {
         ellipse,
         altitude_confidence: si::ALTITUDE_CONFIDENCE.decode(altitude.altitude_confidence as usize),
     }
+}
+
+/// The ellipse of two half axes and the direction of the first, as numbers of the wire. Where one of the three is
+/// unavailable, the larger half axis counts in every direction.
+pub(crate) fn ellipse_of(half_axes: [u16; 2], orientation: u16) -> Option<ConfidenceEllipse> {
+    let [first, second] = half_axes.map(|length| si::SEMI_AXIS.decode(length));
+    let larger = first.into_iter().chain(second).reduce(f64::max)?;
+    let orientation = si::angle_degrees(orientation);
+    Some(ConfidenceEllipse {
+        semi_major: larger,
+        semi_minor: second.filter(|_| orientation.is_some()).unwrap_or(larger),
+        orientation: orientation.unwrap_or_default(),
+    })
 }
 
 fn angle_value(degrees: Option<f64>) -> Wgs84AngleValue {

@@ -50,7 +50,7 @@ pub(crate) fn offset(from: &Position, to: &Position) -> Option<(f64, f64)> {
     ))
 }
 
-/// The position this many metres east and north of another one; for distances of a street.
+/// The position this many metres east and north of another one, and as exact as that; for distances of a street.
 #[cfg(feature = "std")]
 pub(crate) fn moved(from: &Position, east: f64, north: f64) -> Position {
     let latitude = from.latitude.map(|south| {
@@ -66,6 +66,7 @@ pub(crate) fn moved(from: &Position, east: f64, north: f64) -> Position {
     Position {
         latitude: latitude.filter(on_earth),
         longitude: longitude.filter(on_earth),
+        ellipse: from.ellipse,
         ..Position::default()
     }
 }

@@ -1,4 +1,4 @@
-//! Who is on the road, as messages tell, in SI units.
+//! Road users that messages tell of, in SI units.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -10,7 +10,7 @@ use crate::named;
 use crate::state::{Position, RobotState, SignalsShown};
 
 named! {
-    /// What somebody on the road is.
+    /// Kinds of road users.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
     #[serde(rename_all = "camelCase")]
     pub enum Kind {
@@ -40,6 +40,13 @@ pub enum Identity {
         /// Its number for the object, or the cluster's id.
         number: u16,
     },
+    /// An object that a station perceives, and that no number tells from its others.
+    Unnumbered {
+        /// The station.
+        by: u32,
+        /// Its place among the objects of one report.
+        place: u16,
+    },
 }
 
 impl Display for Identity {
@@ -47,17 +54,18 @@ impl Display for Identity {
         match self {
             Self::Station(id) => write!(f, "station {id}"),
             Self::Object { by, number } => write!(f, "object {number} of station {by}"),
+            Self::Unnumbered { by, .. } => write!(f, "object of station {by}"),
         }
     }
 }
 
-/// Somebody on the road.
+/// A road user.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct RoadUser {
     /// Which one it is: a station by its id, or an object that a station perceives.
     pub identity: Identity,
-    /// What it is.
+    /// Its kind.
     pub kind: Kind,
     /// `TrafficParticipantType` of the common data dictionary, if it is told.
     pub station_type: Option<u8>,
@@ -69,7 +77,7 @@ pub struct RoadUser {
     pub heading: Option<f64>,
     /// How many it stands for: more than one, or 0 for an unknown number, of a VRU cluster's leader.
     pub cardinality: u8,
-    /// What it shows to people, if a RAM tells.
+    /// The signals that it shows to people, if a RAM tells.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub signals: Option<SignalsShown>,
     /// When that was so, as `TimestampIts`.
@@ -77,7 +85,7 @@ pub struct RoadUser {
 }
 
 impl RoadUser {
-    /// Who is on the road by a RAM: the robot that sent it, which is in this state, and the people around it
+    /// Road users that a RAM tells of: the robot that sent it, which is in this state, and the people around it
     /// that it announces, at the middle of their bounding shape.
     pub fn of_robot(
         station: u32,

@@ -1,4 +1,4 @@
-//! What a robot says of itself in its RAM, in SI units.
+//! State of a robot, as its RAM says it, in SI units.
 //!
 //! Plain values for the application, and the enumerations of the messages. [`ram_from`](crate::ram_from)
 //! and [`state_of`](crate::state_of) convert quantities by the tables of [`si`](crate::si).
@@ -27,7 +27,7 @@ pub struct RobotState {
     pub heading: Option<Measurement>,
     /// Speed over ground in m/s, not negative.
     pub speed: Option<Measurement>,
-    /// Whether it moves forward or backward.
+    /// Its direction along its body: forward or backward.
     pub drive_direction: DriveDirection,
     /// In m/s², speeding up positive.
     pub longitudinal_acceleration: Option<Measurement>,
@@ -52,9 +52,9 @@ pub struct RobotState {
     pub task_progression: TaskProgression,
     /// Its battery's charge, and whether it is being charged.
     pub battery: Battery,
-    /// Who or what steers it: nobody in an emergency stop or with a fault.
+    /// The control over it: none in an emergency stop or with a fault.
     pub control_mode: ControlMode,
-    /// What changes slowly; absent from a RAM without low-frequency container.
+    /// Slow part of its state; absent from a RAM without low-frequency container.
     pub slow: Option<SlowState>,
 }
 
@@ -120,7 +120,17 @@ pub struct Position {
     pub altitude_confidence: Option<f64>,
 }
 
+/// Error of a position that does not tell its confidence, in metres.
+pub(crate) const UNKNOWN_ERROR_M: f64 = 1.0;
+
 impl Position {
+    /// How far the place may be from this position, in any direction, in metres: infinite where that is out of range.
+    #[must_use]
+    pub fn error_m(&self) -> f64 {
+        self.ellipse
+            .map_or(UNKNOWN_ERROR_M, |ellipse| ellipse.semi_major)
+    }
+
     /// A horizontal position of unknown confidence, in degrees.
     #[must_use]
     pub fn at(latitude: f64, longitude: f64) -> Self {
@@ -162,15 +172,15 @@ pub struct Dimensions {
 pub struct Battery {
     /// Percent of the usable capacity, 0..100.
     pub state_of_charge: Option<f64>,
-    /// Whether it is being charged.
+    /// True if it is being charged.
     pub charging: bool,
 }
 
-/// What changes slowly.
+/// Slow part of the state of a robot.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct SlowState {
-    /// What the robot can do besides maneuvers.
+    /// Its abilities besides maneuvers.
     pub capabilities: Capabilities,
     /// The maneuvers that it can do at all.
     pub supported_tasks: TaskSet,
@@ -180,7 +190,7 @@ pub struct SlowState {
     pub path: Vec<PastPosition>,
     /// Lights that are on; `None` for a robot without lights.
     pub lights: Option<Lights>,
-    /// What it shows to people; `None` for a robot that cannot show anything.
+    /// The signals that it shows to people; `None` for a robot that cannot show anything.
     pub signals: Option<SignalsShown>,
     /// The road segment or intersection that it is there for; `None` where that is not known.
     pub area: Option<MapPlace>,
@@ -201,7 +211,7 @@ pub struct PastPosition {
     pub duration: Option<f64>,
 }
 
-/// What a robot shows to people.
+/// Signals that a robot shows to people.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct SignalsShown {
@@ -214,7 +224,7 @@ pub struct SignalsShown {
 }
 
 impl SignalsShown {
-    /// Whether anything is shown to anybody.
+    /// True if anything is shown to anybody.
     #[must_use]
     pub const fn is_anything(&self) -> bool {
         !matches!(
@@ -254,7 +264,7 @@ impl fmt::Display for PublicSignal {
 }
 
 bit_set! {
-    /// What a robot can do besides maneuvers.
+    /// Abilities of a robot besides maneuvers.
     Capabilities {
         /// Detects pedestrians who need help.
         PEDESTRIAN_DETECTION = 0,

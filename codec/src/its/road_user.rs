@@ -1,15 +1,15 @@
-//! Who is on the road, as messages of other stations tell, in SI units.
+//! Road users that messages of other stations tell of, in SI units.
 
 use super::{CPM, CpmContainer, ItsMessage};
 use crate::asn1::cam::{CAM, HighFrequencyContainer};
 use crate::asn1::cdd::{BasicContainer, Shape, Speed, Wgs84AngleValue};
 use crate::asn1::cdd211::ObjectClass211;
-use crate::asn1::cpm::{CartesianCoordinateWithConfidence, ObjectClass, Velocity3dWithConfidence};
+use crate::asn1::cpm::{CartesianPosition3dWithConfidence, ObjectClass, Velocity3dWithConfidence};
 use crate::containers;
 use crate::distance::moved;
 use crate::road_user::{Identity, Kind, RoadUser, identity_of, middle_of};
 use crate::si;
-use crate::state::Position;
+use crate::state::{ConfidenceEllipse, Position, UNKNOWN_ERROR_M};
 
 /// The last station type of a vulnerable road user that walks or rides, and those further up.
 const fn kind_of(station_type: u8) -> Kind {
@@ -22,16 +22,9 @@ const fn kind_of(station_type: u8) -> Kind {
 }
 
 fn position_of(container: &BasicContainer) -> Position {
-    let position = &container.reference_position;
-    // The core's form of it has the rules of SI units.
-    match crate::core::cdd::BasicContainer::try_from(container) {
-        Ok(container) => containers::position_of(&container),
-        Err(_) => Position {
-            latitude: si::LATITUDE.decode(position.latitude.0),
-            longitude: si::longitude_degrees(position.longitude.0),
-            ..Position::default()
-        },
-    }
+    // The core's form of it has the rules of SI units. There is none of numbers that no message has.
+    let container = crate::core::cdd::BasicContainer::try_from(container);
+    container.map_or_else(|_| Position::default(), |it| containers::position_of(&it))
 }
 
 fn speed_of(speed: &Speed) -> Option<f64> {
@@ -74,9 +67,9 @@ macro_rules! of_vam {
 }
 
 impl ItsMessage {
-    /// Who is on the road, as this message tells that is received at `now`, a `TimestampIts`: its
-    /// sender, unless it is a CPM or an RMCM, the people that a RAM announces, and what a CPM
-    /// perceives, at most 255 objects. Nobody by a VAM that breaks a cluster up.
+    /// Road users that this message tells of, received at `now`, a `TimestampIts`: its sender, unless it is a
+    /// CPM or an RMCM, the people that a RAM announces, and the objects that a CPM perceives. A VAM that breaks a
+    /// cluster up tells of nobody.
     #[must_use]
     pub fn road_users(&self, now: u64) -> Vec<RoadUser> {
         match self {
@@ -159,25 +152,14 @@ macro_rules! most_probable {
 macro_rules! objects {
     ($container:expr, $class:ident, $frame:expr) => {
         for object in &$container.perceived_objects.0 {
-            // Without a number it cannot be recognised.
-            let Some(number) = &object.object_id else {
-                continue;
-            };
             let (kind, station_type, cardinality) = most_probable!(object.classification, $class);
             let (speed, heading) = velocity(object.velocity.as_ref());
             let measured = i64::from(object.measurement_delta_time.0);
             $frame.users.push(RoadUser {
-                identity: Identity::Object {
-                    by: $frame.by,
-                    number: number.0,
-                },
+                identity: $frame.identity(object.object_id.as_ref().map(|id| id.0)),
                 kind,
                 station_type,
-                position: moved(
-                    &$frame.origin,
-                    metres(&object.position.x_coordinate),
-                    metres(&object.position.y_coordinate),
-                ),
+                position: $frame.position(&object.position),
                 speed,
                 heading,
                 cardinality,
@@ -188,22 +170,70 @@ macro_rules! objects {
     };
 }
 
-/// What objects are relative to.
+/// The origin of objects, and the objects so far.
 struct Frame {
     by: u32,
+    /// The place of the first object among those of a report that comes in several messages.
+    first: u16,
     origin: Position,
     time: u64,
     users: Vec<RoadUser>,
 }
 
+/// How many objects each of the 1 to 8 messages of a report has place for: eight containers of 255 at least.
+const PLACES: u16 = 1 << 13;
+
+impl Frame {
+    /// The identity of the next object. A number that the message has already stands for two objects, as no number does.
+    fn identity(&self, number: Option<u16>) -> Identity {
+        let by = self.by;
+        let numbered = number.map(|number| Identity::Object { by, number });
+        let is_new = |identity: &Identity| self.users.iter().all(|it| it.identity != *identity);
+        numbered.filter(is_new).unwrap_or_else(|| {
+            let place = u16::try_from(self.users.len()).unwrap_or(u16::MAX);
+            let place = self.first + place.min(PLACES - 1);
+            Identity::Unnumbered { by, place }
+        })
+    }
+
+    /// The position of an object: the errors of the origin and of both coordinates add up, in every direction.
+    fn position(&self, coordinates: &CartesianPosition3dWithConfidence) -> Position {
+        let axes = [&coordinates.x_coordinate, &coordinates.y_coordinate];
+        let [east, north] = axes.map(|axis| f64::from(axis.value.0) / 100.0);
+        let [x, y] = axes.map(|axis| {
+            let error = si::COORDINATE_CONFIDENCE.decode(axis.confidence.0);
+            error.unwrap_or(UNKNOWN_ERROR_M)
+        });
+        let error_m = self.origin.error_m() + x.hypot(y);
+        Position {
+            ellipse: Some(ConfidenceEllipse {
+                semi_major: error_m,
+                semi_minor: error_m,
+                orientation: 0.0,
+            }),
+            ..moved(&self.origin, east, north)
+        }
+    }
+}
+
 fn of_cpm(cpm: &CPM) -> Vec<RoadUser> {
     let management = &cpm.management_container;
     let position = &management.reference_position;
+    let ellipse = &position.position_confidence_ellipse;
+    let segment = management.segmentation_info.as_ref();
     let mut frame = Frame {
         by: cpm.header.station_id.0,
+        first: segment.map_or(0, |it| u16::from(it.this_msg_no.0 % 8) * PLACES),
         origin: Position {
             latitude: si::LATITUDE.decode(position.latitude.0),
             longitude: si::longitude_degrees(position.longitude.0),
+            ellipse: containers::ellipse_of(
+                [
+                    ellipse.semi_major_confidence.0,
+                    ellipse.semi_minor_confidence.0,
+                ],
+                ellipse.semi_major_orientation.0,
+            ),
             ..Position::default()
         },
         time: management.reference_time.0,
@@ -221,10 +251,6 @@ fn of_cpm(cpm: &CPM) -> Vec<RoadUser> {
         }
     }
     frame.users
-}
-
-fn metres(coordinate: &CartesianCoordinateWithConfidence) -> f64 {
-    f64::from(coordinate.value.0) / 100.0
 }
 
 /// Speed in m/s, and its direction clockwise from north.

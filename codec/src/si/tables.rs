@@ -68,6 +68,14 @@ pub const SEMI_AXIS: Confidence<u16> = Confidence {
     unavailable: 4_095,
 };
 
+/// `CoordinateConfidence`: metres. 0.01 m; 4095 above 40.94 m, 4096 unavailable.
+pub const COORDINATE_CONFIDENCE: Confidence<u16> = Confidence {
+    steps_per_unit: 100.0,
+    max: 4_094,
+    out_of_range: 4_095,
+    unavailable: 4_096,
+};
+
 /// `SpeedConfidence`: m/s. 0.01 m/s; 126 above 1.25 m/s, 127 unavailable.
 pub const SPEED_CONFIDENCE: Confidence<u8> = Confidence {
     steps_per_unit: 100.0,

@@ -3,7 +3,15 @@
 
 use crate::support::{its_vectors, on};
 use crossguard_codec::asn1::cam::{CAM, CauseCodeV2, SpecialVehicleContainer};
-use crossguard_codec::its::ItsMessage;
+use crossguard_codec::asn1::cdd::{
+    HeadingValue, Identifier2B, PosConfidenceEllipse, PositionConfidenceEllipse, SemiAxisLength,
+    Wgs84AngleValue,
+};
+use crossguard_codec::asn1::cpm::{
+    CardinalNumber3b, CoordinateConfidence, ManagementContainer, MessageSegmentationInfo,
+    OrdinalNumber3b, PerceivedObject,
+};
+use crossguard_codec::its::{CpmContainer, ItsMessage};
 use crossguard_codec::{Dictionary, Identifiers, Identity, Kind, distance};
 use crossguard_protocol::Decimetres;
 use serde_json::{Value, json};
@@ -120,6 +128,7 @@ fn road_users_are_where_their_messages_say() {
     assert_eq!((car.identity, car.kind), (station, Kind::Vehicle));
     assert_eq!((car.speed, car.heading), (Some(13.89), Some(90.0)));
     assert_eq!(car.position.latitude, Some(48.765_432_1));
+    assert_eq!(error_cm(&message("C1")), Some(100.0));
     for (name, cardinality) in [("V1", 1), ("V3", 5), ("W1", 1), ("W6", 5)] {
         let user = user(name);
         assert_eq!((user.kind, user.cardinality), (Kind::Vru, cardinality));
@@ -145,6 +154,124 @@ fn road_users_are_where_their_messages_say() {
     assert_eq!(object.heading.map(f64::round), Some(153.0));
     let speed_cmps = object.speed.map(|speed| (speed * 100.0).round());
     assert_eq!(speed_cmps, Some(224.0));
+}
+
+/// P2 with other objects, and changed otherwise.
+fn cpm(change: impl FnOnce(&mut ManagementContainer, &mut Vec<PerceivedObject>)) -> ItsMessage {
+    let ItsMessage::Cpm(mut cpm) = message("P2") else {
+        panic!("not a CPM")
+    };
+    let objects = cpm.cpm_containers.iter_mut().find_map(|it| match it {
+        CpmContainer::PerceivedObjectContainer(it) => Some(&mut it.perceived_objects.0),
+        _ => None,
+    });
+    change(&mut cpm.management_container, objects.unwrap());
+    let identifiers = on(Dictionary::V2_4_1);
+    let octets = crossguard_codec::encode(&identifiers, &*cpm).unwrap();
+    ItsMessage::decode(&identifiers, &octets).unwrap().message
+}
+
+/// How far off the first road user may be.
+fn error_cm(message: &ItsMessage) -> Option<f64> {
+    let users = message.road_users(694_694_401_000);
+    let first = users.first()?;
+    Some((first.position.error_m() * 100.0).round())
+}
+
+/// Hazard: a camera reports people without numbers, and they are nobody; or two of one number are one.
+#[test]
+fn objects_that_no_number_tells_apart_are_as_many_as_there_are() {
+    let identities = |ids: &[Option<u16>], number_of_message| -> Vec<Identity> {
+        let message = cpm(|management, objects| {
+            let info = MessageSegmentationInfo::new(CardinalNumber3b(8), number_of_message);
+            management.segmentation_info = Some(info);
+            let object = objects[0].clone();
+            *objects = ids.iter().map(|_| object.clone()).collect();
+            for (object, id) in objects.iter_mut().zip(ids) {
+                object.object_id = id.map(Identifier2B);
+            }
+        });
+        let users = message.road_users(694_694_401_000);
+        users.iter().map(|user| user.identity).collect()
+    };
+    let ids = [None, Some(5), None, Some(5), Some(6)];
+    let all: Vec<Identity> = (1..=8)
+        .flat_map(|number| identities(&ids, OrdinalNumber3b(number)))
+        .collect();
+    assert_eq!(all.len(), 8 * ids.len());
+    let mut different = all.clone();
+    different.sort();
+    different.dedup();
+    // The messages of one report have the numbers of their objects in common.
+    assert_eq!(different.len(), 8 * 3 + 2, "{all:?}");
+    assert_eq!(all[..5], identities(&ids, OrdinalNumber3b(1)));
+}
+
+/// Hazard: a place that is known to 40 m counts as known to 1 m.
+#[test]
+fn an_object_is_as_far_off_as_its_report_and_its_origin_may_be() {
+    const UNAVAILABLE: u16 = 4_095;
+    for (half_axes, angle, coordinates, expected) in [
+        ([300, 100], 900, [300, 400], 800.0),
+        ([300, 100], 3_601, [300, 400], 800.0),
+        ([UNAVAILABLE, 300], 900, [300, 400], 800.0),
+        ([4_094, 100], 900, [300, 400], f64::INFINITY),
+        ([300, 100], 900, [1, 4_095], f64::INFINITY),
+        // Nothing that is not said is better than 1 m.
+        ([UNAVAILABLE; 2], 3_601, [300, 400], 600.0),
+        ([300, 100], 900, [4_096; 2], 441.0),
+        ([UNAVAILABLE; 2], 3_601, [4_096; 2], 241.0),
+    ] {
+        let message = cpm(|management, objects| {
+            let [major, minor] = half_axes.map(SemiAxisLength);
+            management.reference_position.position_confidence_ellipse =
+                PosConfidenceEllipse::new(major, minor, HeadingValue(angle));
+            let position = &mut objects[0].position;
+            let [x, y] = coordinates.map(CoordinateConfidence);
+            (
+                position.x_coordinate.confidence,
+                position.y_coordinate.confidence,
+            ) = (x, y);
+        });
+        let what = format!("{half_axes:?} {angle} {coordinates:?}");
+        assert_eq!(error_cm(&message), Some(expected), "{what}");
+    }
+}
+
+/// Hazard: a guard that is known to 40 m counts as known to 1 m, for nobody knows in which direction.
+#[test]
+fn the_larger_half_axis_counts_where_no_direction_is_said() {
+    for (half_axes, angle, expected) in [
+        ([4_000, 100], 900, 4_000.0),
+        ([4_000, 100], 3_601, 4_000.0),
+        ([4_000, 4_095], 900, 4_000.0),
+        ([4_095, 4_000], 900, 4_000.0),
+        ([100, 4_000], 900, 4_000.0),
+        ([4_094, 100], 3_601, f64::INFINITY),
+        ([4_095, 4_095], 900, 100.0),
+    ] {
+        let ItsMessage::Cam(mut cam) = message("C1") else {
+            panic!("not a CAM")
+        };
+        let container = &mut cam.cam.cam_parameters.basic_container;
+        let [major, minor] = half_axes.map(SemiAxisLength);
+        container.reference_position.position_confidence_ellipse =
+            PositionConfidenceEllipse::new(major, minor, Wgs84AngleValue(angle));
+        let what = format!("{half_axes:?} {angle}");
+        assert_eq!(error_cm(&ItsMessage::Cam(cam)), Some(expected), "{what}");
+    }
+}
+
+/// Hazard: the people of a cluster whose head is known to 40 m count as known to 1 m.
+#[test]
+fn a_cluster_is_as_exact_as_its_head() {
+    let ItsMessage::Vam(mut vam) = message("V8") else {
+        panic!("not a VAM")
+    };
+    let container = &mut vam.vam.vam_parameters.basic_container;
+    let ellipse = &mut container.reference_position.position_confidence_ellipse;
+    ellipse.semi_major_axis_length = SemiAxisLength(4_000);
+    assert_eq!(error_cm(&ItsMessage::Vam(vam)), Some(4_000.0));
 }
 
 #[test]

@@ -203,7 +203,7 @@ impl Sniffer {
 fn cluster(user: &RoadUser) -> String {
     let id = match user.identity {
         Identity::Object { number, .. } => format!("cluster {number}"),
-        Identity::Station(_) => "cluster".to_owned(),
+        _ => "cluster".to_owned(),
     };
     format!("{id} of {} at {}", user.cardinality, place(user))
 }

@@ -184,6 +184,19 @@ mod tests {
     }
 
     #[test]
+    fn objects_without_numbers_are_as_many_as_a_report_has() {
+        let mut map = LocalDynamicMap::default();
+        for measured_its in [1_000, 1_100] {
+            for place in [0, 1] {
+                let identity = Identity::Unnumbered { by: 7, place };
+                map.observe(user(identity, Kind::Vru, measured_its), measured_its);
+            }
+        }
+        assert_eq!(map.of_kind(Kind::Vru).count(), 2);
+        assert!(map.iter().all(|known| known.heard_ms == 1_100));
+    }
+
+    #[test]
     fn a_station_is_one_thing_at_a_time() {
         let mut map = LocalDynamicMap::default();
         map.observe(station(1, Kind::Vru), 0);

@@ -24,9 +24,6 @@ use crate::zone::{class, metres_per_second, place, point, sighting, velocity};
 /// Shortest time between two sights in which as many people are on the road, in seconds of the robot's own time.
 const SIGHT_PERIOD_S: f64 = 0.2;
 
-/// Error of a position of which nobody says how right it is, in centimetres.
-const UNKNOWN_ERROR_CM: u16 = 100;
-
 /// How fast a vehicle is taken to be that does not say it, in m/s: the limit in towns, 50 km/h.
 const UNKNOWN_MPS: f64 = 13.9;
 
@@ -301,7 +298,7 @@ impl Application {
         // A CAM says where the front is, a CPM where the middle of the bounding box (`PerceivedObject`, TS 102 894-2).
         let to_front_cm = match user.identity {
             Identity::Station(_) => 0,
-            Identity::Object { .. } => self.setup.traffic.length_cm / 2,
+            _ => self.setup.traffic.length_cm / 2,
         };
         let vehicle = Vehicle {
             key: match user.identity {
@@ -309,10 +306,13 @@ impl Application {
                 Identity::Object { by, number } => {
                     1 << 62 | u64::from(by) << 16 | u64::from(number)
                 }
+                Identity::Unnumbered { by, place } => {
+                    1 << 61 | u64::from(by) << 16 | u64::from(place)
+                }
             },
             station: match user.identity {
                 Identity::Station(id) => Some(StationId(id)),
-                Identity::Object { .. } => None,
+                _ => None,
             },
             at,
             error_cm: seen.error_cm.saturating_add(to_front_cm),
@@ -336,7 +336,8 @@ impl Application {
             return;
         };
         let seen = heard(known, at, RoadUser::Pedestrian, None);
-        let (Identity::Station(by) | Identity::Object { by, .. }) = known.user.identity;
+        let (Identity::Station(by) | Identity::Object { by, .. } | Identity::Unnumbered { by, .. }) =
+            known.user.identity;
         self.step(Input::Heard(StationId(by), seen, Millis::ZERO));
     }
 
@@ -422,9 +423,7 @@ fn heard(known: &Neighbour, at: Point, what: RoadUser, velocity: Option<Way>) ->
     reason = "casts of numbers saturate"
 )]
 fn error_cm(position: &Position) -> u16 {
-    position.ellipse.map_or(UNKNOWN_ERROR_CM, |ellipse| {
-        (ellipse.semi_major * 100.0).ceil() as u16
-    })
+    (position.error_m() * 100.0).ceil() as u16
 }
 
 /// How long before this moment somebody was measured, as their message says.
@@ -443,5 +442,6 @@ fn key(identity: Identity) -> u32 {
     match identity {
         Identity::Station(id) => id,
         Identity::Object { by, number } => by.rotate_left(16) ^ u32::from(number) ^ 1 << 31,
+        Identity::Unnumbered { by, place } => by.rotate_left(16) ^ u32::from(place) ^ 1 << 30,
     }
 }

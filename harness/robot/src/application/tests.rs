@@ -349,6 +349,45 @@ fn what_a_vehicle_does_not_say_makes_nothing_safer() {
     }
 }
 
+/// Hazard: a camera reports people and vehicles without numbers, and one stands for all of them, or hides one with a number.
+#[test]
+fn road_users_without_numbers_are_as_many_as_are_reported() {
+    let by = 9;
+    let comes = Identity::Unnumbered { by, place: 0 };
+    let others = [
+        Identity::Unnumbered { by, place: 1 },
+        Identity::Object { by, number: 0 },
+        Identity::Station(by),
+    ];
+    let mut application = watching();
+    let car = RoadUser {
+        identity: comes,
+        ..vehicle(-30.0, (13.9, 90.0))
+    };
+    hears_of(&mut application, car, 10_000);
+    for identity in others {
+        let stands = RoadUser {
+            identity,
+            ..vehicle(-40.0, (0.0, 90.0))
+        };
+        hears_of(&mut application, stands, 10_000);
+    }
+    let hindered = application.crossing.hindered(&application.setup);
+    assert!(hindered.is_some());
+    let mut application = watching();
+    for (place, north) in [(0, 2.0), (1, 5.0)] {
+        let person = RoadUser {
+            identity: Identity::Unnumbered { by, place },
+            kind: Kind::Vru,
+            position: Site::default().position(Place::new(0.0, north)),
+            ..vehicle(0.0, (0.0, 0.0))
+        };
+        hears_of(&mut application, person, 10_000);
+    }
+    let on_road = application.crossing.tracks().iter();
+    assert_eq!(on_road.filter(|it| it.is_on_road()).count(), 2);
+}
+
 /// Hazard: a guard whose position is not known passes for one that is at its place.
 #[test]
 fn a_position_that_is_not_known_is_no_pose() {
