@@ -1,13 +1,9 @@
 //! Packets in Ethernet frames (TS 102 636-4-2): for raw sockets, and for files that Wireshark reads.
 
-use super::PACKET_LEN_MAX;
-
 /// The ethertype of `GeoNetworking`.
 pub const ETHERTYPE: u16 = 0x8947;
 /// Octets in front of the packet: destination, source, ethertype.
 pub const HEADER_LEN: usize = 14;
-/// The longest frame, in octets.
-pub const FRAME_LEN_MAX: usize = HEADER_LEN + PACKET_LEN_MAX;
 
 /// The header of a frame to everybody.
 #[must_use]

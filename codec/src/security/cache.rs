@@ -57,12 +57,8 @@ impl Cache {
         self.tickets.get(&id).map(|known| &known.ticket)
     }
 
-    pub(super) fn len(&self) -> usize {
-        self.tickets.len()
-    }
-
-    /// Whether a message may have been heard already, or there is no place for its ticket: nobody who is heard is
-    /// forgotten for somebody new.
+    /// Checks that a message was not heard already, and that there is a place for its ticket: no station that is heard
+    /// is forgotten for a new one.
     pub(super) fn check(
         &self,
         id: HashedId8,
@@ -121,7 +117,7 @@ impl Cache {
         known.heard.push_back((generated, short(digest)));
     }
 
-    /// Whether everybody who is remembered was heard lately, at a time that has just been.
+    /// True if everybody who is remembered was heard lately, at a time that has just been.
     fn is_full_at(&self, now: Time64) -> bool {
         let is_heard = |known: &Known| now.0.saturating_sub(known.newest().0) < SILENCE_US;
         self.tickets.len() == TICKETS_MAX && self.tickets.values().all(is_heard)

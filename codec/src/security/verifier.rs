@@ -1,4 +1,4 @@
-//! Whether a secured message can be relied on.
+//! Verification of secured messages.
 //!
 //! Checks that cost little come first, signatures last; nothing is remembered of a message that fails one, but that its
 //! signature was wrong. Time and place are inputs.
@@ -32,7 +32,7 @@ const MISSING_MAX: usize = 16;
 /// How many tickets are remembered that an authority has signed and whose holder has said nothing yet.
 const VOUCHED_MAX: usize = 64;
 
-/// What is taken of others.
+/// Limits for messages of others.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Tolerances {
     /// How long ago a message may have been generated; 2 s by default.
@@ -57,7 +57,7 @@ impl Default for Tolerances {
     }
 }
 
-/// What a packet says of itself in headers that its envelope covers.
+/// Parts of the headers of a packet that its envelope covers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Origin {
     /// Where its source is; `None` if that does not know.
@@ -99,9 +99,9 @@ pub struct Verified {
     pub signer: HashedId8,
     /// Under what the signer goes: [`Certificate::holder`].
     pub holder: HashedId8,
-    /// What the ticket permits within the service.
+    /// Permissions of the ticket within the service.
     pub ssp: Ssp,
-    /// Whether the ticket was heard of for the first time.
+    /// True if the ticket was heard of for the first time.
     pub is_new: bool,
 }
 
@@ -143,7 +143,7 @@ impl Verifier {
         &self.trust
     }
 
-    /// What it takes of others.
+    /// Its limits for messages of others.
     #[must_use]
     pub const fn tolerances(&self) -> &Tolerances {
         &self.tolerances
@@ -152,12 +152,6 @@ impl Verifier {
     /// Trusts none of these certificates from now on; see [`TrustStore::set_revoked`].
     pub fn set_revoked(&mut self, revoked: BTreeSet<HashedId8>) {
         self.trust.set_revoked(revoked);
-    }
-
-    /// How many tickets of others it remembers.
-    #[must_use]
-    pub fn known_tickets(&self) -> usize {
-        self.cache.len()
     }
 
     /// How many signatures of messages and certificates it has checked: nearly all that it costs.
@@ -171,7 +165,8 @@ impl Verifier {
         std::mem::take(&mut self.wanted)
     }
 
-    /// Whether the headers of a packet, which the envelope covers, fit to the envelope and to a receiver that is `here`.
+    /// Checks that the headers of a packet, which the envelope covers, fit to the envelope and to a receiver that is
+    /// `here`.
     ///
     /// # Errors
     /// The first reason why not.
@@ -212,8 +207,8 @@ impl Verifier {
         }
     }
 
-    /// Whether a message can be relied on, that is heard at `now`. `place` is where the sender says
-    /// it is, in what it signed.
+    /// Verifies a message that is heard at `now`. `place` is the position of its sender, which the
+    /// sender signed.
     ///
     /// # Errors
     /// The first reason why not.
@@ -327,7 +322,8 @@ impl Verifier {
             .ok_or(Rejected::NotPermitted(its_aid))
     }
 
-    /// Whether the authority of a new ticket has signed it; that ticket, whose point need not be computed again.
+    /// Checks that the authority of a new ticket has signed it; returns that ticket, whose point need not be computed
+    /// again.
     fn check_new(&mut self, now: Time64, ticket: Certificate) -> Result<Certificate, Rejected> {
         if self.refused.contains(ticket.digest()) {
             return Err(Rejected::RefusedBefore);

@@ -27,7 +27,6 @@ fn the_certificate_comes_once_per_second_and_digests_in_between() {
         assert_eq!(verified.signer, sender.pseudonym());
         assert_eq!(verified.is_new, step == 0);
     }
-    assert_eq!(receiver.verifier().known_tickets(), 1);
 }
 
 #[test]
@@ -132,7 +131,6 @@ fn nobody_who_is_heard_is_forgotten_for_somebody_new() {
         let one_more = say(&mut receiver, number, at_ms(number));
         assert_eq!(one_more, Err(Rejected::TooManyStations));
     }
-    assert_eq!(receiver.verifier().known_tickets(), TICKETS_MAX);
     let now = after_ms(1_900);
     assert_eq!(hear(&mut receiver, now, &envelope), Err(Rejected::Replayed));
     // It is known by its digest still.
@@ -145,7 +143,6 @@ fn nobody_who_is_heard_is_forgotten_for_somebody_new() {
     assert_eq!(say(&mut receiver, TICKETS_MAX, 10_008), Ok(()));
     let newer = sender.seal(after_ms(10_009), RAM, PAYLOAD).unwrap();
     assert!(hear(&mut receiver, after_ms(10_009), &newer).is_ok());
-    assert_eq!(receiver.verifier().known_tickets(), TICKETS_MAX);
 }
 
 /// Hazard: the receiver's clock is put back, and a command from before is carried out again.
