@@ -41,7 +41,7 @@ pub use generated::{
 pub struct Decoded<T> {
     /// The value.
     pub value: T,
-    /// Whether it encodes to the octets again. It does not where a sender spells out a DEFAULT, or knows
+    /// True if it encodes to the octets again. It does not where a sender spells out a DEFAULT, or knows
     /// extension additions that this crate does not.
     pub is_canonical: bool,
 }
@@ -80,7 +80,7 @@ pub(crate) fn decode_front<T: rasn::Decode>(octets: &[u8]) -> Result<(T, usize),
     Ok((value, rest.len()))
 }
 
-/// What is wrong with the octets, and in which field.
+/// The fault of the octets, and its field.
 fn malformed(error: &rasn::error::DecodeError) -> DecodeError {
     let (mut kind, mut names) = (&*error.kind, Vec::new());
     loop {

@@ -1,4 +1,4 @@
-//! What can be wrong with a message, for people to act on.
+//! Faults of messages, for people to act on.
 
 use ::core::fmt;
 
@@ -52,7 +52,7 @@ pub enum DecodeError {
         field: FieldPath,
         /// Where its bits are, counted from the start of the message.
         bit: usize,
-        /// What is wrong with them.
+        /// Their fault.
         fault: Fault,
     },
     /// There is more behind the message.
@@ -69,7 +69,7 @@ pub enum DecodeError {
         field: FieldPath,
         /// The name of the cause, for counters.
         cause: &'static str,
-        /// What is wrong with it.
+        /// Its fault.
         detail: String,
     },
 }
@@ -139,7 +139,7 @@ pub enum EncodeError {
     Malformed {
         /// The field.
         field: FieldPath,
-        /// What is wrong with it.
+        /// Its fault.
         fault: Fault,
     },
 }
@@ -181,9 +181,9 @@ pub enum ViewError {
     /// `taskProgression` is not the one that goes with the progress of the last command.
     #[error("taskProgression is {found:?}, and its command is {expected:?}")]
     TaskProgression {
-        /// What the status says.
+        /// The progress in the status.
         found: TaskProgression,
-        /// What the report says.
+        /// The progress in the report.
         expected: TaskProgression,
     },
     /// A number of followers that cannot be asked for.

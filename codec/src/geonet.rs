@@ -1,4 +1,4 @@
-//! What is under a message: `GeoNetworking` and BTP-B.
+//! Layers under a message: `GeoNetworking` and BTP-B.
 //!
 //! Basic header, common header, the extended headers of single-hop broadcast (SHB) and geo-broadcast
 //! (GBC) of EN 302 636-4-1, and BTP-B of EN 302 636-5-1.
@@ -59,7 +59,7 @@ pub const PACKET_LEN_MAX: usize = 1_500;
 /// The first header of a packet, which no security envelope covers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct BasicHeader {
-    /// What follows it.
+    /// The header that follows it.
     pub next: NextHeader,
     /// How long the packet may live.
     pub lifetime: Lifetime,
@@ -67,7 +67,7 @@ pub struct BasicHeader {
     pub remaining_hop_limit: u8,
 }
 
-/// What follows a basic header.
+/// Headers that follow a basic header.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum NextHeader {
     /// The common header.
@@ -88,7 +88,7 @@ pub struct Headers {
     pub maximum_hop_limit: u8,
     /// Its traffic class.
     pub traffic_class: TrafficClass,
-    /// Whether its source can move, `itsGnIsMobile`.
+    /// True if its source can move, `itsGnIsMobile`.
     pub is_mobile: bool,
     /// Where its source is.
     pub source: LongPositionVector,
@@ -106,11 +106,11 @@ pub struct Headers {
 pub struct Lifetime {
     /// How many times the base, 0..63.
     pub multiplier: u8,
-    /// What is multiplied.
+    /// The unit.
     pub base: LifetimeBase,
 }
 
-/// What a [`Lifetime`] counts (EN 302 636-4-1, basic header).
+/// Units of a [`Lifetime`] (EN 302 636-4-1, basic header).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum LifetimeBase {
@@ -128,9 +128,9 @@ pub enum LifetimeBase {
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct TrafficClass {
-    /// Whether a forwarder keeps it until there is a neighbour (SCF).
+    /// True if a forwarder keeps it until there is a neighbour (SCF).
     pub store_carry_forward: bool,
-    /// Whether it may go over another channel.
+    /// True if it may go over another channel.
     pub channel_offload: bool,
     /// 0..63; 0..3 are the DCC profiles DP0..DP3.
     pub id: u8,
@@ -140,7 +140,7 @@ pub struct TrafficClass {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Address {
-    /// Whether it was configured by hand.
+    /// True if it was configured by hand.
     pub is_manual: bool,
     /// `StationType` of the common data dictionary, 0..31.
     pub station_type: u8,

@@ -1,4 +1,4 @@
-//! What a message of a robot says to one that hears it: everything that its mapping has, at once.
+//! Content of a message for the robot that hears it: everything that its mapping has, at once.
 
 use crossguard_protocol::{Availability, Input, List, MAX_FOLLOWERS, Rmcm, StationId};
 
@@ -14,14 +14,14 @@ use crate::view::{
     view_of_ram, views_of_rmcm,
 };
 
-/// What a received message says.
+/// Content of a received message.
 #[derive(Clone, Debug)]
 pub struct Heard {
     /// The service that it is of: robot awareness, or maneuver coordination.
     pub service: Service,
     /// The station that sent it.
     pub from: StationId,
-    /// What the transition function takes in, in order.
+    /// Inputs of the transition function, in order.
     pub inputs: List<Input, MAX_FOLLOWERS>,
     /// `generationDeltaTime`: when the message was made, in ms modulo 65,536 of `TimestampIts`.
     pub generation_delta_time: u16,
@@ -49,7 +49,7 @@ pub enum Unheard {
 }
 
 impl Heard {
-    /// What the message `octets` says to the robot `me` at this `position`.
+    /// Content of the message `octets` for the robot `me` at this `position`.
     ///
     /// # Errors
     /// Why it says nothing.

@@ -15,9 +15,9 @@ use crate::Service;
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct Identifiers {
-    /// Those of the robot awareness message.
+    /// Identifiers of the robot awareness message.
     pub ram: MessageIdentifiers,
-    /// Those of the robot maneuver coordination message.
+    /// Identifiers of the robot maneuver coordination message.
     pub rmcm: MessageIdentifiers,
     /// Station type of a robot in the basic container; 12, `lightVruVehicle`, by default: the
     /// nearest that receivers know.
@@ -170,7 +170,7 @@ mod tests {
         );
         identifiers.ram.btp_port = 2001;
         assert_eq!(identifiers.check(), Err(IdentifierClash::SamePort(2001)));
-        // Those of RAM by default, and of CAM.
+        // The ITS-AIDs of RAM by default, and of CAM.
         for its_aid in [16_480, 36] {
             identifiers = Identifiers::default();
             identifiers.rmcm.its_aid = its_aid;

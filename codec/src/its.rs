@@ -42,9 +42,9 @@ pub use cpm::{CPM, CpmContainer};
 const CAM_HEADER: (u8, u8) = (2, 2);
 /// `protocolVersion` of CAM before 2018.
 const RELEASE_1: u8 = 1;
-/// Those of CPM.
+/// Protocol version and message id of CPM.
 const CPM_HEADER: (u8, u8) = (2, 14);
-/// Those of VAM.
+/// Protocol version and message id of VAM.
 const VAM_HEADER: (u8, u8) = (3, 16);
 
 /// A message of a robot or of another station.
@@ -163,7 +163,7 @@ const fn core_header(header: &asn1::cdd::ItsPduHeader) -> ItsPduHeader {
 }
 
 impl<M> Received<M> {
-    /// What rasn has decoded.
+    /// A message that rasn has decoded.
     fn of_another(decoded: asn1::Decoded<M>) -> Self {
         Self {
             message: decoded.value,
@@ -185,7 +185,7 @@ fn put(octets: &[u8], buffer: &mut [u8]) -> Result<usize, EncodeError> {
     Ok(octets.len())
 }
 
-/// What every message has beside its codec.
+/// Parts of every message beside its codec.
 macro_rules! pdu {
     ($message:ident, $name:literal, $header:expr) => {
         impl Pdu for $message {

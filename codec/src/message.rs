@@ -72,13 +72,13 @@ by_the_core!(RMCM, "RMCM", RMCM_LEN_MAX, rmcm);
 /// A message as it was received.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Received<M> {
-    /// What this crate knows of it.
+    /// Its part that this crate knows.
     pub message: M,
     /// How many SEQUENCEs of it had extension additions that this crate does not know. They were
     /// skipped; their sender speaks a newer version of the message. Not counted in a message of another
     /// station than robots.
     pub extended: usize,
-    /// Whether the octets are the canonical encoding. Those of a RAM or RMCM are, but for additions;
+    /// True if the octets are the canonical encoding. A RAM or RMCM has no other one, but for additions;
     /// other stations may spell out a DEFAULT, or know additions that this crate does not.
     pub is_canonical: bool,
 }

@@ -25,7 +25,7 @@
 //! hold the two against each other. The crate `p256` signs, and the same message and key give the same
 //! signature (RFC 6979); the crate `ring` verifies.
 //!
-//! What is not here: enrolment and authorization requests, trust lists and revocation lists of TS 102 941,
+//! Not here: enrolment and authorization requests, trust lists and revocation lists of TS 102 941,
 //! encryption, other curves than NIST P-256, implicit certificates, polygons and countries as
 //! regions. What needs one of them is rejected: `codec/doc/departures.md` has each choice of the standards.
 

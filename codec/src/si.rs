@@ -42,7 +42,7 @@ pub enum Rounding {
     Up,
 }
 
-/// What stands for a quantity beyond the first or the last step.
+/// Numbers for a quantity beyond the first or the last step.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Beyond {
     /// The first or the last number.
@@ -71,7 +71,7 @@ pub struct Element<N> {
     pub scale: Scale<N>,
     /// The number for *unavailable*.
     pub unavailable: N,
-    /// What stands for a quantity outside of the scale.
+    /// The number for a quantity outside of the scale.
     pub beyond: Beyond,
 }
 
@@ -184,7 +184,7 @@ impl<N: Copy + Into<i64> + TryFrom<i64>> Scale<N> {
         float(number) / self.steps_per_unit
     }
 
-    /// Whether `quantity` is one that a number stands for, without saturation.
+    /// True if `quantity` is one that a number stands for, without saturation.
     fn covers(&self, quantity: f64) -> bool {
         let steps = quantity * self.steps_per_unit;
         steps >= float(self.min) - 0.5 && steps <= float(self.max) + 0.5

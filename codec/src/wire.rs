@@ -1,4 +1,4 @@
-//! What the mappings share: bit sets with a counterpart on the wire, sessions, task sets, reasons.
+//! Parts that the mappings share: bit sets with a counterpart on the wire, sessions, task sets, reasons.
 
 use crossguard_protocol::{
     Ending, SessionId, SessionNumber, StationId, TaskSet, TaskType, Unavailability, UniqueNumber,
@@ -25,7 +25,7 @@ macro_rules! bit_set {
         impl $name {
             $($(#[$member_attribute])* pub const $member: Self = Self(1 << $bit);)*
 
-            /// Whether every member of `other` is in the set.
+            /// True if every member of `other` is in the set.
             #[must_use]
             pub const fn contains(self, other: Self) -> bool {
                 self.0 & other.0 == other.0

@@ -22,7 +22,7 @@ macro_rules! conversion {
             }
         }
 
-        /// What the core does not take, no receiver does.
+        /// No receiver takes a message that the core does not take.
         impl TryFrom<&$module::$name> for core::$module::$name {
             type Error = EncodeError;
 

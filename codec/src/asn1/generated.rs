@@ -17,7 +17,7 @@ pub mod crossguard_cam {
     use rasn::prelude::*;
     use serde::{Deserialize, Serialize};
     use std::sync::LazyLock;
-    /// What controls the longitudinal motion. CDD AccelerationControl.
+    /// Controls of the longitudinal motion. CDD AccelerationControl.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -224,7 +224,7 @@ pub mod crossguard_cam {
             }
         }
     }
-    /// What happened: cause and sub cause. CDD CauseCodeV2, which has the bits of release 1 but for the
+    /// Event: cause and sub cause. CDD CauseCodeV2, which has the bits of release 1 but for the
     /// causes from 129 on: nothing has assigned them, and only release 1 can tell them. No header says of which
     /// release a message is, so they are read.
     #[derive(
@@ -443,7 +443,7 @@ pub mod crossguard_cam {
     )]
     #[rasn(delegate, value("1..=127"))]
     pub struct HeadingConfidence(pub u8);
-    /// What changes quickly, of a vehicle or a road-side unit. TS 103 900 HighFrequencyContainer.
+    /// Quick part of the state of a vehicle or a road-side unit. TS 103 900 HighFrequencyContainer.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -459,7 +459,7 @@ pub mod crossguard_cam {
     )]
     #[rasn(delegate)]
     pub struct LightBarSirenInUse(#[serde(with = "crate::asn1::view::fixed_bits")] pub FixedBitString<2usize>);
-    /// What changes slowly. TS 103 900 LowFrequencyContainer.
+    /// Slow part of the state. TS 103 900 LowFrequencyContainer.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -743,7 +743,7 @@ pub mod crossguard_cam {
     )]
     #[rasn(delegate)]
     pub struct SpecialTransportType(#[serde(with = "crate::asn1::view::fixed_bits")] pub FixedBitString<4usize>);
-    /// What a vehicle with a special role says. TS 103 900 SpecialVehicleContainer.
+    /// Content for a vehicle with a special role. TS 103 900 SpecialVehicleContainer.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -838,7 +838,7 @@ pub mod crossguard_cam {
             }
         }
     }
-    /// Whether there is a trailer. CDD VehicleLengthConfidenceIndication.
+    /// Presence of a trailer. CDD VehicleLengthConfidenceIndication.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
     )]
@@ -856,7 +856,7 @@ pub mod crossguard_cam {
     )]
     #[rasn(delegate, value("1..=1023"))]
     pub struct VehicleLengthValue(pub u16);
-    /// What a vehicle is there for. CDD VehicleRole.
+    /// Role of a vehicle. CDD VehicleRole.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
     )]
@@ -1064,7 +1064,7 @@ pub mod crossguard_cdd {
     )]
     #[rasn(delegate, value("1..=127"))]
     pub struct AngleConfidence(pub u8);
-    /// What every message of a moving station says of its sender. CDD BasicContainer.
+    /// Sender of a message of a moving station. CDD BasicContainer.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -1292,7 +1292,7 @@ pub mod crossguard_cdd {
             }
         }
     }
-    /// Whether the yaw rate went into the curvature. CDD CurvatureCalculationMode.
+    /// Use of the yaw rate for the curvature. CDD CurvatureCalculationMode.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
     )]
@@ -1877,7 +1877,7 @@ pub mod crossguard_cdd {
     )]
     #[rasn(delegate, value("0..=255"))]
     pub struct MessageId(pub u8);
-    /// What an estimate rests on. CDD MetaInformation.
+    /// Basis of an estimate. CDD MetaInformation.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -2329,7 +2329,7 @@ pub mod crossguard_cdd {
             Self { region, id }
         }
     }
-    /// Whether a safe distance to another station is kept. CDD SafeDistanceIndication.
+    /// Indication that a safe distance to another station is kept, or not. CDD SafeDistanceIndication.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -2655,7 +2655,7 @@ pub mod crossguard_cdd {
     )]
     #[rasn(delegate)]
     pub struct VruClusterProfiles(#[serde(with = "crate::asn1::view::fixed_bits")] pub FixedBitString<4usize>);
-    /// What a road user does with a device. CDD VruDeviceUsage.
+    /// Use of a device by a road user. CDD VruDeviceUsage.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -2980,7 +2980,7 @@ pub mod crossguard_cdd211 {
         groupSubClass(VruClusterInformation),
         otherSubClass(OtherSubClass),
     }
-    /// What an object may be. CDD v2.1.1 ObjectClassDescription.
+    /// Possible classes of an object. CDD v2.1.1 ObjectClassDescription.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -3385,7 +3385,7 @@ pub mod crossguard_cdd211 {
         protectedGeographicArea = 5,
         max = 255,
     }
-    /// What changes quickly. TS 103 300-3 VruHighFrequencyContainer.
+    /// Quick part of the state. TS 103 300-3 VruHighFrequencyContainer.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -3460,7 +3460,7 @@ pub mod crossguard_cdd211 {
             }
         }
     }
-    /// What changes slowly. TS 103 300-3 VruLowFrequencyContainer.
+    /// Slow part of the state. TS 103 300-3 VruLowFrequencyContainer.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -3921,7 +3921,7 @@ pub mod crossguard_cpm {
     )]
     #[rasn(delegate)]
     pub struct CpmContainerData(#[serde(with = "crate::asn1::view::octets")] pub OctetString);
-    /// What the container is: OriginatingVehicleContainer, OriginatingRsuContainer,
+    /// Number of a container: OriginatingVehicleContainer, OriginatingRsuContainer,
     /// SensorInformationContainer, PerceptionRegionContainer, PerceivedObjectContainer. TS 103 324
     /// CpmContainerId.
     #[derive(
@@ -4138,7 +4138,7 @@ pub mod crossguard_cpm {
         groupSubClass(VruClusterInformation),
         otherSubClass(OtherSubClass),
     }
-    /// What an object may be. CDD ObjectClassDescription.
+    /// Possible classes of an object. CDD ObjectClassDescription.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -4885,7 +4885,7 @@ pub mod crossguard_ram {
             }
         }
     }
-    /// Who or what steers the robot.
+    /// Control over the robot.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize, Copy,
     )]
@@ -5259,7 +5259,7 @@ pub mod crossguard_ram {
             }
         }
     }
-    /// What the robot can do besides maneuvers. Bits without a name are zero and ignored.
+    /// Abilities of the robot besides maneuvers. Bits without a name are zero and ignored.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -5303,7 +5303,7 @@ pub mod crossguard_ram {
             }
         }
     }
-    /// What changes quickly: the motion, and the size, which changes with the posture. Heading is the
+    /// Quick part of the state: the motion, and the size, which changes with the posture. Heading is the
     /// direction of motion, orientation that of the body, where it differs.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
@@ -5376,7 +5376,7 @@ pub mod crossguard_ram {
             Self { role, farewell }
         }
     }
-    /// What changes slowly. areaServed is the road segment or intersection that the robot is there for.
+    /// Slow part of the state. areaServed is the road segment or intersection that the robot serves.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -5419,7 +5419,7 @@ pub mod crossguard_ram {
             }
         }
     }
-    /// What the robot is and how it is. unavailability is present while the robot takes no part in
+    /// Kind and condition of the robot. unavailability is present while the robot takes no part in
     /// coordination. onDuty is TRUE while the robot still has a duty on the road from a maneuver or
     /// session that ended early: until the road is clear it offers no help and takes no command.
     /// helpStatus goes with the operation container: needHelp with a requester, offerHelp with a helper,
@@ -5520,7 +5520,7 @@ pub mod crossguard_ram {
     )]
     #[rasn(delegate)]
     pub struct SignalMeans(#[serde(with = "crate::asn1::view::fixed_bits")] pub FixedBitString<8usize>);
-    /// What the robot shows to the people around it, and by which means.
+    /// Signals of the robot to the people around it, and their means.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -5685,7 +5685,7 @@ pub mod crossguard_rmcm {
             }
         }
     }
-    /// What the follower keeps to while it executes the maneuver.
+    /// Limits for the follower while it executes the maneuver.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -5710,7 +5710,7 @@ pub mod crossguard_rmcm {
             }
         }
     }
-    /// What the sender is in the session.
+    /// Part of the sender in the session.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -5981,7 +5981,7 @@ pub mod crossguard_vam {
             }
         }
     }
-    /// What changes quickly. TS 103 300-3 VruHighFrequencyContainer.
+    /// Quick part of the state. TS 103 300-3 VruHighFrequencyContainer.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]
@@ -6056,7 +6056,7 @@ pub mod crossguard_vam {
             }
         }
     }
-    /// What changes slowly. TS 103 300-3 VruLowFrequencyContainer.
+    /// Slow part of the state. TS 103 300-3 VruLowFrequencyContainer.
     #[derive(
         AsnType, Clone, Debug, Decode, Encode, PartialEq, Eq, Hash, Serialize, Deserialize,
     )]

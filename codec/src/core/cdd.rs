@@ -89,7 +89,7 @@ asn1! {
 }
 
 asn1! {
-    /// What every message of a moving station says of its sender. CDD `BasicContainer`.
+    /// Sender of a message of a moving station. CDD `BasicContainer`.
     BasicContainer ::= SEQUENCE {
         station_type       TrafficParticipantType,
         reference_position ReferencePositionWithConfidence,
@@ -486,7 +486,8 @@ asn1! {
 }
 
 asn1! {
-    /// Whether a safe distance to another station is kept. CDD `SafeDistanceIndication`.
+    /// Indication that a safe distance to another station is kept, or not. CDD
+    /// `SafeDistanceIndication`.
     SafeDistanceIndication ::= SEQUENCE {
         subject_station         StationId OPTIONAL,
         safe_distance_indicator SafeDistanceIndicator,

@@ -3,10 +3,10 @@
 
 use thiserror::Error;
 
-/// What is wrong, at which bit, and in which field.
+/// A fault, its bit, and its field.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Error {
-    /// What is wrong.
+    /// The fault.
     pub fault: Fault,
     /// Where the bits of the field begin, counted from the start of the encoding.
     pub bit: usize,
@@ -23,7 +23,7 @@ pub(crate) struct Path(u64);
 pub struct Field {
     /// The name of a component in Rust's spelling; empty for an alternative.
     pub name: &'static str,
-    /// What it consists of.
+    /// Its fields.
     pub fields: &'static [Field],
 }
 
@@ -71,7 +71,7 @@ impl Path {
     }
 }
 
-/// What is wrong with the bits of a field.
+/// Faults of the bits of a field.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
 #[non_exhaustive]
 pub enum Fault {

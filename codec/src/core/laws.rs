@@ -77,7 +77,7 @@ pub fn decode_stays_inside<T: Uper>(octets: &[u8]) -> bool {
     }
 }
 
-/// What was encoded decodes to the same value, without extension additions.
+/// An encoded value decodes to itself, without extension additions.
 pub fn encode_then_decode_is_identity<T: Uper, const N: usize>(value: &T) {
     let mut buffer = [0xA5; N];
     let encoded = encode(value, &mut buffer);
@@ -197,7 +197,7 @@ pub fn reading_stops_at_the_end(octets: &[u8], position: usize, count: u32) {
     }
 }
 
-/// What is read depends on the bits ahead alone, not on their place: the reader returns the same `count` bits,
+/// The reader depends on the bits ahead alone, not on their place: it returns the same `count` bits,
 /// modulo 33, behind `before` bits as at the front of the octets shifted by `before` bits. Returns whether the
 /// octets have that many bits.
 pub fn what_is_ahead_decides<const N: usize>(octets: &[u8; N], before: usize, count: u32) -> bool {
@@ -256,7 +256,7 @@ pub fn integers_keep_their_bounds(min: i64, max: i64, bits: u32) {
     }
 }
 
-/// What is behind an extension bit is skipped, or refused, without a panic: at most one SEQUENCE more
+/// Additions behind an extension bit are skipped, or refused, without a panic: at most one SEQUENCE more
 /// has additions, and only bits that are there are gone.
 pub fn skipping_additions_is_total(octets: &[u8]) {
     let reader = Reader::<First>::new(octets);

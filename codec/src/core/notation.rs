@@ -461,7 +461,7 @@ macro_rules! component {
     };
 }
 
-/// What the expansions of [`asn1!`] need.
+/// Names that the expansions of [`asn1!`] need.
 pub(super) mod prelude {
     pub(in crate::core) use super::{asn1, component, longest, read_defaulted, read_optional};
     pub(in crate::core) use crate::core::error::{FIELDS_MAX, Fault, Field};

@@ -41,8 +41,8 @@ asn1! {
 }
 
 asn1! {
-    /// What changes quickly: the motion, and the size, which changes with the posture. Heading is
-    /// the direction of motion, orientation that of the body, where it differs.
+    /// Quick part of the state: the motion, and the size, which changes with the posture. Heading
+    /// is the direction of motion, orientation that of the body, where it differs.
     RobotHighFrequencyContainer ::= SEQUENCE {
         heading                   Wgs84Angle,
         speed                     Speed,
@@ -73,8 +73,8 @@ asn1! {
 }
 
 asn1! {
-    /// What changes slowly. `areaServed` is the road segment or intersection that the robot is
-    /// there for.
+    /// Slow part of the state. `areaServed` is the road segment or intersection that the robot
+    /// serves.
     RobotLowFrequencyContainer ::= SEQUENCE {
         capabilities    RobotCapabilities,
         supported_tasks TaskSet,
@@ -87,12 +87,12 @@ asn1! {
 }
 
 asn1! {
-    /// What the robot can do besides maneuvers. Bits without a name are zero and ignored.
+    /// Abilities of the robot besides maneuvers. Bits without a name are zero and ignored.
     RobotCapabilities ::= BIT STRING (SIZE(8)) as u8
 }
 
 asn1! {
-    /// What the robot shows to the people around it, and by which means.
+    /// Signals of the robot to the people around it, and their means.
     SignalsShown ::= SEQUENCE {
         to_vehicles    PublicSignal,
         to_pedestrians PublicSignal,
@@ -112,7 +112,7 @@ asn1! {
 }
 
 asn1! {
-    /// What the robot is and how it is. unavailability is present while the robot takes no part in
+    /// Kind and condition of the robot. unavailability is present while the robot takes no part in
     /// coordination. `onDuty` is TRUE while the robot still has a duty on the road from a maneuver
     /// or session that ended early: until the road is clear it offers no help and takes no command.
     /// `helpStatus` goes with the operation container: `needHelp` with a requester, `offerHelp`
@@ -159,7 +159,7 @@ asn1! {
 }
 
 asn1! {
-    /// Who or what steers the robot.
+    /// Control over the robot.
     ControlMode ::= ENUMERATED { Autonomous, Teleoperated, EmergencyStop, Fault, Unavailable, ... }
 }
 

@@ -12,7 +12,7 @@
 use super::error::{Error, Fault};
 use super::width;
 
-/// What reading gives: a value and the reader behind it.
+/// Result of reading: a value and the reader behind it.
 pub type Read<'a, T, F> = (T, Reader<'a, F>);
 
 /// The bits of an encoding from one bit on.
@@ -36,12 +36,12 @@ pub struct Reader<'a, F> {
     faults: F,
 }
 
-/// What a reader notes of the faults that it meets. Nothing else depends on it.
+/// Notes of a reader about the faults that it meets. Nothing else depends on them.
 pub trait Faults: Copy {
     /// Nothing noted.
     const NONE: Self;
 
-    /// Whether there was a fault.
+    /// True if there was a fault.
     #[must_use]
     fn is_any(self) -> bool;
 
@@ -54,7 +54,7 @@ pub trait Faults: Copy {
     fn within(self, index: usize, before: bool) -> Self;
 }
 
-/// Whether there was a fault. A reader that carries no more than that is several times faster than one
+/// A note that there was a fault. A reader that carries no more than that is several times faster than one
 /// that carries an error.
 ///
 /// A number, not a `bool`: the padding behind a `bool` would be copied with the reader, in pieces that
@@ -134,7 +134,7 @@ impl Reader<'_, First> {
     }
 }
 
-/// What is behind an open type that is being read.
+/// The bits behind an open type that is being read.
 #[derive(Clone, Copy, Debug)]
 pub struct Outer {
     /// Where the open type began, behind its length.
@@ -174,7 +174,7 @@ impl<'a, F: Faults> Reader<'a, F> {
         self.extended
     }
 
-    /// Whether there was a fault.
+    /// True if there was a fault.
     #[must_use]
     #[inline(always)]
     pub fn has_failed(self) -> bool {
@@ -353,7 +353,7 @@ impl<'a, F: Faults> Reader<'a, F> {
         (Outer { start, end }, inner)
     }
 
-    /// What is behind an open type, all of which has been read but for its padding. There is a
+    /// The reader behind an open type, all of which has been read but for its padding. There is a
     /// [`Fault::Padding`], or a [`Fault::Length`] when the open type has more octets than its value.
     #[must_use]
     pub fn close(self, outer: Outer) -> Self {

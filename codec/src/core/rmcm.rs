@@ -33,7 +33,7 @@ asn1! {
 }
 
 asn1! {
-    /// What the sender is in the session.
+    /// Part of the sender in the session.
     ManeuverContainer ::= CHOICE {
         LeaderManeuverContainer   LeaderManeuverContainer,
         FollowerManeuverContainer FollowerManeuverContainer,
@@ -83,7 +83,7 @@ asn1! {
 }
 
 asn1! {
-    /// What the follower keeps to while it executes the maneuver.
+    /// Limits for the follower while it executes the maneuver.
     ManeuverConstraints ::= SEQUENCE {
         maximum_speed               SpeedValue OPTIONAL,
         minimum_pedestrian_distance StandardLength9b OPTIONAL,

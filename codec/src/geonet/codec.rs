@@ -118,7 +118,7 @@ impl BasicHeader {
     /// Reads the basic header of a packet, and gives what follows it.
     ///
     /// # Errors
-    /// What is wrong with which field.
+    /// The fault, and its field.
     pub fn decode(packet: &[u8]) -> Result<(Self, &[u8]), GeonetError> {
         let reader = &mut HeaderReader(packet);
         let next = match reader.u8(HeaderField::BasicNextHeader)? {
@@ -168,7 +168,7 @@ impl Headers {
     /// Reads the headers of a packet, and gives what follows them.
     ///
     /// # Errors
-    /// What is wrong with which field. [`GeonetError::Secured`] where a security envelope follows the
+    /// The fault, and its field. [`GeonetError::Secured`] where a security envelope follows the
     /// basic header; then there is [`BasicHeader::decode`] and [`decode_behind`](Self::decode_behind).
     pub fn decode(packet: &[u8]) -> Result<(Self, &[u8]), GeonetError> {
         let (basic, _) = BasicHeader::decode(packet)?;
@@ -182,7 +182,7 @@ impl Headers {
     /// what follows the headers.
     ///
     /// # Errors
-    /// What is wrong with which field.
+    /// The fault, and its field.
     pub fn decode_behind(basic: BasicHeader, rest: &[u8]) -> Result<(Self, &[u8]), GeonetError> {
         let reader = &mut HeaderReader(rest);
         let BasicHeader {
@@ -206,7 +206,7 @@ impl Headers {
         hops_are_possible(remaining_hop_limit, maximum_hop_limit)?;
         reader.reserved::<1>(HeaderField::CommonReserved)?;
         let (source, transport) = decode_transport(HeaderReader(reader.0), shape)?;
-        // What follows is where the shape says, which is a constant to a proof.
+        // The rest begins where the shape says, which is a constant to a proof.
         reader.0 = &reader.0[transport_len(shape)..];
         let present = reader.0.len();
         let port = reader.u16(HeaderField::Port)?;

@@ -18,7 +18,7 @@ pub struct EgoPosition {
     pub timestamp_its: u64,
     /// Latitude and longitude in 10^-7 degree, if they are known.
     pub coordinates: Option<(i32, i32)>,
-    /// Whether the position is known to 40 m.
+    /// True if the position is known to 40 m.
     pub is_accurate: bool,
     /// 0.01 m/s, -16384..16383; negative backwards.
     pub speed: i16,

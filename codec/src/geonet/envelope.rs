@@ -4,7 +4,7 @@
 use super::secured::Secured;
 use super::{Admitted, Discarded, EgoPosition, EnvelopeError, Opened};
 
-/// What stands around a packet behind its basic header.
+/// The envelope around a packet behind its basic header.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub enum Envelope {
@@ -63,7 +63,7 @@ impl Envelope {
         }
     }
 
-    /// Whether a packet without an envelope is taken.
+    /// Checks that a packet without an envelope is taken.
     ///
     /// # Errors
     /// Why not.

@@ -1,4 +1,4 @@
-//! What can be wrong with headers.
+//! Faults of headers.
 
 /// A field of the headers, or a group of fields that are read together.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -83,7 +83,7 @@ pub enum GeonetError {
     /// The payload length is not that of what follows.
     #[error("PayloadLength is {announced}, and {present} octets follow the headers")]
     PayloadLength {
-        /// What the common header says.
+        /// The length in the common header.
         announced: u16,
         /// How many octets follow, BTP-B included.
         present: usize,

@@ -29,8 +29,8 @@ pub fn decoding_is_total(packet: &[u8]) -> Result<(Headers, &[u8]), GeonetError>
     decoded
 }
 
-/// What the decoder accepts it gives back: the headers encode to the octets that they were read from, with zeros in
-/// reserved bits.
+/// The decoder gives back the headers that it accepts: they encode to the octets that they were read from, with zeros
+/// in reserved bits.
 ///
 /// Gives whether it was accepted.
 #[must_use]
@@ -44,7 +44,7 @@ pub fn what_is_accepted_is_canonical(packet: &[u8]) -> bool {
     true
 }
 
-/// What encodes decodes to itself, and what does not encode has a value that does not fit.
+/// Headers that encode decode to themselves, and headers that do not encode have a value that does not fit.
 ///
 /// Gives whether it encodes.
 #[must_use]
@@ -77,7 +77,7 @@ fn length_of(headers: &Headers) -> usize {
     }
 }
 
-/// Whether the packet begins with these octets, none of which is behind the longest headers, but for reserved
+/// True if the packet begins with these octets, none of which is behind the longest headers, but for reserved
 /// bits, which the octets have as zero. Octet by octet, which is easier to prove than the equality of slices.
 fn begins_with(packet: &[u8], octets: &[u8], is_geo_broadcast: bool) -> bool {
     (0..HEADERS_LEN_MAX).all(|at| {
@@ -97,7 +97,7 @@ fn reserved_bits(at: usize, is_geo_broadcast: bool) -> u8 {
     }
 }
 
-/// Whether the headers have the fault that the error names.
+/// True if the headers have the fault that the error names.
 fn is_broken(headers: &Headers, error: GeonetError) -> bool {
     let GeonetError::Value { field, .. } = error else {
         return false;

@@ -1,15 +1,15 @@
-//! What was in a packet, who vouches for it, and what it may say.
+//! An opened packet: its signer, and its permissions.
 
 use crossguard_protocol::StationId;
 
 use super::Headers;
 use crate::service::Service;
 
-/// Who vouches for a packet: the digest of its certificate (`HashedId8`), or of its mirror, so that both are one.
+/// Signer of a packet: the digest of its certificate (`HashedId8`), or of its mirror, so that both are one.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Signer(pub [u8; 8]);
 
-/// What the sender of a packet may say within its service: the first bits of its service specific
+/// Permissions of the sender of a packet within its service: the first bits of its service specific
 /// permissions (SSP).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Permits {
@@ -34,7 +34,7 @@ impl Permits {
         station: None,
     };
 
-    /// What these bits allow, the first being the most significant.
+    /// The permissions of these bits, the first being the most significant.
     #[must_use]
     pub const fn of_bits(bits: u16) -> Self {
         Self {
@@ -55,7 +55,7 @@ impl Permits {
         self.station.unwrap_or_else(|| signer.station())
     }
 
-    /// Whether what a bit stands for may be said, 0 being the first and 15 the last.
+    /// True if the permission of a bit is given, 0 being the first and 15 the last.
     #[must_use]
     pub const fn allows(self, bit: u32) -> bool {
         match self.bits {
@@ -65,12 +65,12 @@ impl Permits {
     }
 }
 
-/// What is vouched for of a packet.
+/// The vouched-for parts of a packet.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Opened {
-    /// Who vouches for it.
+    /// Its signer.
     pub signer: Signer,
-    /// What it may say.
+    /// Its permissions.
     pub permits: Permits,
 }
 

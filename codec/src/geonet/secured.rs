@@ -13,7 +13,7 @@ use crate::security::{
 use crate::service::Service;
 use crossguard_protocol::StationId;
 
-/// What is demanded of the packets of others.
+/// Demands on the packets of others.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Demand {
     /// Nothing: packets without an envelope are taken as well. One with a wrong envelope is not.
@@ -166,7 +166,7 @@ pub fn origin(source: &LongPositionVector) -> Origin {
     }
 }
 
-/// What service specific permissions of the kit say.
+/// The permissions in service specific permissions of the kit.
 fn permits(ssp: &Ssp) -> Permits {
     let named = match ssp {
         Ssp::Bitmap(octets) => Part::named_in(octets),

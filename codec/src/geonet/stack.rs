@@ -28,9 +28,9 @@ pub struct Indication<'a> {
     pub source: LongPositionVector,
     /// The headers that it came with.
     pub headers: Headers,
-    /// Who vouches for it; nobody, if it came without an envelope.
+    /// Its signer; none if it came without an envelope.
     pub signer: Option<Signer>,
-    /// What it may say within the service.
+    /// Its permissions within the service.
     pub permits: Permits,
 }
 
@@ -65,7 +65,7 @@ pub enum SendError {
     Envelope(#[from] EnvelopeError),
 }
 
-/// What is under the messages of one station.
+/// Layers under the messages of one station.
 #[derive(Clone, Debug)]
 pub struct Stack {
     identifiers: Identifiers,

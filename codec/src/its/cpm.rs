@@ -24,7 +24,7 @@ pub struct CPM {
     pub header: cdd::ItsPduHeader,
     /// Where and when its sender perceived.
     pub management_container: ManagementContainer,
-    /// What it perceived, and with what: 1 to 8 of them.
+    /// Containers, 1 to 8: objects that it perceived, and its sensors.
     pub cpm_containers: Vec<CpmContainer>,
 }
 
@@ -38,11 +38,11 @@ pub enum CpmContainer {
     OriginatingRsuContainer(OriginatingRsuContainer),
     /// The sensors.
     SensorInformationContainer(SensorInformationContainer),
-    /// Where they see how well.
+    /// Regions that they see, and how well.
     PerceptionRegionContainer(PerceptionRegionContainer),
-    /// What they see.
+    /// Objects that they see.
     PerceivedObjectContainer(PerceivedObjectContainer),
-    /// What they see, on the dictionary v2.1.1.
+    /// Objects that they see, on the dictionary v2.1.1.
     PerceivedObjectContainer211(PerceivedObjectContainer211),
     /// A container that no standard had defined when this was written.
     Unknown {

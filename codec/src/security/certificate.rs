@@ -17,7 +17,7 @@ pub const CERTIFICATE_LEN_MAX: usize = 1_024;
 /// How many permissions, regions and the like a certificate may list.
 const LIST_MAX: u32 = 32;
 
-/// Who issued a certificate.
+/// Issuer of a certificate.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Issuer {
     /// The holder of this certificate.
@@ -36,7 +36,7 @@ pub struct Certificate {
     content: Content,
     /// The point of its key; `None` in it, if there is no such point on the curve.
     point: OnceLock<Option<Verifying>>,
-    /// What its mirror is called, in which n - s stands in the place of s.
+    /// The name of its mirror, in which n - s stands in the place of s.
     mirror: OnceLock<HashedId8>,
 }
 
@@ -49,10 +49,10 @@ impl PartialEq for Certificate {
 
 impl Eq for Certificate {}
 
-/// What a certificate says.
+/// Content of a certificate.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Content {
-    /// Who issued it.
+    /// Its issuer.
     pub issuer: Issuer,
     /// Its name; pseudonym tickets have none.
     pub name: Option<String>,
@@ -60,9 +60,9 @@ pub struct Content {
     pub validity: Validity,
     /// Where it is valid; anywhere, if that is not said.
     pub region: Option<Region>,
-    /// What messages its holder may send.
+    /// Permissions of its holder to send messages.
     pub permissions: Vec<Permission>,
-    /// What certificates its holder may issue.
+    /// Permissions of its holder to issue certificates.
     pub issue_permissions: Vec<IssuePermission>,
     /// The key of its holder.
     pub key: PublicKey,
@@ -124,13 +124,13 @@ impl Certificate {
         &self.octets
     }
 
-    /// What it says.
+    /// Its content.
     #[must_use]
     pub const fn content(&self) -> &Content {
         &self.content
     }
 
-    /// What it is called.
+    /// Its name.
     #[must_use]
     pub const fn id(&self) -> HashedId8 {
         HashedId8::of(&self.digest)
@@ -149,7 +149,7 @@ impl Certificate {
         }
     }
 
-    /// Whether the certificate or its mirror is among these.
+    /// True if the certificate or its mirror is among these.
     #[must_use]
     pub fn is_among(&self, ids: &BTreeSet<HashedId8>) -> bool {
         !ids.is_empty() && (ids.contains(&self.id()) || ids.contains(&self.mirror()))
@@ -173,7 +173,7 @@ impl Certificate {
         point.as_ref()
     }
 
-    /// Whether `issuer` signed it, or it itself.
+    /// True if `issuer` signed it, or it itself.
     pub(super) fn is_signed_by(&self, issuer: Option<&Self>) -> bool {
         let above = issuer.map_or_else(|| crypto::sha256(&[]), |issuer| issuer.digest);
         let point = issuer.unwrap_or(self).point();
@@ -185,7 +185,7 @@ impl Certificate {
 /// the form in which points are compressed and `rSig` is x alone (IEEE 1609.2, 6.4.3 and 6.4.8).
 struct Canonical<'a> {
     octets: Vec<u8>,
-    /// What is not in `octets` yet.
+    /// Octets that are not in `octets` yet.
     rest: &'a [u8],
 }
 
@@ -217,7 +217,7 @@ impl<'a> Canonical<'a> {
     }
 }
 
-/// What `reader` has read since `before` was yet to be read.
+/// Octets that `reader` has read since it was at `before`.
 pub(super) fn consumed<'a>(before: &'a [u8], reader: &OerReader<'a>) -> &'a [u8] {
     &before[..before.len() - reader.rest().len()]
 }
@@ -288,7 +288,7 @@ impl Content {
         })
     }
 
-    /// Whether it is for pseudonyms: no name, and no certificates to issue.
+    /// True if it is for pseudonyms: no name, and no certificates to issue.
     #[must_use]
     pub fn is_ticket(&self) -> bool {
         self.name.is_none() && self.issue_permissions.is_empty() && self.issuer != Issuer::Itself

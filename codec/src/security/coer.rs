@@ -16,7 +16,7 @@ impl<'a> OerReader<'a> {
         Self(octets)
     }
 
-    /// What is yet to be read.
+    /// Octets that are yet to be read.
     pub(super) const fn rest(&self) -> &'a [u8] {
         self.0
     }

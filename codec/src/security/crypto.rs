@@ -34,7 +34,7 @@ pub(super) fn sha256(octets: &[u8]) -> Digest {
     sha2::Sha256::digest(octets).into()
 }
 
-/// What is signed: the digest of the data's digest and of the signer's certificate's, which is the
+/// The digest that is signed: of the data's digest and of the signer's certificate's, which is the
 /// empty string for who signs for itself.
 pub(super) fn to_be_signed(data: &[u8], signer: Option<&Digest>) -> Digest {
     let signer = signer.copied().unwrap_or_else(|| sha256(&[]));
@@ -165,7 +165,7 @@ impl PublicKey {
         octets
     }
 
-    /// Whether y is odd, and the x coordinate.
+    /// True if y is odd, and the x coordinate.
     #[cfg(feature = "issue")]
     pub(super) fn coordinates(&self) -> (bool, [u8; 32]) {
         let mut x = [0; 32];
@@ -183,7 +183,7 @@ impl Verifying {
         Some(Self(octets))
     }
 
-    /// Whether the holder of the key has signed data with this digest, as the holder of the certificate with that
+    /// True if the holder of the key has signed data with this digest, as the holder of the certificate with that
     /// digest.
     pub(super) fn verifies(&self, data: &Digest, signer: &Digest, signature: &Signature) -> bool {
         let key = UnparsedPublicKey::new(&ECDSA_P256_SHA256_FIXED, &self.0);
@@ -309,7 +309,7 @@ mod tests {
         assert!(!verifying(&key).verifies(&data, &data, &signature));
     }
 
-    /// What the other library says, which signs.
+    /// The verdict of the other library, which signs.
     fn judged(key: &PrivateKey, data: &Digest, signer: &Digest, signature: &Signature) -> bool {
         let digest = sha256(&both(data, signer));
         let key = key.0.verifying_key();

@@ -26,11 +26,11 @@ const DENM: u32 = 37;
 /// A message with a signature that has not been checked.
 #[derive(Clone, Debug)]
 pub struct SignedMessage<'a> {
-    /// What is signed: common header, extended header, BTP and message.
+    /// The signed octets: common header, extended header, BTP and message.
     pub payload: &'a [u8],
-    /// What is said of it.
+    /// Its header.
     pub header: Header<'a>,
-    /// Who signed it.
+    /// Its signer.
     pub signer: SignerIdentifier,
     to_be_signed: Digest,
     signature: Signature,
@@ -53,7 +53,7 @@ pub struct Header<'a> {
     pub(super) requested_certificate: Option<&'a [u8]>,
 }
 
-/// Who signed a message.
+/// Signer of a message.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum SignerIdentifier {
     /// The holder of this certificate.
@@ -71,7 +71,7 @@ impl Header<'_> {
 }
 
 impl SignerIdentifier {
-    /// What the signer's certificate is called.
+    /// The name of the signer's certificate.
     #[must_use]
     pub fn id(&self) -> HashedId8 {
         match self {
@@ -118,7 +118,7 @@ impl<'a> SignedMessage<'a> {
         Ok(message)
     }
 
-    /// What TS 103 097, clause 7.1 wants of a service's header.
+    /// Checks a service's header by TS 103 097, clause 7.1.
     fn check_profile(&self) -> Result<(), Rejected> {
         let header = &self.header;
         let against = match header.its_aid {
@@ -145,7 +145,7 @@ impl<'a> SignedMessage<'a> {
         &self.to_be_signed
     }
 
-    /// What tells this message, as it is signed, from every other one.
+    /// A number that tells this message, as it is signed, from every other one.
     pub(super) fn fingerprint(&self) -> Digest {
         let [signer, signature] = [&self.signer.id().0[..], &self.signature.octets()];
         crypto::sha256(&[&self.to_be_signed, signer, signature].concat())
@@ -159,7 +159,7 @@ impl<'a> SignedMessage<'a> {
 }
 
 impl Header<'_> {
-    /// What the profile of RAM and RMCM wants, which is that of CAM (TS 103 097, clause 7.1.1).
+    /// Checks the profile of RAM and RMCM, which is the one of CAM (TS 103 097, clause 7.1.1).
     ///
     /// # Errors
     /// The field that must not be there.

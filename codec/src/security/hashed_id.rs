@@ -1,4 +1,4 @@
-//! What certificates are called by (IEEE 1609.2, clause 6.3.25 and 6.3.26).
+//! Names of certificates: digests (IEEE 1609.2, clause 6.3.25 and 6.3.26).
 
 use std::fmt;
 use std::str::FromStr;

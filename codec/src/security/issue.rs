@@ -16,7 +16,7 @@ use super::signer::{KeyFailure, SigningKey};
 use super::time::{Unit, Validity};
 use super::trust::{TrustStore, Untrusted};
 
-/// What a certificate is to say.
+/// Terms of a new certificate.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Terms {
     /// Its name; `None` for tickets.
@@ -25,9 +25,9 @@ pub struct Terms {
     pub validity: Validity,
     /// Where it is to be valid; anywhere, if that is not said.
     pub region: Option<Region>,
-    /// What messages its holder may send.
+    /// Permissions of its holder to send messages.
     pub permissions: Vec<Permission>,
-    /// What certificates its holder may issue.
+    /// Permissions of its holder to issue certificates.
     pub issue_permissions: Vec<IssuePermission>,
     /// The key to encrypt for its holder with, by ECIES and AES-128: authorities have one (TS 103 097, clause 7.2.4).
     pub encryption_key: Option<PublicKey>,
@@ -55,10 +55,10 @@ pub enum IssueError {
     /// The terms cannot be expressed, for example because nothing is permitted.
     #[error("these terms cannot be expressed in a certificate: {0}")]
     Terms(String),
-    /// Nobody would take the certificate.
+    /// No station would take the certificate.
     #[error("nobody would take this certificate: {0}")]
     Rejected(#[from] Rejected),
-    /// Nobody would trust the authority.
+    /// No station would trust the authority.
     #[error("nobody would trust this authority: {0}")]
     Untrusted(#[from] Untrusted),
     /// The issuer's key could not be used.

@@ -1,4 +1,4 @@
-//! What certificates permit: sending messages, and issuing certificates (IEEE 1609.2, clauses 6.4.28
+//! Permissions of certificates: sending messages, and issuing certificates (IEEE 1609.2, clauses 6.4.28
 //! to 6.4.40).
 
 /// A permission to send the messages of a service.
@@ -6,7 +6,7 @@
 pub struct Permission {
     /// The service: its ITS-AID, which IEEE 1609.2 calls PSID.
     pub its_aid: u32,
-    /// What within the service.
+    /// The permissions within the service.
     pub ssp: Ssp,
 }
 
@@ -30,7 +30,7 @@ pub struct IssuePermission {
     pub min_chain_length: i8,
     /// How many more there may be, any number if negative; 0 by default.
     pub chain_length_range: i8,
-    /// Whether it is for tickets that sign messages (`eeType` has `app`).
+    /// True if it is for tickets that sign messages (`eeType` has `app`).
     pub for_applications: bool,
 }
 
@@ -85,7 +85,7 @@ impl SspRange {
         }
     }
 
-    /// Whether all that `other` allows is allowed.
+    /// True if all that `other` allows is allowed.
     fn encloses(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::All, _) => true,
@@ -109,7 +109,7 @@ impl SspRange {
     }
 }
 
-/// Whether two bitmaps are the same in all bits of a mask.
+/// True if two bitmaps are the same in all bits of a mask.
 fn agree(bits: &[u8], value: &[u8], mask: &[u8]) -> bool {
     bits.iter()
         .zip(value)

@@ -29,7 +29,7 @@ pub enum Region {
 }
 
 impl Place {
-    /// Whether there is such a place: latitudes end at the poles, longitudes at the 180th meridian (`Latitude` and
+    /// True if there is such a place: latitudes end at the poles, longitudes at the 180th meridian (`Latitude` and
     /// `Longitude` of IEEE 1609.2, without their values for unknown).
     #[must_use]
     pub const fn is_on_earth(self) -> bool {
@@ -67,7 +67,7 @@ impl Place {
 }
 
 impl Region {
-    /// Whether a place is in it.
+    /// True if a place is in it.
     #[must_use]
     pub fn contains(&self, place: Place) -> bool {
         match self {

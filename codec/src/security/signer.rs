@@ -136,7 +136,7 @@ impl Sealer {
         &self.tickets[self.current]
     }
 
-    /// What all its tickets are called.
+    /// The names of all its tickets.
     pub(super) fn ids(&self) -> impl Iterator<Item = HashedId8> {
         self.tickets.iter().map(|ticket| ticket.certificate.id())
     }

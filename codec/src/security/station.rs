@@ -40,7 +40,7 @@ impl Station {
         })
     }
 
-    /// What the ticket in use is called.
+    /// The name of the ticket in use.
     #[must_use]
     pub fn pseudonym(&self) -> HashedId8 {
         self.sealer.ticket().certificate().id()
@@ -52,7 +52,7 @@ impl Station {
         self.sealer.ticket()
     }
 
-    /// What is remembered of others.
+    /// The memory of other stations.
     #[must_use]
     pub const fn verifier(&self) -> &Verifier {
         &self.verifier
@@ -110,7 +110,7 @@ impl Station {
         verified
     }
 
-    /// Whether the ticket in use is not valid any more at a time, and another one is valid from `now`
+    /// True if the ticket in use is not valid any more at a time, and another one is valid from `now`
     /// until then: for a change that must not wait, so that a session does not outlive its ticket.
     #[must_use]
     pub fn should_change(&self, now: Time64, until: Time64) -> bool {

@@ -1,5 +1,5 @@
-//! What keeps signatures of strangers from costing more than they are worth: what failed is remembered, and only so many
-//! certificates are new in a second.
+//! Limits to the cost of strangers' signatures: failures are remembered, and only so many certificates are new in a
+//! second.
 
 use std::collections::{HashSet, VecDeque};
 use std::hash::Hash;
@@ -9,7 +9,7 @@ use super::time::Time64;
 /// How many certificates and messages with a wrong signature are remembered.
 pub const REFUSED_MAX: usize = 1_024;
 
-/// What was refused, the newest of it: certificates and messages whose signature is wrong, by their digest.
+/// The newest of the refused: certificates and messages whose signature is wrong, by their digest.
 #[derive(Clone, Debug)]
 pub(super) struct Refused<T> {
     known: HashSet<T>,
@@ -47,7 +47,7 @@ impl<T: Copy + Eq + Hash> Refused<T> {
 /// How much may yet be spent on strangers: as much as a second brings, at most.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Budget {
-    /// What was spent and is not made up for, in millionths of a certificate.
+    /// Expense that is not made up for, in millionths of a certificate.
     spent: u64,
     /// When that was so.
     at: Time64,

@@ -113,7 +113,7 @@ impl Validity {
         Time64(self.from().0 + self.duration.microseconds())
     }
 
-    /// Whether all of `other` is in it.
+    /// True if all of `other` is in it.
     #[must_use]
     pub fn encloses(&self, other: &Self) -> bool {
         self.from() <= other.from() && other.until() <= self.until()

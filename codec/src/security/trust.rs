@@ -1,4 +1,4 @@
-//! What a station trusts: roots, the authorities that they vouch for, and what of that is revoked.
+//! Trust of a station: roots, the authorities that they vouch for, and what of that is revoked.
 
 use std::collections::BTreeSet;
 
@@ -103,13 +103,13 @@ impl TrustStore {
         &self.revoked
     }
 
-    /// Whether a certificate, or its mirror with the other s, is not to be trusted any more.
+    /// True if a certificate, or its mirror with the other s, is revoked.
     #[must_use]
     pub fn is_revoked(&self, certificate: &Certificate) -> bool {
         certificate.is_among(&self.revoked)
     }
 
-    /// Whether a trusted root vouches for an authority.
+    /// Checks that a trusted root vouches for an authority.
     fn check_authority(&self, authority: &Certificate) -> Result<(), Untrusted> {
         let content = authority.content();
         if content.issue_permissions.is_empty() {
@@ -157,7 +157,7 @@ impl TrustStore {
         }
     }
 
-    /// Whether `ticket` is one that its authority may have issued; all but its signature.
+    /// Checks that `ticket` is one that its authority may have issued; all but its signature.
     pub(super) fn check_ticket(
         ticket: &Certificate,
         authority: &Certificate,
@@ -177,7 +177,7 @@ impl TrustStore {
     }
 }
 
-/// Whether a certificate is valid at a time and place.
+/// Checks that a certificate is valid at a time and place.
 pub(super) fn check_validity(
     certificate: &Certificate,
     time: Time64,

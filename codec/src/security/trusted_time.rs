@@ -1,4 +1,4 @@
-//! Whether the own clock can be relied on: what is verified by a clock that went back may have been heard before.
+//! Trust in the own clock: a message that is verified by a clock that went back may have been heard before.
 //!
 //! The newest time that a station has known is its *mark*, which never goes back. A clock that shows less has been put
 //! back, or the mark is of a time before a restart that the clock has not reached. Until the clock reaches the mark, the
@@ -25,12 +25,12 @@ const PROBATION_MS: u64 = 60_000;
 pub struct TrustedTime {
     /// The newest time that is known to have been.
     mark: Time64,
-    /// What was generated before may have been heard before the start.
+    /// A message that was generated before may have been heard before the start.
     start: Time64,
     /// By how much the clock may be behind the mark.
     tolerance_us: u64,
     doubt: Option<Doubt>,
-    /// What the clock showed last, and the clock that never leaps, in ms.
+    /// The last time of the clock, and of the clock that never leaps, in ms.
     seen: Option<(Time64, u64)>,
     leap: Option<Leap>,
 }
@@ -38,13 +38,13 @@ pub struct TrustedTime {
 /// A leap ahead.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Leap {
-    /// What both clocks showed before it.
+    /// The times of both clocks before it.
     before: (Time64, u64),
     /// When the last leap was, on the clock that has none.
     since_ms: u64,
 }
 
-/// What a clock would show that goes on from there.
+/// The time of a clock that goes on from there.
 const fn expected((shown, at_ms): (Time64, u64), now_ms: u64) -> u64 {
     let passed_ms = now_ms.saturating_sub(at_ms);
     shown.0.saturating_add(passed_ms.saturating_mul(1_000))
@@ -136,7 +136,7 @@ impl TrustedTime {
         Ok(self.mark)
     }
 
-    /// Whether a message that was generated at this time cannot have been accepted before the start.
+    /// Checks that a message that was generated at this time cannot have been accepted before the start.
     ///
     /// # Errors
     /// When it can.

@@ -1,7 +1,7 @@
 //! Properties of the mapping as plain functions, one body for Kani, proptest and sweeps, as
 //! [`core::laws`](crate::core::laws). A law returns nothing; it panics where it is broken.
 //!
-//! What the protocol says comes from `crossguard_protocol::laws::arbitrary`, a message from
+//! Words of the protocol come from `crossguard_protocol::laws::arbitrary`, a message from
 //! [`Uper::arbitrary`](crate::core::Uper::arbitrary), each with a source of that crate.
 //!
 //! ```text
@@ -39,7 +39,7 @@ use crate::state::{Position, RobotState};
 /// How many followers a RAM can ask for, whatever the robot that makes or hears it has room for: who asks is a rival, too.
 const CAN_BE_ASKED_FOR: RangeInclusive<u8> = 1..=16;
 
-/// Whether a RAM can say this: its numbers have a place, and it does not contradict itself. The same
+/// True if a RAM can say this: its numbers have a place, and it does not contradict itself. The same
 /// as the mapping finds, put plainly.
 #[must_use]
 pub fn can_be_said(view: &Ram) -> bool {
@@ -83,12 +83,12 @@ pub fn can_be_said(view: &Ram) -> bool {
     is_sound && !has_left_own && (past.is_none() || past != present)
 }
 
-/// Whether a follower can report this of itself.
+/// True if a follower can report this of itself.
 fn is_own(report: Report) -> bool {
     report.progress != Progress::Failed(Failure::ExecutionLimit)
 }
 
-/// Whether no station is named twice, nor the leader.
+/// True if no station is named twice, nor the leader.
 fn are_others(leader: StationId, mut stations: impl Iterator<Item = StationId> + Clone) -> bool {
     while let Some(station) = stations.next() {
         if station == leader || stations.clone().any(|other| other == station) {

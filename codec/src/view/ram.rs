@@ -104,7 +104,7 @@ pub fn view_of_ram(ram: &RAM) -> Result<Ram, ViewError> {
     }
 }
 
-/// Whether the sender of a RAM takes part in coordination.
+/// Availability of the sender of a RAM for coordination.
 #[must_use]
 pub fn availability_of(ram: &RAM) -> Availability {
     match ram.ram.ram_parameters.robot_status_container.unavailability {
@@ -181,7 +181,7 @@ fn help_status(coordination: &Coordination) -> HelpStatus {
     }
 }
 
-/// What a follower's report says of its task.
+/// The progress of its task that a follower reports.
 fn reported_progression(view: &Ram) -> Option<TaskProgression> {
     let Coordination::Follower {
         last: Some(report), ..

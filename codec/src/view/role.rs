@@ -87,7 +87,7 @@ pub(super) fn role_from(view: &Ram) -> Result<Option<SessionRole>, ViewError> {
     }))
 }
 
-/// What `role` means when `sender` has it.
+/// The meaning of `role` when `sender` has it.
 pub(super) fn role_of(role: &SessionRole, sender: StationId) -> Result<Coordination, ViewError> {
     let own = |session| {
         let session = session_of(session);

@@ -1,4 +1,4 @@
-//! What a command and an answer say to the application, beyond what the protocol reads.
+//! Parts of commands and answers for the application, which the protocol does not read.
 
 use ::core::fmt;
 use ::core::str::FromStr;
