@@ -1,4 +1,4 @@
-//! What a harness is, for Kani and for everybody else.
+//! Harnesses, for Kani and for everybody else.
 
 /// One harness.
 #[derive(Clone, Copy, Debug)]

@@ -1,4 +1,4 @@
-//! What stands in for the crate `kani` where there is no Kani: random values, so that a harness is a
+//! A stand-in for the crate `kani` where there is no Kani: random values, so that a harness is a
 //! test.
 //!
 //! A run of a harness ends early where `assume` does not hold. Which of its `cover!` marks it
@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
-/// What happened in the runs of a harness.
+/// Events in the runs of a harness.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Record {
     /// Runs in which every assumption held.

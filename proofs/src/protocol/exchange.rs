@@ -31,7 +31,7 @@ struct Watched {
     robot: Robot,
 }
 
-/// What a step did.
+/// The effect of a step.
 struct Kept {
     exchange: Exchange,
     was: History,
@@ -204,7 +204,7 @@ impl Kept {
     }
 }
 
-/// What a harness proves: any input of this kind in this stage keeps these laws.
+/// The claim of a harness: any input of this kind in this stage keeps these laws.
 pub type Proved = (Role, Kind, Laws);
 
 /// The age of a heartbeat, with any time in the place of its periods: a proof that multiplies by any `ram_period` takes six times
@@ -324,7 +324,7 @@ macro_rules! steps {
             )+
         }
 
-        /// What each harness of this module proves.
+        /// The claims of the harnesses of this module.
         pub const PROVED: &[super::Proved] = &[
             $((Role::$from, $any, stage::laws_of!(Laws::All $(, Laws::$of)?)),)+
             $((Role::$stage, $kind, stage::laws_of!(Laws::All $(, Laws::$laws)?)),)+

@@ -1,4 +1,4 @@
-//! What a robot can be configured with.
+//! Settings that a robot can have.
 
 use crossguard_protocol::laws::settings as laws;
 use crossguard_protocol::{Config, Inequality, Millis, Settings, TaskSet, TaskType};

@@ -1,4 +1,4 @@
-//! What the harnesses of all stages have in common: one step from any valid state.
+//! One step from any valid state, which the harnesses of all stages have in common.
 
 use crossguard_protocol::laws::Source;
 use crossguard_protocol::laws::arbitrary::{self, Kind};
@@ -42,7 +42,7 @@ pub(super) fn any_valid(config: &Config, stage: Role, peers: (usize, usize)) -> 
     robot
 }
 
-/// What the application of a leader tells its robot. A robot with another role ignores it.
+/// Events that the application of a leader tells its robot. A robot with another role ignores it.
 pub(super) const OF_LEADERS: [Kind; 3] = [
     Kind::Local(EventKind::CommandManeuver),
     Kind::Local(EventKind::OpenCorridor),
@@ -56,7 +56,7 @@ pub(super) struct From {
     pub(super) stage: Role,
     /// How many offers or followers there are, at least and at most.
     pub(super) peers: (usize, usize),
-    /// Whether a RAM that tells a part in a session may name another one as over. One that tells none
+    /// True if a RAM that tells a part in a session may name another one as over. One that tells none
     /// always may.
     pub(super) farewells: bool,
 }
@@ -101,7 +101,7 @@ impl From {
     }
 }
 
-/// Whether the robot has this role after the step.
+/// True if the robot has this role after the step.
 pub(super) fn becomes(step: &Taken, role: Role) -> bool {
     step.after.role() == role
 }

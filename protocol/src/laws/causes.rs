@@ -6,7 +6,7 @@ use crate::message::{Coordination, Rmcm};
 use crate::output::Ignored;
 use crate::state::Role;
 
-use super::part::leading;
+use super::part::{leading, record_of};
 use super::taken::Taken;
 
 /// All laws of this module.
@@ -101,7 +101,7 @@ pub fn the_cause_is_so(step: &Taken) {
                 Input::Local(Event::CommandManeuver { follower, .. }) => Some(follower),
                 _ => step.sender(),
             };
-            let member = station.and_then(|s| leading(before).and_then(|l| l.member(s)));
+            let member = station.and_then(|s| leading(before).and_then(|l| record_of(l, s)));
             assert!(member.is_none());
         }
         Some(Ignored::NotLeading) => assert!(before.role() != Role::Leader),

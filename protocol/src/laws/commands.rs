@@ -8,7 +8,9 @@ use crate::output::{EndReason, OutputKind};
 use crate::state::{Corridor, Member, Robot};
 use crate::task::Availability;
 
-use super::part::{each_follower, executing, following, is_newer_than_all, leading, requesting};
+use super::part::{
+    each_follower, executing, following, is_newer_than_all, leading, record_of, requesting,
+};
 use super::road::takes_up;
 use super::taken::Taken;
 
@@ -43,7 +45,7 @@ pub fn commands_are_given_where_they_may_be(config: &Config, step: &Taken) {
     };
     let before = leading(&step.before);
     let ready = before.and_then(|before| {
-        let member = before.member(follower)?;
+        let member = record_of(before, follower)?;
         (member.echoed.is_some() && member.outstanding.is_none()).then_some((before, member))
     });
     let Some((before, member)) = ready else {
@@ -61,7 +63,7 @@ pub fn commands_are_given_where_they_may_be(config: &Config, step: &Taken) {
         assert!((step.said.ended == Some(EndReason::Renewed)) != is_out_of_numbers);
     } else {
         assert!(step.said.commanded);
-        let after = leading(&step.after).and_then(|after| after.member(follower));
+        let after = leading(&step.after).and_then(|after| record_of(after, follower));
         assert!(after.is_some_and(|after| {
             after.outstanding.is_some_and(|outstanding| {
                 (outstanding.request, outstanding.task) == (member.next_request, task)

@@ -5,7 +5,7 @@ use crate::input::{Event, Input, Timer};
 use crate::message::{Coordination, Ending, Farewell};
 use crate::state::{Identity, Role};
 
-use super::part::{leading, own_number, requesting};
+use super::part::{leading, own_number, record_of, requesting};
 use super::taken::Taken;
 
 /// All laws of this module.
@@ -67,7 +67,7 @@ pub fn who_left_is_let_go(step: &Taken) {
         assert!(is_left == is_gone);
     }
     if let Some(before) = leading(&step.before) {
-        let member = before.member(ram.station);
+        let member = record_of(before, ram.station);
         let is_left = member.is_some_and(|member| member.offer <= offer);
         assert!(step.said.dropped.is_some() == is_left);
     }

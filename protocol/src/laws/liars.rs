@@ -15,7 +15,7 @@ use crate::id::StationId;
 use crate::output::OutputKind;
 use crate::state::{Corridor, Leading, Phase};
 
-use super::part::{following, leading, requesting};
+use super::part::{following, leading, record_of, requesting};
 use super::road::takes_up;
 use super::taken::Taken;
 
@@ -69,14 +69,14 @@ pub fn a_follower_speaks_for_itself_alone(step: &Taken, liar: StationId) {
     let Some(before) = leading(&step.before) else {
         return;
     };
-    let is_own_member = before.member(liar).is_some();
+    let is_own_member = record_of(before, liar).is_some();
     match leading(&step.after) {
         Some(after) => {
             for member in before.members.iter() {
                 assert!(member.station == liar || after.members.iter().any(|it| it == member));
             }
             for member in after.members.iter() {
-                assert!(before.member(member.station).is_some());
+                assert!(record_of(before, member.station).is_some());
             }
         }
         // It gives way to a session at the same place that goes before, while nobody is on the road.
@@ -94,7 +94,7 @@ pub fn a_stranger_closes_a_corridor_by_going_before(step: &Taken, liar: StationI
     };
     let after = leading(&step.after);
     let is_open = |it: &Leading| it.corridor == Corridor::Open;
-    if is_open(before) && before.member(liar).is_none() && !after.is_some_and(is_open) {
+    if is_open(before) && record_of(before, liar).is_none() && !after.is_some_and(is_open) {
         assert!(after.is_some_and(|it| it.yields_to == Some(liar)));
     }
 }

@@ -22,6 +22,14 @@ pub(super) fn leading(robot: &Robot) -> Option<&Leading> {
     }
 }
 
+/// The record of `station` among a leader's followers.
+pub(super) fn record_of(leading: &Leading, station: StationId) -> Option<&Member> {
+    leading
+        .members
+        .iter()
+        .find(|member| member.station == station)
+}
+
 pub(super) fn requesting(robot: &Robot) -> Option<&Requesting> {
     match robot.phase() {
         Phase::Requesting(requesting) => Some(requesting),

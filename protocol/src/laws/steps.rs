@@ -14,7 +14,7 @@ use crate::time::Millis;
 
 use super::arithmetic::{beat_is_newer, request_is_newer};
 use super::lease::{echo_heard, lease_left};
-use super::part::{each_follower, executing, following, leading, own_number, runs};
+use super::part::{each_follower, executing, following, leading, own_number, record_of, runs};
 use super::taken::{Taken, is_listed};
 use super::watch::is_open;
 use super::{
@@ -29,7 +29,7 @@ pub fn all(config: &Config, step: &Taken) {
     of_the_road(config, step);
 }
 
-/// What a step does to the robot's part, its numbers and its leases.
+/// The effect of a step on the robot's part, its numbers and its leases.
 pub fn of_part_and_numbers(config: &Config, step: &Taken) {
     keeps_within_the_outputs(step);
     ignores_without_effect(step);
@@ -48,7 +48,7 @@ pub fn of_part_and_numbers(config: &Config, step: &Taken) {
     farewells_name_what_was_left(step);
 }
 
-/// What peers can bring about, and how long it takes.
+/// The effects that peers can have, and how long they take.
 pub fn of_peers(config: &Config, step: &Taken) {
     causes::all(step);
     of_peers_for_any_cause(config, step);
@@ -62,7 +62,7 @@ fn of_peers_for_any_cause(config: &Config, step: &Taken) {
     contact::all(config, step);
 }
 
-/// What is offered, told and ended, and the road.
+/// Offers, news and ends, and the road.
 pub fn of_the_road(config: &Config, step: &Taken) {
     farewells::all(step);
     offers::all(config, step);
@@ -196,9 +196,7 @@ pub fn answers_count_only_when_outstanding(step: &Taken) {
         return;
     };
     let is_outstanding = leading(&step.before).is_some_and(|leading| {
-        let outstanding = leading
-            .member(answer.from)
-            .and_then(|member| member.outstanding);
+        let outstanding = record_of(leading, answer.from).and_then(|member| member.outstanding);
         step.before.session() == Some(answer.session)
             && outstanding.is_some_and(|outstanding| outstanding.request == answer.request)
     });
@@ -314,7 +312,7 @@ fn reported_by(step: &Taken, member: &Member) -> Option<Progress> {
     }
 }
 
-/// Whether the execution limit of the follower's command ran out.
+/// True if the execution limit of the follower's command ran out.
 fn has_run_out(step: &Taken, member: &Member) -> bool {
     let failed = Some(Progress::Failed(Failure::ExecutionLimit));
     member.order.is_some_and(|order| order.progress == failed)
@@ -335,7 +333,7 @@ pub fn a_dropped_follower_leaves_the_others(step: &Taken) {
     else {
         return;
     };
-    assert!(after.member(dropped).is_none());
+    assert!(record_of(after, dropped).is_none());
     if after.members.len() + 1 == before.members.len() {
         for member in before.members.iter() {
             assert!(member.station == dropped || after.members.iter().any(|it| it == member));
@@ -398,7 +396,7 @@ fn taken_back(step: &Taken) -> Option<UniqueNumber> {
 pub fn farewells_name_what_was_left(step: &Taken) {
     let (before, after) = (&step.before, &step.after);
     if let Some((station, GoneReason::Left)) = step.said.dropped {
-        let member = leading(before).and_then(|leading| leading.member(station));
+        let member = leading(before).and_then(|leading| record_of(leading, station));
         assert!(left_by(step, station).is_some_and(|(session, offer)| {
             before.session() == Some(session) && member.is_some_and(|m| offer >= m.offer)
         }));

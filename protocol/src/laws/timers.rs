@@ -104,13 +104,13 @@ pub fn with_due(mut robot: Robot, timer: Timer) -> Robot {
     robot
 }
 
-/// Whether `timer` is due.
+/// True if `timer` is due.
 #[must_use]
 pub fn is_due(robot: &Robot, timer: Timer) -> bool {
     robot.time_left(timer) == Some(Millis::ZERO)
 }
 
-/// Whether the state is one that can occur within a step.
+/// True if the state is one that can occur within a step.
 #[must_use]
 pub fn is_consistent(robot: &Robot, config: &Config) -> bool {
     robot.is_consistent(config)

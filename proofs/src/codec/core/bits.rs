@@ -1,4 +1,4 @@
-//! What reads and writes bits.
+//! Reader and writer of bits.
 
 use crossguard_codec::core::{Reader, Whether, laws};
 

@@ -1,4 +1,4 @@
-//! What RAM and RMCM share.
+//! Containers that RAM and RMCM share.
 
 use crossguard_codec::core::common::{CoordinationSession, TaskProgression};
 

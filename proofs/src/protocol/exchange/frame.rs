@@ -1,4 +1,4 @@
-//! What is needed besides the steps.
+//! Lemmas that are needed besides the steps.
 
 use super::{
     EventKind, Kind, Part, Proved, Role, Source, StationId, Symbolic, Taken, TimerKind, any_valid,
@@ -66,7 +66,7 @@ const fn is_one_of(proved: &[Proved], stage: Role, kind: Kind) -> bool {
     false
 }
 
-/// Whether a harness of a step proves this pair.
+/// True if a harness of a step proves this pair.
 #[must_use]
 pub const fn is_proved(stage: Role, kind: Kind) -> bool {
     is_one_of(leader::PROVED, stage, kind) || is_one_of(follower::PROVED, stage, kind)
@@ -99,7 +99,7 @@ const fn ignored(stage: Role) -> u64 {
     ignored
 }
 
-/// What is ignored keeps what holds: a body tells facts even so.
+/// An ignored input keeps what holds: a body tells facts even so.
 fn keeps_what_it_ignores(stage: Role, ignored: u64) {
     let it = any_watched(stage);
     let number = Symbolic.number(u32::MAX, u32::MAX) as usize % KINDS.len();

@@ -1,4 +1,4 @@
-//! What a step does to the part, the numbers and the leases of a leader; and what can come of each input.
+//! The effect of a step on the part, the numbers and the leases of a leader; and the outcomes of each input.
 
 use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::{ignores, of_part_and_numbers};

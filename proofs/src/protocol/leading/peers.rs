@@ -1,4 +1,4 @@
-//! What peers of a leader can bring about, and how long it takes.
+//! The effects that peers of a leader can have, and how long they take.
 
 use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::of_peers;

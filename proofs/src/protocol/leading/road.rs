@@ -1,4 +1,4 @@
-//! What a leader offers, tells and ends, and the road.
+//! Offers, news and ends of a leader, and the road.
 
 use crossguard_protocol::laws::arbitrary::Kind;
 use crossguard_protocol::laws::steps::of_the_road;

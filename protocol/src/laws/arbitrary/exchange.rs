@@ -6,7 +6,7 @@ use super::{
 use crate::config::Config;
 use crate::id::{Heartbeat, RequestId, SessionId, SessionNumber, StationId, UniqueNumber};
 use crate::laws::exchange::{Exchange, Heard, History};
-use crate::laws::part::leading;
+use crate::laws::part::{leading, record_of};
 use crate::state::{Following, Member, Phase, Robot};
 
 /// The part that a robot has in an exchange.
@@ -71,7 +71,7 @@ fn session_like(source: &mut impl Source, robot: &Robot) -> SessionId {
 }
 
 fn record(robot: &Robot, follower: StationId) -> Option<&Member> {
-    leading(robot)?.member(follower)
+    record_of(leading(robot)?, follower)
 }
 
 /// Any request; hints let it be the newest one that the state knows of the follower.

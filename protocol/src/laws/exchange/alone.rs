@@ -4,6 +4,7 @@ use super::Exchange;
 use super::observer::leads;
 use crate::id::StationId;
 use crate::input::{Input, Timer};
+use crate::laws::part::record_of;
 use crate::message::Rmcm;
 use crate::output::Output;
 use crate::state::{Identity, Member, Phase, Robot};
@@ -35,7 +36,7 @@ fn other(input: &Input) -> Option<StationId> {
 
 fn record<'a>(exchange: &Exchange, robot: &'a Robot) -> Option<&'a Member> {
     match &robot.phase {
-        Phase::Leading(leading) if leads(exchange, robot) => leading.member(exchange.follower),
+        Phase::Leading(leading) if leads(exchange, robot) => record_of(leading, exchange.follower),
         _ => None,
     }
 }

@@ -8,6 +8,7 @@
 use super::{Exchange, Heard, History, messages};
 use crate::id::{Heartbeat, StationId};
 use crate::input::{Event, Input};
+use crate::laws::part::record_of;
 use crate::message::{Rmcm, Verdict};
 use crate::output::{Maneuver, Notice, Output, Sink};
 use crate::state::{Phase, Robot};
@@ -233,7 +234,7 @@ fn take_part(exchange: &Exchange, history: &mut History, robot: &Robot) {
         let heartbeat = newest_heartbeat(robot).filter(|_| leads);
         history.beaten |= heartbeat.is_some_and(|heartbeat| exchange.has_come(heartbeat));
         if let (true, Phase::Leading(leading)) = (leads, &robot.phase) {
-            let listed = leading.member(exchange.follower);
+            let listed = record_of(leading, exchange.follower);
             history.listed = history.listed.or(listed.map(|member| member.offer));
         }
     }

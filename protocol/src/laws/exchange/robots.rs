@@ -7,7 +7,7 @@ use super::messages::{progress_is_true, was_heard};
 use super::observer::leads;
 use super::{Exchange, History, is_given_out};
 use crate::id::{RequestId, UniqueNumber};
-use crate::laws::part::runs;
+use crate::laws::part::{record_of, runs};
 use crate::message::{Coordination, Progress, Ram};
 use crate::state::{
     Following, Identity, Job, Leading, Member, Outstanding, Phase, Requesting, Robot,
@@ -109,7 +109,7 @@ fn requester_agrees(exchange: &Exchange, history: &History, requesting: &Request
 
 /// I17: the record of the follower is there until it is dropped itself.
 fn leading_agrees(exchange: &Exchange, history: &History, leading: &Leading) -> bool {
-    match leading.member(exchange.follower) {
+    match record_of(leading, exchange.follower) {
         None => history.listed.is_none() || history.dropped,
         Some(member) => {
             history.listed == Some(member.offer)
@@ -167,7 +167,7 @@ pub fn can_report(exchange: &Exchange, robot: &Robot, ram: &Ram) -> bool {
     if ram.station != exchange.follower || *session != exchange.session || !leads(exchange, robot) {
         return true;
     }
-    match (leading.member(exchange.follower), last) {
+    match (record_of(leading, exchange.follower), last) {
         (Some(member), Some(report)) => awaits_or_counts(exchange, member, report.request),
         _ => true,
     }
