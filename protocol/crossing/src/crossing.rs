@@ -121,6 +121,8 @@ pub struct Crossing<const N: usize = 64> {
     is_falling_back: bool,
     /// Whether the protocol knows that the robot itself sees somebody on the road.
     is_person_told: bool,
+    /// Whether it knows that by somebody else's word, which this robot's own sensors do not take back.
+    is_person_said: bool,
     task: Option<Task>,
     /// Whether the body's fallback takes it to the kerb, beside a person.
     is_kerbward: bool,
@@ -182,6 +184,7 @@ impl<const N: usize> Crossing<N> {
             Input::CallIgnored if !self.is_own() => self.end_call(),
             Input::CallIgnored => {}
             Input::SaidClear => {
+                self.is_person_said = false;
                 if let Some(obligation) = &mut self.obligation {
                     obligation.is_said_clear = true;
                 }
@@ -210,10 +213,9 @@ impl<const N: usize> Crossing<N> {
             Phase::Leading(leading) => leading.corridor,
             _ => Corridor::Clear,
         };
-        self.is_person_told = match robot.phase() {
-            Phase::Following(following) => following.sees_people,
-            _ => false,
-        };
+        let is_told = matches!(robot.phase(), Phase::Following(following) if following.sees_people);
+        self.is_person_said |= is_told && !self.is_person_told && !self.occupancy.owes();
+        self.is_person_told = is_told;
         self.is_kerbward &= robot.duty().is_some();
         // The end of a maneuver is told once.
         let runs = executing(robot);
@@ -228,6 +230,7 @@ impl<const N: usize> Crossing<N> {
             };
         }
         self.learn_obligation(setup, robot, &mut out);
+        self.is_person_said &= self.is_person_told || self.obligation.is_some();
         out
     }
 
@@ -518,7 +521,10 @@ impl<const N: usize> Crossing<N> {
         if self.standing == Standing::Following && self.occupancy.has_sources() {
             if self.occupancy.owes() && !self.is_person_told {
                 out.tell(Event::PersonOnRoad);
-            } else if self.is_person_told && !self.sees_somebody(setup) && self.obligation.is_none()
+            } else if self.is_person_told
+                && !self.is_person_said
+                && !self.sees_somebody(setup)
+                && self.obligation.is_none()
             {
                 out.tell(Event::RoadClear);
             }
@@ -713,9 +719,10 @@ impl<const N: usize> Crossing<N> {
             About::Duty(Duty::FallingBack(maneuver)) => !setup.guarding.contains(maneuver.task),
             About::Duty(Duty::Crossing(_)) | About::Clearing => false,
         };
+        let is_seen_clear = !self.is_person_said && self.occupancy.is_clear(setup);
         let is_clear = obligation.is_said_clear
             || lets_nobody_cross
-            || obligation.wait == Millis::ZERO && self.occupancy.is_clear(setup);
+            || obligation.wait == Millis::ZERO && is_seen_clear;
         if is_clear && !self.is_falling_back {
             out.tell(Event::RoadClear);
         }
@@ -759,7 +766,8 @@ impl<const N: usize> Crossing<N> {
             Standing::Leading => self.is_preparing(setup) && self.corridor == Corridor::Clear,
             Standing::Free | Standing::Following | Standing::Bound => false,
         };
-        if self.is_called && may_end && !self.has_opened && self.wanted == Millis::ZERO {
+        let is_wanted = self.wanted > Millis::ZERO || self.is_wanted();
+        if self.is_called && may_end && !self.has_opened && !is_wanted {
             out.tell(Event::LeaveRequested);
         }
     }
@@ -775,6 +783,7 @@ impl<const N: usize> Crossing<N> {
     /// The call is over, or had no effect.
     fn end_call(&mut self) {
         (self.is_called, self.has_opened, self.has_crossed) = (false, false, false);
+        self.turned = false;
         self.call_pause = CALL_PERIOD;
     }
 

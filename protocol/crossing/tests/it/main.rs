@@ -8,6 +8,7 @@ mod occupancy;
 mod outsider;
 mod position;
 mod scene;
+mod sequence;
 mod standing;
 mod team;
 mod tracks;

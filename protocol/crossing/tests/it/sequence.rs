@@ -1,0 +1,68 @@
+//! What a robot keeps of one session in the next, and a person's word against what sensors see.
+
+use crossguard_crossing::*;
+use crossguard_protocol::{Event, Millis, TaskType};
+
+use crate::scene::*;
+use crate::team::*;
+use crate::whole::*;
+
+/// Hazard: a person sees somebody on the road whom the guard's own sensors miss, and says so. The sensors take that back at
+/// once, and the guard leaves.
+#[test]
+fn a_persons_word_that_somebody_is_on_the_road_stands_until_a_person_takes_it_back() {
+    let mut team = blocking();
+    team.pass_until("go", Team::shows_go);
+    team.people.clear();
+    team.event(1, Event::PersonOnRoad);
+    team.pass(30_000);
+    assert!(team.robots[1].body.holds, "its leader has seen nobody");
+    team.hear(1, Input::SaidClear);
+    team.pass_until("idle", Team::is_idle);
+    assert!(!team.robots[1].body.holds);
+    // The word is for one duty.
+    team.people = vec![person(2, 100, -100)];
+    team.pass_until("go", Team::shows_go);
+    walk_across(&mut team);
+    team.pass_until("idle", Team::is_idle);
+    assert!(!team.robots[1].body.holds);
+}
+
+/// Hazard: the escort walks from the other kerb, because people once came from there.
+#[test]
+fn a_plan_begins_where_people_are_and_not_where_they_were_in_the_session_before() {
+    let kerbs @ [near, far] = [Point::new(100, -100), Point::new(100, 800)];
+    let stages = [leg(TaskType::INITIAL_POS, near), leg(TaskType::MOVE, far)];
+    let plan = Plan {
+        kerbs: Some(kerbs),
+        ..plan(&stages)
+    };
+    let mut team = team(plan, true);
+    let request = team.robots[0].setup.request;
+    let begins = |team: &Team| {
+        let mut legs = team.robots[0].log.iter().rev().filter_map(|it| match it {
+            Output::Order(_, leg) if leg.task == TaskType::INITIAL_POS => Some(leg.to),
+            _ => None,
+        });
+        legs.next()
+    };
+    team.people = vec![person(1, 100, 800)];
+    team.pass_until("an order", |it| begins(it).is_some());
+    assert_eq!(begins(&team), Some(far));
+    team.event(0, Event::LeaveRequested);
+    team.people.clear();
+    team.pass_until("idle", Team::is_idle);
+    team.robots[0].log.clear();
+    // An operator calls.
+    team.event(0, Event::PedestrianDetected(request));
+    team.pass_until("an order", |it| begins(it).is_some());
+    assert_eq!(begins(&team), Some(near));
+}
+
+/// Hazard: `clear_s = 0`, and each call is taken back at once.
+#[test]
+fn a_person_who_waits_is_helped_however_soon_the_zone_is_deserted() {
+    let mut team = blocking();
+    team.robots[0].setup.waiting.clear = Millis::ZERO;
+    team.pass_until("go", Team::shows_go);
+}
