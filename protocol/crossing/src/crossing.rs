@@ -53,7 +53,9 @@ enum Standing {
     Leading,
     /// It follows in another robot's session.
     Following,
-    /// It has another part in another robot's session, a duty, or is unavailable.
+    /// It may not call, and has no part: a body that can still be commanded leaves the road.
+    Resting,
+    /// It has another part in another robot's session, a duty, or is unavailable with a body that is not its own to command.
     Bound,
 }
 
@@ -196,10 +198,13 @@ impl<const N: usize> Crossing<N> {
     /// Takes in what the protocol knows after a step.
     pub fn learn(&mut self, setup: &Setup, robot: &Robot) -> Outputs {
         let mut out = Outputs::EMPTY;
-        let is_available = robot.availability() == Availability::Available;
         let was_own = self.is_own();
         self.standing = match robot.phase() {
-            Phase::Idle if is_available && robot.duty().is_none() => Standing::Free,
+            Phase::Idle if robot.duty().is_none() => match robot.availability() {
+                Availability::Available => Standing::Free,
+                Availability::Unavailable(why) if why.can_fall_back() => Standing::Resting,
+                Availability::Unavailable(_) => Standing::Bound,
+            },
             Phase::Requesting(_) => Standing::Requesting,
             Phase::Leading(_) => Standing::Leading,
             Phase::Following(_) => Standing::Following,
@@ -261,7 +266,7 @@ impl<const N: usize> Crossing<N> {
     fn elapse(&mut self, setup: &Setup, time: Millis, out: &mut Outputs) {
         // Nothing tells a robot without sensors that somebody who was lost on the road has left it. Without a part it guards nobody,
         // and would stand on the lane for them for ever.
-        if !self.occupancy.has_sources() && self.standing == Standing::Free {
+        if !self.occupancy.has_sources() && self.has_no_part() {
             self.tracks.resolve();
         }
         self.tracks.elapse(setup, time, self.sign > Millis::ZERO);
@@ -471,7 +476,7 @@ impl<const N: usize> Crossing<N> {
         let (Some(home), Some((pose, _))) = (setup.home, self.pose) else {
             return;
         };
-        if self.standing != Standing::Free || setup.ground.is_road(home) {
+        if !self.has_no_part() || setup.ground.is_road(home) {
             return;
         }
         let is_out = setup.ground.is_road(pose.at) || self.walk.is_some();
@@ -728,6 +733,11 @@ impl<const N: usize> Crossing<N> {
         }
     }
 
+    /// Whether it is in no session and has no duty, and its body is its own to command.
+    const fn has_no_part(&self) -> bool {
+        matches!(self.standing, Standing::Free | Standing::Resting)
+    }
+
     /// Whether the session is one that it called for.
     const fn is_own(&self) -> bool {
         matches!(self.standing, Standing::Requesting | Standing::Leading)
@@ -764,7 +774,7 @@ impl<const N: usize> Crossing<N> {
             // would have them wait for somebody's word that the road is clear. Without a plan, somebody else says
             // when the task is over.
             Standing::Leading => self.is_preparing(setup) && self.corridor == Corridor::Clear,
-            Standing::Free | Standing::Following | Standing::Bound => false,
+            Standing::Free | Standing::Resting | Standing::Following | Standing::Bound => false,
         };
         let is_wanted = self.wanted > Millis::ZERO || self.is_wanted();
         if self.is_called && may_end && !self.has_opened && !is_wanted {

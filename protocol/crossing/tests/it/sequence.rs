@@ -1,7 +1,7 @@
 //! What a robot keeps of one session in the next, and a person's word against what sensors see.
 
 use crossguard_crossing::*;
-use crossguard_protocol::{Event, Millis, TaskType};
+use crossguard_protocol::{Availability, Event, Millis, Phase, TaskType, Unavailability};
 
 use crate::scene::*;
 use crate::team::*;
@@ -65,4 +65,29 @@ fn a_person_who_waits_is_helped_however_soon_the_zone_is_deserted() {
     let mut team = blocking();
     team.robots[0].setup.waiting.clear = Millis::ZERO;
     team.pass_until("go", Team::shows_go);
+}
+
+/// Hazard: a guard whose battery is low has no part any more, and stands on the lane.
+#[test]
+fn a_robot_that_can_still_walk_leaves_the_road_although_it_helps_nobody() {
+    for (why, leaves) in [
+        (Unavailability::LowBattery, true),
+        (Unavailability::NotSafe, true),
+        (Unavailability::Teleoperated, false),
+        (Unavailability::EmergencyStop, false),
+        (Unavailability::LocalFault, false),
+    ] {
+        let mut team = blocking();
+        team.pass_until("go", Team::shows_go);
+        walk_across(&mut team);
+        team.pass_until("idle", Team::is_idle);
+        team.robots[0].setup.calls = false;
+        let unavailable = Availability::Unavailable(why);
+        team.event(1, Event::AvailabilityChanged(unavailable));
+        let home = Point::new(-100, -150);
+        team.robots[1].setup.home = Some(home);
+        team.pass(20_000);
+        assert!(matches!(team.robots[1].robot.phase(), Phase::Idle));
+        assert_eq!(team.robots[1].body.at == home, leaves, "{why:?}");
+    }
 }
