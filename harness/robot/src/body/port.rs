@@ -411,6 +411,10 @@ impl Body for Ported {
         }
     }
 
+    fn walks_back(&self) -> bool {
+        self.presence == Presence::Here && self.fallback == Some(Fallback::UnderWay)
+    }
+
     fn walk_to(&mut self, place: Place, heading_deg: Option<f64>) {
         let to = At::of(&self.site, place);
         self.mention(&ToBody::Go { to, heading_deg });

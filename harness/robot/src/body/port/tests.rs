@@ -130,6 +130,33 @@ fn a_body_is_told_to_wait_and_to_go_on_in_its_maneuver() {
 
 /// Hazard: a robot hangs and goes on while its escort is on the way. The body has stood still meanwhile, and the person crosses alone
 /// under go, since the maneuver seems to run.
+/// Hazard: the robot is told to stop, and ends while its body brings a person to the kerb. The body hears nothing any more, and
+/// stands still in the middle of the road.
+#[test]
+fn a_body_that_falls_back_is_on_its_way_until_it_says_that_it_is_not_or_is_lost() {
+    for end in ["fallen-back", "closed", "holds"] {
+        let (mut body, mut other, _folder) = open(HELLO);
+        assert_eq!(report(&mut body), Some(Report::Here));
+        let policy = match end {
+            "holds" => FallbackPolicy::HoldUntilClear,
+            _ => FallbackPolicy::EscortToKerb,
+        };
+        let escort = maneuver(TaskType::MOVE);
+        body.act(BodyAct::FallBack(escort, policy)).unwrap();
+        assert_eq!(body.walks_back(), end != "holds");
+        match end {
+            "fallen-back" => writeln!(other, r#"{{"type": "fallen-back"}}"#).unwrap(),
+            _ => drop(other),
+        }
+        let ended = (0..60_000).find(|_| {
+            std::thread::sleep(Duration::from_millis(1));
+            body.advance(0.0);
+            !body.walks_back()
+        });
+        assert!(ended.is_some(), "{end}");
+    }
+}
+
 #[test]
 fn a_body_that_was_told_nothing_for_so_long_is_lost_although_it_says_that_it_is_there() {
     for (held_s, lost) in [
