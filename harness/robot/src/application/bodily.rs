@@ -34,10 +34,12 @@ impl Application {
                 return;
             }
             Report::Here => {
-                // A stop ends by the word of a person.
-                if self.bodily.missing.take() == Some(Unavailability::LocalFault) {
+                // A stop ends by the word of a person, also one that was told before the body came.
+                let was_absent = self.bodily.missing == Some(Unavailability::LocalFault);
+                if was_absent && !self.is_held_besides() {
                     self.wish_available(Availability::Available);
                 }
+                self.bodily.missing = None;
                 return;
             }
             Report::Silent(ref why) => {
@@ -69,9 +71,17 @@ impl Application {
             return;
         };
         let wanted = Availability::Unavailable(reason);
-        if self.availability != wanted {
+        if self.availability != wanted && !self.is_held_besides() {
             self.wish_available(wanted);
         }
+    }
+
+    /// Whether its robot takes no part for another reason than that its body was not started yet.
+    fn is_held_besides(&self) -> bool {
+        let absent = Unavailability::LocalFault;
+        self.bodily.missing == Some(absent)
+            && ![Availability::Available, Availability::Unavailable(absent)]
+                .contains(&self.availability)
     }
 
     /// Before anything else that it wants. 'Cannot take part' outlasts 'can': both may come about in one turn.

@@ -125,6 +125,42 @@ fn a_fault_outlasts_that_the_body_is_there() {
     }
 }
 
+/// Hazard: a person presses the emergency stop while the body starts, and its first word lifts that.
+#[test]
+fn a_stop_that_was_told_before_the_body_came_stands() {
+    for (told, lifted) in [
+        (None, true),
+        (Some(Unavailability::EmergencyStop), false),
+        (Some(Unavailability::Teleoperated), false),
+        (Some(Unavailability::LowBattery), false),
+    ] {
+        let mut application = Application::new(Box::new(Broken::default()), None);
+        let mut robot = Robot::new(StationId(1), 1);
+        let config = Config::default();
+        application.learn_of_body(Report::Absent);
+        let mut settle = |application: &mut Application, told: Option<Unavailability>| {
+            application.watch_body();
+            let told = told.map(|why| Event::AvailabilityChanged(Availability::Unavailable(why)));
+            let wishes = wishes(application);
+            let events = wishes.into_iter().filter_map(|it| match it {
+                Stimulus::Event(event) => Some(event),
+                _ => None,
+            });
+            for event in events.chain(told) {
+                robot.step(&config, protocol::Input::Local(event));
+            }
+            application.learn(&robot, &config);
+            robot.availability()
+        };
+        settle(&mut application, None);
+        settle(&mut application, told);
+        application.learn_of_body(Report::Here);
+        let availability = settle(&mut application, None);
+        assert_eq!(availability == Availability::Available, lifted, "{told:?}");
+        assert_eq!(settle(&mut application, None), availability);
+    }
+}
+
 /// Hazard: the crossing machine closes, and the sign goes on showing go; it holds a guard, and its body moves.
 #[test]
 fn what_the_crossing_machine_puts_out_reaches_sign_and_body() {
