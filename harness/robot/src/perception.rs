@@ -17,7 +17,7 @@
 //! it does not say what was covered, so the road is never clear by such lines. A line that is neither is counted
 //! and dropped, and the road is not clear by what came before it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::os::unix::fs::FileTypeExt as _;
@@ -328,11 +328,15 @@ impl Newest {
         let newest_ms = newest_ms.unwrap_or(taken_ms);
         self.0
             .retain(|_, (at_ms, _)| newest_ms - *at_ms < NEWEST_MS);
-        self.0
-            .values()
-            .flat_map(|(_, people)| people)
-            .copied()
-            .collect()
+        let everybody = self.0.values().flat_map(|(_, people)| people);
+        let mut taken = BTreeSet::new();
+        let people = everybody.map(|vru| {
+            // A number that several have is that of the first: the others are announced, too.
+            let mut numbers = (0..=u32::MAX).map(|step| vru.id.wrapping_sub(step));
+            let id = numbers.find(|id| taken.insert(*id)).unwrap_or(vru.id);
+            PerceivedVru { id, ..*vru }
+        });
+        people.collect()
     }
 }
 
@@ -492,6 +496,7 @@ impl Announced {
 #[cfg(test)]
 mod tests {
     use crossguard_codec::core::cdd::{CardinalNumber1B, Identifier1B};
+    use crossguard_endpoint::ras::clustering::{Clustering, Settings};
 
     use super::*;
     use crate::table::rows;
@@ -579,6 +584,33 @@ mod tests {
         assert!(taken.elapsed() >= Duration::from_millis(2_900));
         let future = unix_s(Duration::ZERO) + 60.0;
         assert!(instant_of(future).unwrap_err().contains("in the future"));
+    }
+
+    /// Hazard: two people of one number, or one without a number beside another, are one in RAM: nobody is told of the second.
+    #[test]
+    fn everybody_in_the_newest_frames_has_a_number_of_their_own() {
+        let people = |line: &str| -> Vec<[f64; 2]> {
+            let Observation::Frame(frame, _) = parse(line).unwrap() else {
+                panic!("no frame")
+            };
+            let seen = Newest::default().look(&frame, 0);
+            let mut clustering = Clustering::new(Settings::default(), 1);
+            clustering.perceive(0, [0.0, 0.0], &seen);
+            assert_eq!(clustering.members(), frame.people.len(), "{line}");
+            seen.iter().map(|it| it.position_m).collect()
+        };
+        for ids in [
+            ["\"id\": 7, ", "\"id\": 7, "],
+            ["", "\"id\": 0, "],
+            ["\"id\": 1, ", ""],
+            ["", ""],
+        ] {
+            let [one, two] = ids;
+            let line = format!(
+                r#"{{"at_s": 1, "people": [{{{one}"position_m": [1, 0]}}, {{{two}"position_m": [2, 0]}}]}}"#
+            );
+            assert_eq!(people(&line), [[1.0, 0.0], [2.0, 0.0]]);
+        }
     }
 
     #[test]
