@@ -39,7 +39,9 @@ use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::surroundings::Awareness;
 use crossguard_endpoint::station::Security;
 use crossguard_endpoint::{Effect, Endpoint, Stimulus};
-use crossguard_protocol::{Config, Event, Output, Phase, Robot, StationId};
+use crossguard_protocol::{
+    Availability, Config, Event, Output, Phase, Robot, StationId, Unavailability,
+};
 
 pub use self::clock::Clock;
 pub(crate) use self::clock::timestamp_now;
@@ -439,6 +441,12 @@ impl Loop {
             self.stopping = true;
             let has_part = !matches!(self.machine.endpoint.robot().phase(), Phase::Idle);
             self.handle(event(has_part.then_some(Event::LeaveRequested)));
+            // While it says farewell it is asked for help again.
+            let is_available =
+                self.machine.endpoint.robot().availability() == Availability::Available;
+            let not_safe = Availability::Unavailable(Unavailability::NotSafe);
+            let changed = Event::AvailabilityChanged(not_safe);
+            self.handle(event((has_part && is_available).then_some(changed)));
         }
     }
 

@@ -1,15 +1,23 @@
-//! A robot whose thread panics is noticed: its body is halted, and who waits for it is told.
+//! Ends of a running robot. One whose thread panics is noticed: its body is halted, and its owner is told.
 
+use std::net::UdpSocket;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::sync::mpsc::Receiver;
+use std::time::{Duration, Instant};
 
 use crossguard_codec::RobotState;
-use crossguard_protocol::StationId;
+use crossguard_endpoint::Stimulus;
+use crossguard_endpoint::cause::Cause;
+use crossguard_protocol::{
+    self as protocol, Event, HelpRequest, Phase, StationId, TaskSet, TaskType, Urgency,
+};
 use crossguard_robot::application::Application;
 use crossguard_robot::body::{Body, BodyAct, Build, Fallback, NotTaken, Report, Simulated};
+use crossguard_robot::journal::{RECORDS, WhenFull};
 use crossguard_robot::runtime::{Order, Panicked, Running, Setup};
 use crossguard_robot::site::{Place, Site};
+use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Link, Transport};
 
 /// A body whose driver has a mistake in it, which shows when it is told to.
@@ -79,6 +87,49 @@ fn a_robot_that_panics_halts_its_body_and_says_so() {
     // No robot is there to obey, and nobody has to wait.
     robot.order(Order::Stop);
     assert_eq!(robot.wait(), Err(Panicked));
+}
+
+/// A robot at this port that hears the one at the other, and whether it offers its help.
+fn at_port(station: u32, [own, other]: [u16; 2]) -> (Running, Receiver<Arc<Record>>) {
+    let body = Simulated::new(Build::Quadruped, Site::default(), Place::default(), 1.0, 1);
+    let application = Application::new(Box::new(body), None);
+    let peer = ([127, 0, 0, 1], other).into();
+    let link = Link::loopback(own, vec![peer]).open().unwrap();
+    let mut setup = Setup::new("R", StationId(station), application, link);
+    let records = setup
+        .journal
+        .reader(RECORDS, WhenFull::Skip, Cause::OutputFull);
+    (setup.start(), records)
+}
+
+/// Hazard: a robot that is told to stop is asked for help while it says farewell, and helps. Its operator, or the machine,
+/// loses patience, and ends it in the middle of a crossing.
+#[test]
+fn a_robot_that_is_told_to_stop_helps_nobody_any_more() {
+    let [one, two] = [(); 2].map(|()| UdpSocket::bind("127.0.0.1:0").unwrap());
+    let ports = [&one, &two].map(|it| it.local_addr().unwrap().port());
+    drop((one, two));
+    let (requester, _) = at_port(1, ports);
+    let (helper, records) = at_port(2, [ports[1], ports[0]]);
+    // One helper is too few, so it asks until the test is over.
+    let request = HelpRequest {
+        urgency: Urgency::Medium,
+        followers: 2,
+        tasks: TaskSet::of(&[TaskType::BLOCK]),
+        place: protocol::Place::UNKNOWN,
+    };
+    let asks = Event::PedestrianDetected(request);
+    requester.order(Order::Wish(Stimulus::Event(asks)));
+    let offers = |record: Arc<Record>| match &record.entry {
+        Entry::Step { state, .. } => matches!(state.phase(), Phase::Offering(_)),
+        _ => false,
+    };
+    while !offers(records.recv_timeout(Duration::from_secs(30)).unwrap()) {}
+    let told = Instant::now();
+    helper.stop().unwrap();
+    let took = told.elapsed();
+    requester.stop().unwrap();
+    assert!(took < Duration::from_secs(5), "{took:?}");
 }
 
 #[test]
