@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use crossguard_codec::geonet::{Address, EgoPosition, Stack};
 use crossguard_codec::security::{Certificate, Permission, PrivateKey, Ticket, Time64};
 use crossguard_codec::{
-    Identifiers, Part, Position, RobotState, Service, encode, golden, ram_from,
+    Identifiers, Kind, Part, Position, RobotState, Service, encode, golden, ram_from,
 };
 use crossguard_endpoint::station::{Credentials, Mode, NAMES_MAX, Security};
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
@@ -427,6 +427,38 @@ fn a_vehicle_has_one_name_and_keeps_it_while_it_is_heard() {
     let packet = vehicle.cam(street.now_ms, named);
     street.hear(0, &packet);
     assert_eq!(street.heard(0, named), 2);
+}
+
+/// Hazard: a ticket takes the ids of vehicles before they come within reach, and go is shown in front of them.
+#[test]
+fn a_vehicle_whose_id_another_ticket_has_is_on_the_road_all_the_same() {
+    let mut street = Street::new(&[LEADER]);
+    let mut liar = Liar::new(&street.pki, &[], None);
+    let mut vehicle = Liar::new(&street.pki, &[], None);
+    let named = StationId(100);
+    let vehicles = |street: &mut Street, packet: &[u8]| {
+        street.hear(0, packet);
+        let robot = street.robots[0].as_ref().unwrap();
+        robot.map().of_kind(Kind::Vehicle).count()
+    };
+    let packet = liar.cam(street.now_ms, named);
+    assert_eq!(vehicles(&mut street, &packet), 1);
+    let packet = vehicle.cam(street.now_ms, named);
+    assert_eq!(vehicles(&mut street, &packet), 2);
+    assert_eq!(street.dropped(0, TAKEN), 1);
+    // A ticket is one more vehicle, whatever ids it goes by.
+    for id in 0..10 {
+        let packet = liar.cam(street.now_ms, StationId(1_000 + id));
+        assert_eq!(vehicles(&mut street, &packet), 3);
+    }
+    let mut moved = Liar::new(&street.pki, &[], None);
+    let packet = moved.cam(street.now_ms, StationId(200));
+    assert_eq!(vehicles(&mut street, &packet), 4);
+    let mut cam = hex::decode(golden::vector(golden::ITS, "C2")).unwrap();
+    cam[2..6].copy_from_slice(&200_u32.to_be_bytes());
+    let packet = moved.say(street.now_ms + 10, Service::Cam, StationId(201), &cam);
+    assert_eq!(vehicles(&mut street, &packet), 5);
+    assert_eq!(street.dropped(0, "address of another station"), 1);
 }
 
 /// Hazard: a phone that is one person says that it is many.

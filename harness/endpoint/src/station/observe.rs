@@ -1,8 +1,8 @@
 //! Messages of other stations than robots: the road users that they put on the map.
 
-use crossguard_codec::geonet::{EgoPosition, Indication};
+use crossguard_codec::geonet::{EgoPosition, Indication, Signer};
 use crossguard_codec::its::ItsMessage;
-use crossguard_codec::{DecodeError, Received, Service};
+use crossguard_codec::{DecodeError, Identity, Received, RoadUser, Service};
 use crossguard_protocol::StationId;
 
 use super::namesakes::NotAdmitted;
@@ -39,7 +39,7 @@ pub enum Unobserved {
     /// It goes by the own station id: the robot is not its own neighbour.
     #[error("a message of the own station {0}")]
     OwnStation(StationId),
-    /// Its certificate may not go by its station id.
+    /// Its certificate may not go by its station id; its road users count, apart from those of others.
     #[error(transparent)]
     NotAdmitted(#[from] NotAdmitted),
 }
@@ -59,7 +59,7 @@ impl Neighbours {
     /// Puts the road users of the message of another station than `me` on the map, and returns the message.
     ///
     /// # Errors
-    /// Why the octets are not the message of this service, or of another station.
+    /// Why the octets are not the message of this service, or of another station, or not of one that may go by this id.
     pub(crate) fn observe(
         &mut self,
         me: StationId,
@@ -77,14 +77,31 @@ impl Neighbours {
         if message.header().station_id.0 == me.0 {
             return Err(Unobserved::OwnStation(me));
         }
-        if let Some(signer) = indication.signer {
+        let refused = indication.signer.and_then(|signer| {
             let from = StationId(message.header().station_id.0);
             let as_whom = (signer, indication.source.address);
-            self.namesakes.admit(from, as_whom, now_ms)?;
-        }
+            let admitted = self.namesakes.admit(from, as_whom, now_ms);
+            admitted.err().map(|why| (why, signer))
+        });
         for user in message.road_users(ego.timestamp_its) {
+            let user = refused.map_or(user, |(_, signer)| apart(user, signer));
             self.map.observe(user, now_ms);
         }
-        Ok(received)
+        refused.map_or(Ok(received), |(why, _)| Err(why.into()))
+    }
+}
+
+/// A road user whose station may not go by its id, by the ticket that tells of them. They are on the road all the same, take the
+/// place of nobody, and one ticket is one of them, whatever ids it goes by.
+fn apart(user: RoadUser, signer: Signer) -> RoadUser {
+    let digest = u64::from_be_bytes(signer.0);
+    let number = match user.identity {
+        Identity::Station(_) => u16::try_from(digest % (1 << 16)).unwrap_or_default(),
+        Identity::Object { number, .. } => number,
+    };
+    let by = u32::try_from(digest >> 32).unwrap_or_default();
+    RoadUser {
+        identity: Identity::Object { by, number },
+        ..user
     }
 }
