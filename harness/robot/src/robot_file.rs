@@ -13,7 +13,9 @@ use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering;
 use crossguard_endpoint::ras::surroundings::{Awareness, CLUSTER_INTERVAL_MS};
 use crossguard_endpoint::station::Security;
-use crossguard_protocol::{BrokenInequality, Config, Settings, SettingsInFiles, StationId};
+use crossguard_protocol::{
+    BrokenInequality, Config, Settings, SettingsInFiles, StationId, TaskType,
+};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
@@ -214,6 +216,11 @@ pub enum Impossibility {
         /// How long a slow walker is on the carriageway, in seconds.
         walk_s: f64,
     },
+    /// An escort would be sent ahead of its person.
+    #[error(
+        "[protocol] holding has 'move': an escort guards beside a person on the way, and not from a place over there"
+    )]
+    EscortHolds,
     /// Identifiers contradict each other.
     #[error("[identifiers] {0}")]
     Identifiers(#[from] IdentifierClash),
@@ -475,6 +482,9 @@ impl RobotTable {
             .map(|zone| zone.check(&layout, confidence_min, autopilot));
         let (zone, kerbs) = zone.transpose()?.unzip();
         let config = Config::new(self.protocol)?;
+        if config.settings().holding.contains(TaskType::MOVE) {
+            return Err(Impossibility::EscortHolds);
+        }
         let t_cross_s = f64::from(config.settings().t_cross.0) / 1_000.0;
         if let Some(walk_s) = layout.walk_s().filter(|walk_s| *walk_s > t_cross_s) {
             return Err(Impossibility::CrossingTime { t_cross_s, walk_s });
@@ -482,6 +492,14 @@ impl RobotTable {
         let carriageway = layout.carriageway();
         let carriageway = carriageway.map(|it| Area::Polygon(outline(it.whole)));
         let own_road = zone.as_ref().and_then(|zone| zone.road.as_ref());
+        if let (Some(road), Some(of_site), true) =
+            (own_road, layout.carriageway(), self.site_file.is_some())
+        {
+            let crossing = Zone::of_road(Area::Polygon(outline(of_site.crossing)));
+            if crossing.covered(Some(road)) != crossing.covered(None) {
+                return Err(NoZone::PartialRoad.into());
+            }
+        }
         // A file without a site has the street of the demonstrations, unless it has a road of its own.
         let has_layout = self.site_file.is_some() || own_road.is_none();
         let is_on_road = |place: &Place| {

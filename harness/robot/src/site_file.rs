@@ -209,16 +209,16 @@ impl SiteFile {
         let lane = self.lane_at(place).map(|lane| &lane.name);
         let road = self.carriageway();
         match (purpose, lane) {
-            (Purpose::Guard, None) => (!self.lanes.is_empty())
-                .then(|| format!("{name} is for guarding, and on no lane")),
-            (Purpose::Guard, Some(lane)) => {
-                road.filter(|road| !road.is_beside(place)).map(|_| {
-                    format!(
-                        "{name} is on lane '{lane}', which is not between the kerbs: people on it would not count as on \
-                         the road"
-                    )
-                })
+            (Purpose::Guard, None) if !self.lanes.is_empty() => {
+                Some(format!("{name} is for guarding, and on no lane"))
             }
+            (Purpose::Guard, lane) => road.filter(|road| !road.is_beside(place)).map(|_| {
+                let whose = lane.map(|lane| format!("on lane '{lane}', which is "));
+                let whose = whose.unwrap_or_default();
+                format!(
+                    "{name} is {whose}not between the kerbs: people on it would not count as on the road"
+                )
+            }),
             (Purpose::Wait | Purpose::Cross, Some(lane)) => Some(format!(
                 "{name} is on lane '{lane}': only places to guard may be on one"
             )),
@@ -430,6 +430,15 @@ map_place = "segment 276:12" | map_place = "street 1" | s.toml:13:
         let island = narrow.replacen("[1.0, 8.0]", "[1.0, 3.5]", 1);
         let error = SiteFile::parse("s.toml", "s", &island).unwrap_err();
         let cause = "place 'far-kerb' is between the kerbs";
+        assert!(error.to_string().contains(cause), "{error}");
+        let (before, lanes) = STREET.split_once("[[lanes]]").unwrap();
+        let (_, places) = lanes.split_once("[places]").unwrap();
+        let beside = places.replacen("[-4.0, 2.0]", "[-4.0, 9.0]", 1);
+        let without_lanes =
+            |places: &str| SiteFile::parse("s.toml", "s", &format!("{before}[places]{places}"));
+        assert!(without_lanes(places).is_ok());
+        let error = without_lanes(&beside).unwrap_err();
+        let cause = "place 'near-lane' is not between the kerbs";
         assert!(error.to_string().contains(cause), "{error}");
     }
 }

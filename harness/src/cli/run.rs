@@ -155,7 +155,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let read = read.into_iter().flatten().chain([config, &file.boot_file]);
     let written = [&arguments.log, &arguments.pcap].into_iter().flatten();
     destinations::others(written, read)?;
-    output::warn_of_no_road(&file);
+    output::warn_of_no_road(&file, arguments.perceived.is_some());
     if arguments.check {
         return print(can_be_run(config, &file));
     }

@@ -54,3 +54,20 @@ fn a_robot_that_knows_no_carriageway_says_so() {
     let checked = run_well("run --config tests/cmd/refused.in/kerbless.toml --check");
     stderr(&checked).must_have(&["no kerbs_m"]);
 }
+
+/// Hazard: a robot with a real body and real sensors leads by simulated people, and its guards leave when these are across.
+#[test]
+fn a_robot_that_does_not_count_the_people_of_its_sensors_says_so() {
+    for (config, expected) in [
+        ("ari", Some("those of a simulation")),
+        ("go2", Some("it does not stay for them")),
+        ("kerb", None),
+    ] {
+        let perceived = "--perceived examples/people.jsonl --check";
+        let checked = run_well(&format!("run --config examples/{config}.toml {perceived}"));
+        match expected {
+            Some(warning) => stderr(&checked).must_have(&[warning]),
+            None => assert!(!stderr(&checked).contains("warning"), "{config}"),
+        }
+    }
+}

@@ -16,7 +16,7 @@ robot | [0.0, -1.5]        | [-18.0, 2.0]         | place is [-18, 2], on the ca
 robot | place = [0.0, -1.5] | LONG                | robot.toml: TOML parse error
 robot | [0.53, 0.75, 1.65] | [0,53, 0,75, 1,65]   | 6 elements are here, and 3 are wanted
 robot | [6.0, 9.0]]        | [6,0, 9,0]]          | 4 elements are here, and 2 are wanted
-robot | [5.0, 7.0]]        | [5.0, 7.0, 0.0]]     | 3 elements are here, and 2 are wanted
+robot | [-3.0, 7.0]]       | [-3.0, 7.0, 0.0]]    | 3 elements are here, and 2 are wanted
 robot | [1.0, 8.0]]        | [1.0, 8.0, 0.0]]     | 3 elements are here, and 2 are wanted
 robot | [1.0, 8.0]]        | [1.0, 8.0], [0, 0]]  | 3 elements are here, and 2 are wanted
 robot | [1.0, 8.0]]        | [1.0, 2000.0]]       | [zone] escort_m: [1, 2000] is no place: metres on the site, at most 1000
@@ -27,6 +27,7 @@ robot | plan_file          | autopilot = true #   | 'autopilot' on a site of its
 robot | its_aid = 16482    | its_aid = 16481      | [identifiers] two services have the ITS-AID 16481
 robot | its_aid = 16482    | its_aid = 36         | [identifiers] two services have the ITS-AID 36
 robot | its_aid = 16482    | its_aid = 638        | [identifiers] two services have the ITS-AID 638
+robot | [5.0, 7.0], [-3    | [5.0, 6.9], [-3      | [zone] road_m leaves out a part of the crossing between the kerbs of the site
 robot | unix:ari.sock      | tcp:47600            | [body] listen: 'tcp:47600' is no UNIX socket: "unix:FILE" is wanted
 robot | unix:ari-op.sock   | 127.0.0.1:47700      | [operator] listen: '127.0.0.1:47700' is no UNIX socket: "unix:FILE" is wanted
 site  | [-4.0, 2.0]        | [-4,0, 2,0]          | site.toml:37: 4 elements are here, and 2 are wanted
@@ -52,7 +53,7 @@ site_file = "site.toml"
 plan_file = "plan.toml"
 [zone]
 polygon_m = [[-4.0, -2.0], [6.0, -2.0], [6.0, 9.0]]
-road_m = [[-3.0, 0.0], [5.0, 0.0], [5.0, 7.0]]
+road_m = [[-3.0, 0.0], [5.0, 0.0], [5.0, 7.0], [-3.0, 7.0]]
 escort_m = [[1.0, -1.0], [1.0, 8.0]]
 [body]
 listen = "unix:ari.sock"
@@ -116,6 +117,7 @@ fn read(protocol: &str) -> Result<RobotFile, String> {
 /// Settings, and what is said of them.
 const UNSAFE: &str = "
 holding = 0     | [protocol] the settings break 'block-holds'
+holding = 6     | [protocol] holding has 'move': an escort guards beside a person on the way
 guarding = 0    | [protocol] the settings break 'named-tasks-guard'
 t_cross = 1     | [protocol] t_cross is 0.001 s: a slow walker (0.9 m/s) is between the kerbs of the site for 7.8 s
 t_cross = 20000 | plan crossing:27: role 'escort' goes 9.0 m at 0.424 m/s, which takes 21.2 s: t_cross is 20 s

@@ -21,9 +21,13 @@ use serde::{Deserialize, Deserializer};
 
 use crate::located::{Exact, Impossible, NEAR_M, Number, is_near, possible};
 use crate::plan::millis;
+use crate::sight::corners as corners_of;
 use crate::site::Place;
 use crate::site_file::{Purpose, SiteFile, Spot, between};
 use crate::zone::{NoPolygon, Zone, polygon};
+
+/// How far from the carriageway people wait to cross it at most, in metres.
+const PAVEMENT_MAX_M: f64 = 20.0;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -84,6 +88,17 @@ pub enum NoZone {
         "pavement_m wants a site with kerbs, and site '{0}' has none; say 'polygon_m' and 'road_m' instead"
     )]
     Kerbs(String),
+    /// People between the kerbs would not count as on the road.
+    #[error(
+        "road_m leaves out a part of the crossing between the kerbs of the site: people there would not count as on the \
+         road; leave it out, or draw it around the carriageway"
+    )]
+    PartialRoad,
+    /// People wait at another road.
+    #[error(
+        "people wait more than {PAVEMENT_MAX_M} m from road_m: it is the carriageway that they cross"
+    )]
+    OtherRoad,
     /// A robot that leads by itself does not see when people are across.
     #[error("has no 'road_m': with autopilot one is wanted, to see when everybody is across")]
     NoRoad,
@@ -101,7 +116,12 @@ impl ZoneTable {
         if self.polygon_m.is_some() || self.place_m.is_some() || self.radius_m.is_some() {
             return Err(NoZone::Shape);
         }
-        let pavement_m = possible("pavement_m", pavement_m, 0.5..=20.0, "0.5 to 20 m")?;
+        let pavement_m = possible(
+            "pavement_m",
+            pavement_m,
+            0.5..=PAVEMENT_MAX_M,
+            "0.5 to 20 m",
+        )?;
         let Some([near, far]) = layout.kerbs else {
             return Err(NoZone::Kerbs(layout.name.clone()));
         };
@@ -145,6 +165,9 @@ impl ZoneTable {
         match (&waiting, &road) {
             (_, None) if is_autopilot => return Err(NoZone::NoRoad),
             (None, _) if is_autopilot => return Err(NoZone::NobodyWaits),
+            (Some(waiting), Some(road)) if !is_beside(waiting, road) => {
+                return Err(NoZone::OtherRoad);
+            }
             _ => {}
         }
         let kerbs = self.escort_m.map(|Exact([from, to])| {
@@ -193,6 +216,13 @@ impl ZoneTable {
         };
         Ok((zone, kerbs.transpose()?))
     }
+}
+
+/// Whether a place where people wait is at most as far from a carriageway as a pavement is wide, or on it.
+fn is_beside(waiting: &Area, road: &Area) -> bool {
+    let is_near = |at: &[f64; 2]| road.distance_m(*at) <= PAVEMENT_MAX_M;
+    corners_of(waiting).iter().any(is_near)
+        || corners_of(road).iter().any(|at| waiting.contains(*at))
 }
 
 /// Hundredths.
@@ -301,6 +331,7 @@ road_m = [[0, 0], [1, 1], [0, -1e308]]           | road_m: [0, -1e308] is no pla
 polygon_m = [[0, 0], [2, 2], [2, 0], [0, 2]]     | polygon_m: its sides 1 and 3 cross
 road_m = [[0, 0], [2, 0], [4, 0]]                | road_m: its corners enclose nothing
 place_m = [1, 2]\nradius_m = 0                   | radius_m is 0: 0.1 to 1000 m is wanted
+CIRCLE\nroad_m = [[30, 0], [40, 0], [40, 7], [30, 7]] | people wait more than 20 m from road_m
 CIRCLE\ndwell_s = -1                             | dwell_s is -1: 0 to 60 s is wanted
 CIRCLE\nspeed_max_mps = nan                      | speed_max_mps is NaN: 0.05 to 2 m/s
 CIRCLE\ndwel_s = 1                               | unknown field `dwel_s`

@@ -99,13 +99,22 @@ fn to_stdout(records: Receiver<Arc<Record>>) -> Writing {
     )
 }
 
-/// Says on standard error that a robot does not know where its carriageway is.
-pub(super) fn warn_of_no_road(file: &RobotFile) {
-    if matches!(file.road(), Road::Unknown) {
-        complain(format_args!(
-            "warning: the site of {} has no kerbs_m, so it does not know where the carriageway is: it steps on it in front of \
-             vehicles, and does not leave it by itself; say kerbs_m in the site file, or road_m in [zone]",
-            file.name
-        ));
+/// Says on standard error that a robot does not know where its carriageway is, or not by its sensors who is on it.
+pub(super) fn warn_of_no_road(file: &RobotFile, is_perceiving: bool) {
+    let name = &file.name;
+    match file.road() {
+        Road::Unknown => complain(format_args!(
+            "warning: the site of {name} has no kerbs_m, so it does not know where the carriageway is: it steps on it in front of \
+             vehicles, and does not leave it by itself; say kerbs_m in the site file, or road_m in [zone]"
+        )),
+        Road::Own(_) if is_perceiving || file.body_port.is_some() => complain(format_args!(
+            "warning: {name} leads and has no [zone], so the people who cross are those of a simulation, whatever its sensors \
+             have: its guards leave the road when these are across; say [zone] where people are real"
+        )),
+        Road::Heard(_) if is_perceiving => complain(format_args!(
+            "warning: {name} has no [zone], so the people that its sensors have are told to others alone: it does not stay for \
+             them; say [zone] with road_m"
+        )),
+        _ => {}
     }
 }
