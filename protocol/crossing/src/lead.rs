@@ -196,6 +196,13 @@ impl Lead {
         stages.find_map(|stage| plan.leg(stage, seat, self.turned))
     }
 
+    /// The leg that a follower carries out: that of the stage, or else the place of an earlier one from which it guards.
+    fn due_leg(&self, view: &View<'_>, seat: usize) -> Option<Leg> {
+        let held = || self.held_leg(view.plan, seat);
+        let leg = self.leg(view.plan, seat);
+        leg.or_else(|| held().filter(|held| view.holds(Some(*held))))
+    }
+
     /// Takes in what the protocol tells. `false` when the plan is over.
     pub(crate) fn notice(&mut self, view: &View<'_>, notice: Notice, out: &mut Outputs) -> bool {
         match notice {
@@ -285,7 +292,7 @@ impl Lead {
         if self.is_elsewhere(seat) {
             return self.command(view, seat, out);
         }
-        let holds = view.holds(self.leg(view.plan, seat));
+        let holds = view.holds(self.due_leg(view, seat));
         if let Some(it) = self.at(seat)
             && holds
         {
@@ -334,7 +341,7 @@ impl Lead {
     /// Commands the follower's leg, again if it failed; in the end the leader gives up. A leg that takes a person on the road
     /// waits for everybody who guards from a place.
     fn command(&mut self, view: &View<'_>, seat: usize, out: &mut Outputs) {
-        let leg = self.leg(view.plan, seat);
+        let leg = self.due_leg(view, seat);
         let is_hindered = view.escorts(leg) && self.hindrance(view).is_some();
         let Some(it) = self.at(seat) else { return };
         let Some(leg) = leg else {
@@ -550,7 +557,7 @@ impl Lead {
                 let is_away = it.part == Part::Holds && it.presence.is_elsewhere() || it.has_left;
                 is_away && it.pause == Millis::ZERO
             };
-            let holds = view.holds(self.leg(view.plan, seat));
+            let holds = view.holds(self.due_leg(view, seat));
             if holds && self.is(seat, is_away) {
                 self.command(view, seat, out);
             }

@@ -315,6 +315,48 @@ fn a_stage_begins_when_everybody_has_done_their_part_of_the_one_before() {
     assert_eq!(leader.pass(1_000), "", "one guard is not there");
 }
 
+/// Hazard: a guard is pushed off its place, or falls back, while an escort has the only part of the last stage. It comes back, and
+/// people wait for go until the leader gives up.
+#[test]
+fn a_guard_of_an_earlier_stage_is_commanded_back_and_counts_when_it_is_back() {
+    let stage = |role, task, to| Stage {
+        parts: core::iter::once((Who::Role(role), leg(task, to))).collect(),
+    };
+    let over_there = Point::new(100, 800);
+    let in_last_stage = || {
+        let mut leader = Leader::of(Plan {
+            followers: 2,
+            roles: [None, None].into_iter().collect(),
+            ..plan([
+                stage(0, TaskType::BLOCK, PLACE),
+                stage(1, TaskType::MOVE, over_there),
+            ])
+        });
+        assert_eq!(leader.joins(FIRST), "order");
+        assert_eq!(leader.joins(SECOND), "");
+        assert_eq!(leader.reports_from(FIRST, PLACE), "order");
+        let goes = Notice::ManeuverReported(SECOND, ID);
+        assert_eq!(leader.hear(goes), "open");
+        leader
+    };
+    let leaves = Notice::ManeuverReported(FIRST, ID);
+    let block = leg(TaskType::BLOCK, PLACE);
+    let mut leader = in_last_stage();
+    assert_eq!(leader.hear(leaves), "");
+    assert_eq!(leader.reports_from(FIRST, PLACE), "open");
+    let mut leader = in_last_stage();
+    leader.pass(500);
+    leader.hear(leaves);
+    leader.is_at(FIRST, Point::new(600, 820));
+    leader.pass(100);
+    assert_eq!(leader.ordered(), Some((FIRST, block)));
+    let mut leader = in_last_stage();
+    leader.pass(500);
+    leader.hear(Notice::FollowerSafeIdle(FIRST, ID));
+    assert_eq!(leader.ordered(), Some((FIRST, block)));
+    assert_eq!(leader.reports_from(FIRST, PLACE), "open");
+}
+
 /// The escort is across, and nobody came along.
 #[test]
 fn an_escort_is_commanded_anew_at_the_opening_period_and_not_without_end() {
