@@ -782,10 +782,13 @@ impl<const N: usize> Crossing<N> {
         }
     }
 
-    /// Whether its plan has stages before the last one, in which nobody crosses.
+    /// Whether its plan is in a stage before the last one, and nobody guards yet.
     fn is_preparing(&self, setup: &Setup) -> bool {
         match (&setup.plan, &self.lead) {
-            (Some(plan), Some(lead)) => !plan.is_last(lead.stage()),
+            (Some(plan), Some(lead)) => {
+                let stage = lead.stage();
+                !plan.is_last(stage) && !plan.guards_by(stage, setup.guarding)
+            }
             _ => false,
         }
     }

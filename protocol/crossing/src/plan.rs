@@ -152,6 +152,14 @@ impl Plan {
         })
     }
 
+    /// Whether a guard is sent to its place, or somebody escorts, in a stage or one before it.
+    #[must_use]
+    pub(crate) fn guards_by(&self, stage: u8, guarding: TaskSet) -> bool {
+        let stages = self.stages.iter().take(usize::from(stage) + 1);
+        let mut legs = stages.flat_map(|stage| stage.parts.iter());
+        legs.any(|(_, leg)| guarding.contains(leg.task))
+    }
+
     /// Whether people are escorted in a stage: somebody guards without holding a place.
     #[must_use]
     pub fn is_escort(&self, stage: u8, escorts: TaskSet) -> bool {

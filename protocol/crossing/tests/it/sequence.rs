@@ -67,6 +67,42 @@ fn a_person_who_waits_is_helped_however_soon_the_zone_is_deserted() {
     team.pass_until("go", Team::shows_go);
 }
 
+/// Hazard: everybody leaves while a guard without sensors stands on the lane already and the escort is still to be sent. The session
+/// is left, and the guard stands there until a person says clear: the next person waits in vain.
+#[test]
+fn a_guard_on_the_lane_is_free_again_when_nobody_wants_to_cross_any_more() {
+    let stage = |role, task, to| Stage {
+        parts: core::iter::once((Who::Role(role), leg(task, to))).collect(),
+    };
+    let kerb = Point::new(100, -100);
+    let stages = [
+        stage(0, TaskType::BLOCK, POST),
+        stage(1, TaskType::INITIAL_POS, kerb),
+        stage(1, TaskType::MOVE, Point::new(100, 800)),
+    ];
+    let plan = Plan {
+        followers: 2,
+        roles: [None, None].into_iter().collect(),
+        stages: stages.into_iter().collect(),
+        ..plan(&[])
+    };
+    for leaves_in in [TaskType::BLOCK, TaskType::INITIAL_POS] {
+        let mut one = team(plan.clone(), false);
+        let mut setups: Vec<_> = one.robots.drain(..).map(|it| it.setup).collect();
+        setups[0].request.followers = 2;
+        setups.push(setups[1].clone());
+        let mut team = Team::new(setups);
+        team.people = vec![person(1, 100, -100)];
+        let is_ordered = |it: &Output| matches!(it, Output::Order(_, leg) if leg.task == leaves_in);
+        team.pass_until("an order", |it| it.first(0, is_ordered).is_some());
+        team.pass(200);
+        team.people.clear();
+        team.pass_until("idle", Team::is_idle);
+        team.people = vec![person(2, 100, -100)];
+        team.pass_until("go", Team::shows_go);
+    }
+}
+
 /// Hazard: a guard whose battery is low has no part any more, and stands on the lane.
 #[test]
 fn a_robot_that_can_still_walk_leaves_the_road_although_it_helps_nobody() {
