@@ -61,8 +61,10 @@ impl PlanTables {
                     "a place at each of two kerbs is wanted, and these are on one side of the road",
                 ));
             }
+            safety::escorts_either_way(&self, &followers, &stages, kerbs, settings)?;
             Ok(kerbs)
         });
+        let either_way = either_way.transpose()?;
         let crossing_s = located::within_if_any(self.crossing_s.as_ref(), 1.0..=600.0, "s")?;
         let crossing_s = crossing_s.unwrap_or(CROSSING_S);
         let patience_s = located::within_if_any(self.patience_s.as_ref(), 1.0..=3_600.0, "s")?;
@@ -78,7 +80,7 @@ impl PlanTables {
             crossing_s,
             patience_s: patience_s.unwrap_or(PATIENCE_S),
             asks_vehicles_s: asks_vehicles_s.unwrap_or(0.0),
-            either_way: either_way.transpose()?,
+            either_way,
             site,
             roles,
             stages,

@@ -7,6 +7,7 @@ use super::Role;
 use super::tables::PlanTables;
 use crate::located::Misfit;
 use crate::plan::Leg;
+use crate::site::Place;
 use crate::site_file::SiteFile;
 
 /// The maneuvers that take a person on the road: they guard, and hold no place.
@@ -108,6 +109,31 @@ pub(super) fn ways_in_time(
                 );
                 return Err(at(tables, number, name, what));
             }
+        }
+    }
+    Ok(())
+}
+
+/// Looks that an escort that may go in either direction is sent to one of the two places and goes to the other one: only these
+/// change sides for people over there.
+pub(super) fn escorts_either_way(
+    tables: &PlanTables,
+    followers: &[&Role],
+    stages: &[Vec<(usize, Leg)>],
+    kerbs: [Place; 2],
+    settings: &Settings,
+) -> Result<(), Misfit> {
+    let mut places: Vec<_> = followers.iter().map(|role| role.waits).collect();
+    for (number, follower, leg) in legs(stages) {
+        let from = places[follower].replace(leg.to);
+        let is_way = kerbs.contains(&leg.to) && from.is_none_or(|from| kerbs.contains(&from));
+        if escorts(settings).contains(leg.task) && !is_way {
+            let name = &followers[follower].name;
+            let what = format!(
+                "role '{name}' escorts people, and not from one place of 'either_way' to the other: it would stay on its side \
+                 when people come from over there"
+            );
+            return Err(at(tables, number, name, what));
         }
     }
     Ok(())

@@ -81,6 +81,8 @@ fn two_dogs_go_to_two_places() {
 
 /// Replaced text of [`TWO_DOGS`], its replacement, and the error.
 const MISFITS: &str = r#"
+\n[[roles]]\nname = "leader" | either_way = ["near-kerb", [2.0, 8.0]]\n[[roles]]\nname = "leader" | p.toml:17: role 'first' escorts people, and not from one place of 'either_way'
+\n[[roles]]\nname = "leader" | either_way = [[0.0, -1.0], "far-kerb"]\n[[roles]]\nname = "leader" | p.toml:17: role 'first' escorts people, and not from one place of 'either_way'
 [2.5, -1.0]       | "near-kerb"         | p.toml:12: roles 'first' and 'second' are 0.00 m apart
 [2.5, -1.0]       | [1.9, -1.0]         | are 0.90 m apart in this stage: at least 1 m is wanted
 [2.5, -1.0]       | "corner"            | p.toml:13: roles 'second' and 'leader' are 0.00 m apart
