@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crossguard_codec::PublicSignal;
+use crossguard_crossing::STAGES_MAX;
 use crossguard_protocol::{
     EndReason, MAX_FOLLOWERS, ReleaseReason, Settings, StationId, TaskNames, TaskSet, TaskType,
     Urgency,
@@ -32,7 +33,9 @@ impl PlanTables {
         let wanted = match &self.followers {
             None => followers.len(),
             Some(number) => {
-                let least = followers.iter().filter(|role| !role.optional).count();
+                let fixed = followers.iter().filter(|role| !role.optional).count();
+                // Nobody helps in a team of none.
+                let least = fixed.max(1);
                 let most = followers.len();
                 let wanted = usize::from(*number.get_ref());
                 if !(least..=most).contains(&wanted) {
@@ -161,6 +164,10 @@ fn stages(
 ) -> Result<Vec<Vec<(usize, Leg)>>, Misfit> {
     if tables.stages.is_empty() {
         return Err(Misfit::whole("there is no stage"));
+    }
+    if let Some(further) = tables.stages.get(STAGES_MAX) {
+        let what = format!("at most {STAGES_MAX} stages are possible, and this is one more");
+        return Err(Misfit::at(further, what));
     }
     let mut stages = Vec::new();
     for table in &tables.stages {

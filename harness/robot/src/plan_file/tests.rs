@@ -119,6 +119,23 @@ fn a_plan_that_does_not_fit_is_refused_with_its_line() {
         let error = parse(&TWO_DOGS.replacen(&from, &to, 1)).unwrap_err();
         assert!(error.contains(&cause), "{to}: {error}");
     }
+    // Hazard: the stages that are too many are left out, and the escort with them: nobody ever sees go.
+    let aside = "[[stages]]\nsecond = { task = \"initialPos\", to = [2.5, -1.0] }\n";
+    let longer =
+        |by: usize| parse(&TWO_DOGS.replacen("[[stages]]", &(aside.repeat(by) + "[[stages]]"), 1));
+    assert!(longer(5).is_ok());
+    let error = longer(6).unwrap_err();
+    assert!(error.contains("at most 8 stages are possible"), "{error}");
+    let optional = TWO_DOGS
+        .replace("name = \"first\"", "name = \"first\"\noptional = true")
+        .replace("name = \"second\"", "name = \"second\"\noptional = true");
+    let team_of = |followers: u8| parse(&format!("followers = {followers}\n{optional}"));
+    assert!(team_of(1).is_ok());
+    let error = team_of(0).unwrap_err();
+    assert!(
+        error.contains("0 followers: 1 to 2 fit the roles"),
+        "{error}"
+    );
     let unknown = PlanFile::open(Path::new("parade"), SiteFile::street()).unwrap_err();
     assert!(
         unknown.to_string().contains("one of crossing, bilateral"),
