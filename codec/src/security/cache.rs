@@ -9,8 +9,8 @@ use super::hashed_id::HashedId8;
 use super::rejected::Rejected;
 use super::time::Time64;
 
-/// How many tickets are remembered.
-pub const TICKETS_MAX: usize = 256;
+/// How many tickets are remembered: more than there are stations within the reach of a radio in a town.
+pub const TICKETS_MAX: usize = 1_024;
 /// How long somebody is silent before its place may be given to somebody else; longer than any lease.
 const SILENCE_US: u64 = 10_000_000;
 /// How many messages are remembered of each; a robot sends fewer in the 2 s that a message is fresh.

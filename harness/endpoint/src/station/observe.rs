@@ -95,13 +95,12 @@ impl Neighbours {
 /// place of nobody, and one ticket is one of them, whatever ids it goes by.
 fn apart(user: RoadUser, signer: Signer) -> RoadUser {
     let digest = u64::from_be_bytes(signer.0);
-    let number = match user.identity {
-        Identity::Station(_) => u16::try_from(digest % (1 << 16)).unwrap_or_default(),
-        Identity::Object { number, .. } => number,
-    };
+    let number = u16::try_from(digest % (1 << 16)).unwrap_or_default();
     let by = u32::try_from(digest >> 32).unwrap_or_default();
-    RoadUser {
-        identity: Identity::Object { by, number },
-        ..user
-    }
+    let identity = match user.identity {
+        Identity::Station(_) => Identity::Object { by, number },
+        Identity::Object { number, .. } => Identity::Object { by, number },
+        Identity::Unnumbered { place, .. } => Identity::Unnumbered { by, place },
+    };
+    RoadUser { identity, ..user }
 }
