@@ -132,6 +132,9 @@ pub struct Crossing<const N: usize = 64> {
     walk: Option<Point>,
     /// Whether the body was told to wait on its way.
     waits: bool,
+    /// For how long it has stood on the carriageway since its start, without a part; without end once it was beside it, or knew
+    /// that nobody is on it.
+    stood: Millis,
     /// Where its own body is, and how long ago that was measured.
     pose: Option<(Pose, Millis)>,
     /// Whether its body is at the place of its plan.
@@ -304,7 +307,7 @@ impl<const N: usize> Crossing<N> {
         self.guard_corridor(setup, out);
         self.watch_people(setup, out);
         self.watch_task(setup, out);
-        self.leave_road(setup, out);
+        self.leave_road(setup, time, out);
         self.watch_way(setup, out);
         self.watch_road(setup, out);
         self.watch_zone(setup, out);
@@ -415,6 +418,10 @@ impl<const N: usize> Crossing<N> {
         if pose.is_none() || is_news {
             self.pose = pose.map(|pose| (pose, age));
         }
+        let is_beside = |pose: Pose| !setup.ground.may_be_road(pose.at, pose.error_cm.into());
+        if self.pose.is_some_and(|(pose, _)| is_beside(pose)) {
+            self.stood = Millis(u32::MAX);
+        }
         if let Some(place) = setup.plan.as_ref().and_then(|plan| plan.own_place) {
             self.own.learn(setup.position, place, pose, age);
         }
@@ -472,11 +479,14 @@ impl<const N: usize> Crossing<N> {
 
     /// A robot without a part in a session goes home from the carriageway and from the place of its plan, unless it sees
     /// somebody on the road.
-    fn leave_road(&mut self, setup: &Setup, out: &mut Outputs) {
+    fn leave_road(&mut self, setup: &Setup, time: Millis, out: &mut Outputs) {
         let (Some(home), Some((pose, _))) = (setup.home, self.pose) else {
             return;
         };
         if !self.has_no_part() || setup.ground.is_road(home) {
+            return;
+        }
+        if self.looks_first(setup, time) {
             return;
         }
         let is_out = setup.ground.is_road(pose.at) || self.walk.is_some();
@@ -486,6 +496,21 @@ impl<const N: usize> Crossing<N> {
         if pose.at.distance_cm(home) <= u32::from(setup.position.tolerance_cm) {
             self.walk = None;
         }
+    }
+
+    /// Whether it stays on the carriageway on which it found itself after its start: it may have lost power in the middle of a
+    /// crossing, beside people who count on it. It stays until it knows that nobody is there, and where nothing tells it so, for as
+    /// long as people need who set out by the last sign that counted on it. A robot that stands on a lane for ever helps nobody.
+    fn looks_first(&mut self, setup: &Setup, time: Millis) -> bool {
+        if self.stood < setup.t_safety {
+            self.occupancy.start_anew();
+            self.quiet = Millis::ZERO;
+        } else if self.occupancy.is_clear(setup) {
+            self.stood = Millis(u32::MAX);
+        }
+        self.stood = self.stood.saturating_add(time);
+        let set_out = setup.t_safety.saturating_add(setup.waiting.step_off);
+        self.stood < set_out.saturating_add(setup.crossing_time())
     }
 
     /// Has the body wait on its way, or go on.

@@ -204,6 +204,21 @@ impl Shape {
         nearest.min().unwrap_or(u32::MAX)
     }
 
+    /// How wide it is, in centimetres, rounded up: between two lines along the same edge, with all of it between them.
+    pub(crate) fn width_cm(&self) -> u32 {
+        let edges = self.edges().filter(|(from, to)| from != to);
+        let widths = edges.filter_map(|(from, to)| {
+            let edge = from.to(to);
+            let off = self.corners().map(|corner| edge.cross(from.to(corner)));
+            let (least, most) =
+                off.fold((0, 0), |(least, most), off| (off.min(least), off.max(most)));
+            let square = u64::try_from(most.saturating_sub(least)).ok()?;
+            let width = square.div_ceil(u64::from(edge.length_cm()));
+            u32::try_from(width).ok()
+        });
+        widths.min().unwrap_or(u32::MAX)
+    }
+
     /// The mean of its corners.
     #[must_use]
     pub fn middle(&self) -> Point {
@@ -317,6 +332,31 @@ mod tests {
                 f64::from(is) <= exact && exact < f64::from(is) * 1.01 + 1.0,
                 "{is} {exact}"
             );
+        }
+    }
+
+    #[test]
+    fn a_road_is_as_wide_as_people_walk_from_kerb_to_kerb() {
+        for (name, corners, width) in [
+            (
+                "straight",
+                &[(0, 0), (6_000, 0), (6_000, 700), (0, 700)][..],
+                700,
+            ),
+            (
+                "askew",
+                &[(0, 0), (4_000, 3_000), (3_400, 3_800), (-600, 800)],
+                1_000,
+            ),
+            ("three corners", &[(0, 0), (1_000, 0), (0, 100)], 100),
+            (
+                "a corner twice",
+                &[(0, 0), (0, 0), (6_000, 0), (6_000, 700), (0, 700)],
+                700,
+            ),
+            ("no road", &[(5, 5), (5, 5), (5, 5)], u32::MAX),
+        ] {
+            assert_eq!(shape(corners).width_cm(), width, "{name}");
         }
     }
 

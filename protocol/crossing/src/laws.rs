@@ -11,6 +11,7 @@
 //! | [`late_support`] | nor is it because that frame came late |
 //! | [`more_against`] | a person, a malformed or a stale frame make nothing safer |
 //! | [`one_more_vehicle`] | nor does a vehicle that was not known before |
+//! | [`starts_on_the_road`] | a robot on the carriageway goes home after its start only once it knows that nobody is there, or people had the time to get across |
 
 #![expect(clippy::missing_panics_doc, reason = "laws assert")]
 
@@ -440,4 +441,39 @@ pub fn one_more_vehicle(source: &mut impl Source) {
     };
     with.step(&setup, told);
     assert!(with.hindered(&setup).is_some() || without.hindered(&setup).is_none());
+}
+
+/// A robot that finds itself on the carriageway when it starts goes home only once the road has been clear since signs that
+/// counted on it have ended, or people who set out by them had the time to get across. Whether it goes because the road is clear.
+pub fn starts_on_the_road(source: &mut impl Source) -> bool {
+    let home = Point::new(-300, -300);
+    let setup = Setup {
+        home: Some(home),
+        ..setup(source)
+    };
+    let set_out = setup.t_safety.saturating_add(setup.waiting.step_off);
+    let across = set_out.saturating_add(setup.crossing_time());
+    let pose = Pose {
+        at: Point::new(200, 200),
+        error_cm: 0,
+    };
+    let mut machine = Machine::default();
+    let (mut since, mut was_clear) = (Millis::ZERO, false);
+    for step in 0..8 * STEPS {
+        machine.step(&setup, Input::Pose(Some(pose), Millis::ZERO));
+        let told = calm(source, step);
+        if matches!(told, Told::Input(Input::Pose(..))) {
+            continue;
+        }
+        let out = told.to(&mut machine, &setup);
+        if let Told::Input(Input::Elapsed(time)) = told {
+            since = since.saturating_add(time);
+        }
+        was_clear |= since >= set_out && is_clear(&machine, &setup);
+        if out.iter().any(|it| *it == Output::WalkTo(home)) {
+            assert!(was_clear || since >= across, "{since:?} of {across:?}");
+            return since < across;
+        }
+    }
+    false
 }

@@ -214,6 +214,14 @@ impl Setup {
         self.t_safety = settings.t_safety;
     }
 
+    /// How long a person needs from one kerb to the other who walks: faster than people who stand.
+    pub(crate) fn crossing_time(&self) -> Millis {
+        let width_cm = self.ground.road.map_or(0, |road| road.width_cm());
+        let speed_cmps = u64::from(self.waiting.speed_max_cmps.max(1));
+        let time = u64::from(width_cm) * 1_000 / speed_cmps;
+        Millis(u32::try_from(time).unwrap_or(u32::MAX))
+    }
+
     /// The maneuvers that guard people on their way: escorts.
     #[must_use]
     pub const fn escorts(&self) -> TaskSet {

@@ -37,6 +37,11 @@ proptest! {
     fn one_more_vehicle_opens_nothing(seed: u64) {
         one_more_vehicle(&mut Random(seed));
     }
+
+    #[test]
+    fn a_robot_that_starts_on_the_road_stays_there_first(seed: u64) {
+        starts_on_the_road(&mut Random(seed));
+    }
 }
 
 /// The laws of beliefs, that Kani proves: where it does not run, many random values look for what breaks them.
@@ -65,7 +70,7 @@ fn less_evidence_of_a_belief_gives_no_permission() {
 /// The laws are about something: random machines have clear roads, and would show go.
 #[test]
 fn the_premises_are_reached() {
-    let (mut clear, mut go) = (0, 0);
+    let (mut clear, mut go, mut leaves) = (0, 0, 0);
     for seed in 0..2_000 {
         let source = &mut Random(seed);
         let setup = setup(source);
@@ -73,6 +78,11 @@ fn the_premises_are_reached() {
         clear += u32::from(is_clear(&machine, &setup));
         machine.step(&setup, Input::CorridorOpen(Millis(1_900)));
         go += u32::from(machine.shows_go() > Millis::ZERO);
+        leaves += u32::from(starts_on_the_road(&mut Random(seed)));
     }
-    assert!(clear > 20 && go > 20, "clear {clear}, go {go} of 2000");
+    let reached = [clear, go, leaves];
+    assert!(
+        reached.iter().all(|it| *it > 20),
+        "clear, go, leaves: {reached:?} of 2000"
+    );
 }

@@ -27,6 +27,7 @@ fn a_call_that_had_no_effect_is_repeated_after_a_pause() {
 #[test]
 fn a_robot_that_is_unavailable_calls_nobody_and_stays() {
     let mut team = alone(0);
+    team.pass(TICK);
     team.robots[0].body.at = Point::new(0, 100);
     team.robots[0].setup.home = Some(Point::new(0, -150));
     let why = Availability::Unavailable(Unavailability::EmergencyStop);
@@ -67,6 +68,7 @@ fn a_robot_without_a_part_goes_home_once_it_hears_of_nobody_on_the_road() {
         ..street()
     };
     let mut scene = Scene::new(setup);
+    scene.is_at(0, -150, 0);
     scene.tell(Input::Heard(WITNESS, person(1, 100, 300), Millis(0)));
     for (ms, goes) in [(1_000, false), (100, true)] {
         scene.is_at(0, 100, 0);
@@ -74,6 +76,85 @@ fn a_robot_without_a_part_goes_home_once_it_hears_of_nobody_on_the_road() {
         scene.is_at(0, 100, 0);
         scene.pass(1);
         assert_eq!(scene.out.contains(&Output::WalkTo(home)), goes, "{ms} ms");
+    }
+}
+
+/// When a robot on the lane sets out for its home, within a minute of its start. It has a frame in each tenth of a second for which
+/// there is one: which parts it covers, and whether somebody is on the road.
+fn leaves_ms(looks: impl Fn(u32) -> Option<(u32, bool)>) -> Option<u32> {
+    let home = Point::new(0, -150);
+    let mut scene = Scene::new(Setup {
+        home: Some(home),
+        ..street()
+    });
+    scene.pass(0);
+    (100..=60_000).step_by(100).find(|ms| {
+        scene.is_at(0, 100, 0);
+        if let Some((covers, is_occupied)) = looks(ms - 100) {
+            let people = [person(1, 100, 300)];
+            let seen = if is_occupied { &people[..] } else { &[] };
+            scene.frame(0, 0, covers, seen);
+        }
+        scene.pass(100);
+        scene.out.contains(&Output::WalkTo(home))
+    })
+}
+
+/// Hazard: a guard loses power in the middle of a crossing, and boots on the lane. For as long as its `t_safety` (2 s) a sign may count on
+/// it; for 2 s after that people step off the kerb; and they need 14 s for 7 m at 0.5 m/s.
+#[test]
+fn a_robot_that_boots_on_the_road_goes_home_once_it_has_looked_or_people_had_their_time() {
+    type Looks = fn(u32) -> Option<(u32, bool)>;
+    let at_last = Some(18_000);
+    let cases: [(&str, Looks, Option<u32>); 8] = [
+        ("nobody", |_| Some((0b11, false)), Some(4_700)),
+        (
+            "somebody goes",
+            |ms| Some((0b11, ms < 10_000)),
+            Some(11_100),
+        ),
+        ("somebody stays", |_| Some((0b11, true)), None),
+        (
+            "somebody comes soon",
+            |ms| Some((0b11, (3_900..9_000).contains(&ms))),
+            Some(10_100),
+        ),
+        (
+            "it looks late",
+            |ms| (ms >= 8_000).then_some((0b11, false)),
+            Some(8_600),
+        ),
+        ("it sees half of the road", |_| Some((0b01, false)), at_last),
+        (
+            "it stops to look",
+            |ms| (ms < 4_400).then_some((0b11, false)),
+            at_last,
+        ),
+        ("no sensors", |_| None, at_last),
+    ];
+    for (name, looks, expected) in cases {
+        assert_eq!(leaves_ms(looks), expected, "{name}");
+    }
+}
+
+#[test]
+fn a_guard_that_boots_on_the_road_stays_with_the_person_there() {
+    for sees in [true, false] {
+        let mut team = team(plan(&[leg(TaskType::BLOCK, POST)]), sees);
+        team.robots[1].setup.home = Some(Point::new(-100, -150));
+        team.robots[1].setup.calls = false;
+        team.people = vec![person(1, 100, -100)];
+        team.pass_until("go", Team::shows_go);
+        team.people[0] = walking(team.people[0], 0, 60);
+        team.pass(4_000);
+        team.boot(1);
+        team.pass_until("across", |it| {
+            let guard = &it.robots[1].body;
+            assert_eq!(guard.at, POST, "{sees}");
+            it.people[0].at.north_cm() > 700
+        });
+        team.pass(20_000);
+        assert!(!is_on_road(&team.robots[1].body), "{sees}");
     }
 }
 

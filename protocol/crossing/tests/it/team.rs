@@ -111,6 +111,18 @@ impl Team {
         }
     }
 
+    /// A robot loses power, and boots where it stands.
+    pub(crate) fn boot(&mut self, robot: usize) {
+        let member = &mut self.robots[robot];
+        member.robot = Robot::new(member.robot.station(), 2);
+        member.crossing = Crossing::default();
+        member.body = Body {
+            at: member.body.at,
+            speed_cmps: member.body.speed_cmps,
+            ..Body::default()
+        };
+    }
+
     /// An input of a crossing machine, and its effect.
     pub(crate) fn hear(&mut self, robot: usize, input: Input<'_>) {
         self.tell(robot, input);
