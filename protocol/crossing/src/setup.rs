@@ -143,7 +143,8 @@ impl Default for PositionRules {
 /// Settings of a crossing machine.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub struct Setup {
-    /// Whether the robot has sensors of its own for people: without frames it lets nobody cross then.
+    /// Whether the robot has sensors of its own for people: while they do not cover the carriageway, it lets nobody cross; true by
+    /// default. Of a robot that says it has none, no sensor is missed that dies.
     pub watches: bool,
     /// Whether it calls for help when somebody waits, or somebody else tells of them.
     pub calls: bool,
@@ -175,7 +176,7 @@ impl Default for Setup {
     /// No ground, no plan, and the protocol's default settings.
     fn default() -> Self {
         Self {
-            watches: false,
+            watches: true,
             calls: false,
             sensors: Sensors::default(),
             waiting: WaitingRules::default(),

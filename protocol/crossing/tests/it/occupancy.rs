@@ -307,3 +307,19 @@ fn parts_are_counted_each_for_itself() {
         assert_eq!(scene.is_clear(), frame == NEEDED, "frame {frame}");
     }
 }
+
+/// Hazard: the sensors of a robot die, or were dead from the start, whose setup says nothing of them.
+#[test]
+fn a_setup_that_says_nothing_of_sensors_counts_on_them() {
+    let ground = street().ground;
+    let mut scene = Scene::new(Setup {
+        ground,
+        ..Setup::default()
+    });
+    let blind = Some(Hindrance::NoSight);
+    assert_eq!(scene.crossing.hindered(&scene.setup), blind);
+    scene.look(100, &[]);
+    assert_eq!(scene.crossing.hindered(&scene.setup), None);
+    scene.pass(501);
+    assert_eq!(scene.crossing.hindered(&scene.setup), blind);
+}
