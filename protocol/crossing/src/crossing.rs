@@ -14,7 +14,7 @@ use crate::occupancy::Occupancy;
 use crate::position::Presence;
 use crate::setup::Setup;
 use crate::tracks::{Origin, Tracks};
-use crate::traffic::Traffic;
+use crate::traffic::{self, Traffic};
 
 /// How long a robot waits after a call before it calls again.
 const CALL_PERIOD: Millis = Millis(2_000);
@@ -357,7 +357,7 @@ impl<const N: usize> Crossing<N> {
             self.occupancy.doubt(frame.source);
         }
         for (number, sighting) in (0..).zip(frame.sightings) {
-            if let Some(velocity) = sighting.velocity.filter(|it| rides(setup, sighting, *it)) {
+            if rides(setup, sighting) {
                 // A number that several have tells them apart no more than none.
                 let mut others = frame.sightings.iter().filter(|it| it.id == sighting.id);
                 let id = sighting.id.filter(|_| others.nth(1).is_none());
@@ -369,7 +369,9 @@ impl<const N: usize> Crossing<N> {
                         | id.map_or(1 << 32 | number, u64::from),
                     at: sighting.at,
                     error_cm: sighting.error_cm,
-                    velocity,
+                    velocity: sighting
+                        .velocity
+                        .unwrap_or_else(|| traffic::velocity(setup, sighting.at, None, None)),
                 };
                 self.traffic.hear(setup, vehicle, frame.age);
             }
@@ -865,10 +867,11 @@ fn executing(robot: &Robot) -> Option<Maneuver> {
     }
 }
 
-/// Whether somebody who goes like this comes like a vehicle: faster than people walk.
-fn rides(setup: &Setup, sighting: &Sighting, velocity: Way) -> bool {
+/// Whether somebody comes like a vehicle: is one, or is faster than people walk.
+fn rides(setup: &Setup, sighting: &Sighting) -> bool {
+    let is_fast = |it: Way| it.length_cm() > u32::from(setup.sensors.speed_max_cmps);
     matches!(sighting.what, RoadUser::Vehicle | RoadUser::Motorcyclist)
-        || velocity.length_cm() > u32::from(setup.sensors.speed_max_cmps)
+        || sighting.velocity.is_some_and(is_fast)
 }
 
 /// Whether somebody may be on the carriageway.

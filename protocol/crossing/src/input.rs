@@ -35,7 +35,7 @@ pub struct Sighting {
     pub at: Point,
     /// Error of the place, in centimetres.
     pub error_cm: u16,
-    /// Their velocity, in cm/s, where it is known.
+    /// Their velocity, in cm/s, where it is known. A vehicle without one [is taken](crate::traffic::velocity) to come at 50 km/h.
     pub velocity: Option<Way>,
     /// Their kind.
     pub what: RoadUser,
@@ -67,7 +67,7 @@ pub struct Vehicle {
     pub at: Point,
     /// Error of the place, in centimetres.
     pub error_cm: u16,
-    /// Its velocity, in cm/s.
+    /// Its velocity, in cm/s: where not all of it is known, by [`traffic::velocity`](crate::traffic::velocity).
     pub velocity: Way,
 }
 

@@ -15,7 +15,7 @@ pub mod laws;
 
 use crossguard_protocol::{Millis, StationId};
 
-use crate::ground::{Point, Shape};
+use crate::ground::{Point, Shape, Way};
 use crate::input::Vehicle;
 use crate::setup::{Setup, TrafficRules};
 
@@ -28,6 +28,9 @@ const BESIDE_CM: u64 = 180;
 /// How far before the crossing a vehicle is to stop, in centimetres: yield lines are 6 to 15 m before one (MUTCD 2009, section
 /// 3B.16), and guards stand there.
 const STOP_LINE_CM: u32 = 600;
+
+/// How fast a vehicle is taken to be that does not say it, in cm/s: the limit in towns, 50 km/h.
+const UNKNOWN_CMPS: u32 = 1_390;
 
 /// How a vehicle comes to the crossing.
 #[derive(Clone, Copy, Debug)]
@@ -185,6 +188,29 @@ fn crossing(setup: &Setup) -> Option<&Shape> {
         .crossing
         .as_ref()
         .or(setup.ground.road.as_ref())
+}
+
+/// The velocity of a vehicle of which not everything is said. One of which nobody knows how fast it is may be as fast as is allowed
+/// in towns; one of which nobody knows its direction, which is a way of any length, comes to the crossing.
+#[must_use]
+pub fn velocity(setup: &Setup, at: Point, speed_cmps: Option<u32>, direction: Option<Way>) -> Way {
+    let to_crossing = || Some(at.to(crossing(setup)?.middle()));
+    let Some(known) = direction.or_else(to_crossing) else {
+        return Way::default();
+    };
+    // In the middle of the crossing, any direction is as good as another.
+    let north = Way {
+        east_cm: 0,
+        north_cm: 1,
+    };
+    let direction = if known == Way::default() {
+        north
+    } else {
+        known
+    };
+    let numbers = [speed_cmps.unwrap_or(UNKNOWN_CMPS), direction.length_cm()];
+    let [speed, length] = numbers.map(|it| i32::try_from(it).unwrap_or(i32::MAX));
+    direction.part(speed, length)
 }
 
 /// Whether a vehicle moves on a line or a bend that leads over the crossing.

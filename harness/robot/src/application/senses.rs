@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use crossguard_codec::{Identity, Kind, Position, TaskParameters};
 use crossguard_crossing::{
     BodyReport, Coverage, Frame, FrameDrop, Input, Point, Pose, RoadUser, Sighting, Vehicle, Way,
+    traffic,
 };
 use crossguard_endpoint::Moment;
 use crossguard_endpoint::cause::Cause;
@@ -24,8 +25,8 @@ use crate::zone::{class, metres_per_second, place, point, sighting, velocity};
 /// Shortest time between two sights in which as many people are on the road, in seconds of the robot's own time.
 const SIGHT_PERIOD_S: f64 = 0.2;
 
-/// How fast a vehicle is taken to be that does not say it, in m/s: the limit in towns, 50 km/h.
-const UNKNOWN_MPS: f64 = 13.9;
+/// Length of a way in the direction of a vehicle, in metres: long enough to tell directions apart by whole centimetres.
+const DIRECTION_M: f64 = 1e3;
 
 /// Longest time that an object of a CPM is old when that is made, in ms (`measurementDeltaTime`, TS 103 324). A report that seems
 /// older is of a station whose wall clock is another one than the robot's.
@@ -282,17 +283,12 @@ impl Application {
         let Some(at) = self.at_point(&user.position) else {
             return;
         };
-        // Nobody knows whether it stands: it moves.
-        let speed = user.speed.unwrap_or(UNKNOWN_MPS);
-        let way = match user.heading {
-            Some(heading) => {
-                let (east, north) = heading.to_radians().sin_cos();
-                [speed * east, speed * north]
-            }
-            // It moves, and nobody knows whereto: towards the crossing.
-            None => self.towards_crossing(at, speed),
-        };
-        let velocity = velocity(way);
+        let speed = user.speed.map(|mps| velocity([mps, 0.0]).length_cm());
+        let direction = user.heading.map(|heading| {
+            let (east, north) = heading.to_radians().sin_cos();
+            velocity([DIRECTION_M * east, DIRECTION_M * north])
+        });
+        let velocity = traffic::velocity(&self.setup, at, speed, direction);
         let seen = heard(known, at, RoadUser::Vehicle, Some(velocity));
         self.observe_one(HEARD, seen);
         // A CAM says where the front is, a CPM where the middle of the bounding box (`PerceivedObject`, TS 102 894-2).
@@ -319,16 +315,6 @@ impl Application {
             velocity,
         };
         self.step(Input::Vehicle(vehicle, measured_ago(known, moment)));
-    }
-
-    fn towards_crossing(&self, at: Point, speed: f64) -> [f64; 2] {
-        let ground = &self.setup.ground;
-        let Some(crossing) = ground.crossing.or(ground.road) else {
-            return [0.0; 2];
-        };
-        let (from, to) = (place(at), place(crossing.middle()));
-        let (east, north) = from.bearing(to).to_radians().sin_cos();
-        [speed * east, speed * north]
     }
 
     fn hear_person(&mut self, known: &Neighbour) {

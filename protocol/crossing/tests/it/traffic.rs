@@ -191,6 +191,43 @@ fn vehicles_of_two_sources_and_two_of_one_are_two() {
     }
 }
 
+/// Absence of a field makes nothing safer: it comes at 50 km/h.
+#[test]
+fn a_vehicle_in_a_frame_that_tells_no_velocity_hinders_like_one_that_comes() {
+    for (name, what, east, north, expected) in [
+        ("near", RoadUser::Vehicle, -1_900, 200, true),
+        (
+            "from the east, at 59 m",
+            RoadUser::Vehicle,
+            6_400,
+            200,
+            true,
+        ),
+        ("beside the road", RoadUser::Vehicle, -1_900, 4_000, true),
+        (
+            "in the middle of the crossing",
+            RoadUser::Vehicle,
+            100,
+            350,
+            true,
+        ),
+        ("it can stop", RoadUser::Vehicle, -9_000, 200, false),
+        ("a motorcycle", RoadUser::Motorcyclist, -1_900, 200, true),
+        ("a bicycle", RoadUser::Bicyclist, -1_900, 200, false),
+        ("a person", RoadUser::Pedestrian, -400, 200, false),
+    ] {
+        let mut scene = Scene::new(street());
+        let silent = Sighting {
+            what,
+            velocity: None,
+            ..person(1, east, north)
+        };
+        scene.frame(0, 0, 0b11, &[silent]);
+        let hindered = scene.crossing.hindered(&scene.setup).is_some();
+        assert_eq!(hindered, expected, "{name}");
+    }
+}
+
 /// The sign shows go, though its robot does not know of an open corridor yet.
 #[test]
 fn a_sign_that_shows_go_is_turned_before_a_vehicle_that_cannot_stop() {
