@@ -137,6 +137,22 @@ fn a_robot_that_boots_on_the_road_goes_home_once_it_has_looked_or_people_had_the
     }
 }
 
+/// A sign may count on it for as long as it has stood there for less than its `t_safety`.
+#[test]
+fn an_empty_road_is_old_news_to_a_robot_that_did_not_know_where_it_stands() {
+    let home = Point::new(0, -150);
+    let mut setup = street();
+    (setup.home, setup.sensors.gap_max) = (Some(home), Millis(10_000));
+    let mut scene = Scene::new(setup);
+    (0..40).for_each(|_| drop(scene.look(100, &[])));
+    assert!(scene.is_clear());
+    for _ in 0..30 {
+        scene.is_at(0, 100, 0);
+        scene.pass(100);
+    }
+    assert!(!scene.out.contains(&Output::WalkTo(home)));
+}
+
 #[test]
 fn a_guard_that_boots_on_the_road_stays_with_the_person_there() {
     for sees in [true, false] {
