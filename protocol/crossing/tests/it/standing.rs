@@ -154,6 +154,27 @@ fn an_empty_road_is_old_news_to_a_robot_that_did_not_know_where_it_stands() {
 }
 
 #[test]
+fn a_robot_that_may_have_booted_on_the_road_by_its_first_position_stays_there_first() {
+    let home = Point::new(0, -150);
+    for (error_cm, goes) in [(9, true), (10, false)] {
+        let mut scene = Scene::new(Setup {
+            home: Some(home),
+            ..street()
+        });
+        for north in [-10, 10] {
+            let at = Point::new(0, north);
+            scene.tell(Input::Pose(Some(Pose { at, error_cm }), Millis(0)));
+        }
+        scene.pass(100);
+        assert_eq!(
+            scene.out.contains(&Output::WalkTo(home)),
+            goes,
+            "{error_cm}"
+        );
+    }
+}
+
+#[test]
 fn a_guard_that_boots_on_the_road_stays_with_the_person_there() {
     for sees in [true, false] {
         let mut team = team(plan(&[leg(TaskType::BLOCK, POST)]), sees);
