@@ -27,6 +27,7 @@ use crossguard_protocol::{Event, Output, Phase, Robot, StationId};
 use crossguard_robot::machine::Machine;
 use crossguard_robot::perception::Newest;
 use crossguard_robot::sign::Sign;
+use crossguard_robot::site::Place;
 use crossguard_robot::trace::{Entry, Reception, Record, recorded};
 use crossguard_robot::transport::Channel;
 use rand::{Rng, SeedableRng};
@@ -242,6 +243,8 @@ struct Seat<'a> {
     /// Its newest boot counter: what its boot file holds.
     boot: u16,
     machine: Option<Machine<Ruled>>,
+    /// Where its body is when it boots: where it lost power.
+    lies_at: Place,
     /// The sign that people see; that of a robot that is down ends by itself.
     sign: Sign,
     /// Whether it has asked for the next boot counter.
@@ -320,6 +323,7 @@ impl<'a> World<'a> {
                 inbox: Vec::new(),
                 newest: Newest::default(),
                 heard_us: BTreeMap::new(),
+                lies_at: draw.place,
                 observed: ObservedBody::default(),
             }
         });

@@ -86,6 +86,12 @@ impl Simulated {
         Self { holding, ..self }
     }
 
+    /// The same body, which stands elsewhere than where it is safe.
+    #[must_use]
+    pub fn at(self, place: Place) -> Self {
+        Self { place, ..self }
+    }
+
     fn start(&mut self, maneuver: Maneuver, parameters: TaskParameters) {
         let to = self.site.place_of(parameters.target).unwrap_or(self.place);
         let limit = parameters

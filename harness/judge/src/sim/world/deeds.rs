@@ -108,8 +108,10 @@ impl World<'_> {
         let nodes = (0..self.seats.len()).map(|place| self.monitor.node(place));
         self.times.crash(self.now_us, place, nodes);
         self.monitor.crash(place);
-        self.seats[place].machine = None;
         let seat = &mut self.seats[place];
+        if let Some(machine) = seat.machine.take() {
+            seat.lies_at = machine.application.body().place();
+        }
         (seat.wakes_us, seat.hangs_until_us) = (None, None);
         seat.inbox.clear();
         self.see(place)
@@ -173,7 +175,9 @@ impl World<'_> {
             draw.time_scale,
             gait,
         );
-        let body = body.holding(draw.config.settings().holding);
+        let body = body
+            .holding(draw.config.settings().holding)
+            .at(seat.lies_at);
         let plan = Some(draw.plan.clone());
         let application = Application::new(Box::new(body), plan).with_home(draw.place);
         // Where roles are parted only the leader calls for people who wait.
@@ -190,7 +194,7 @@ impl World<'_> {
         seat.heard_us.clear();
         seat.sign = application.sign().clone();
         seat.machine = Some(Machine::new(endpoint, application));
-        self.come_to(place, draw.corner);
+        self.come_to(place, self.seats[place].corner);
         let entry = Entry::Started {
             station,
             boot: self.seats[place].boot,
