@@ -76,6 +76,8 @@ enum CrossguardStatus
   CROSSGUARD_STATUS_END = 9,
   // The library was built without this.
   CROSSGUARD_STATUS_UNSUPPORTED = 10,
+  // Another call is in this robot, of another thread; nothing has happened, and its time is yet to be told.
+  CROSSGUARD_STATUS_IN_USE = 11,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -1072,7 +1074,8 @@ CrossguardStatus crossguard_robot_finish(struct CrossguardRobot *robot);
 // called before every other input, and at the latest `delay_max_ms` after `next_due_ms` of its view.
 //
 // Errors: `Null`, `Misaligned`, `NotInitialised`, `Finished`, `WrongVersion`, `ShortBuffer`,
-// `BadArgument` for a code in the body that is none. Nothing has happened then.
+// `BadArgument` for a code in the body that is none, `InUse`. Nothing has happened then, and the turn has no outputs; the
+// time is yet to be told.
 CrossguardStatus crossguard_elapse(struct CrossguardRobot *robot,
                                    uint32_t elapsed_ms,
                                    struct CrossguardTurn *turn);

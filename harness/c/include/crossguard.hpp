@@ -19,6 +19,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <variant>
 
@@ -473,7 +474,8 @@ public:
 
   View view() const noexcept {
     View view{};
-    crossguard_view(&plain_, &view);
+    // Another thread is in it for some microseconds. Without a view this would say that the robot has no duty.
+    while (crossguard_view(&plain_, &view) == CROSSGUARD_STATUS_IN_USE) std::this_thread::yield();
     return view;
   }
   State state() const noexcept { return static_cast<State>(view().state); }

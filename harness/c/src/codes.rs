@@ -30,6 +30,8 @@ pub enum CrossguardStatus {
     End = 9,
     /// The library was built without this.
     Unsupported = 10,
+    /// Another call is in this robot, of another thread; nothing has happened, and its time is yet to be told.
+    InUse = 11,
 }
 
 /// Task types that have names; a robot may give meaning to the others, up to 15.

@@ -11,6 +11,8 @@
 
 use core::ffi::{CStr, c_char};
 use core::mem::{MaybeUninit, align_of, offset_of, size_of};
+use core::ops::{Deref, DerefMut};
+use core::sync::atomic::{AtomicU32, Ordering};
 use core::{ptr, slice};
 
 use crate::abi::{
@@ -38,6 +40,8 @@ struct Stamp {
 #[repr(C)]
 struct Memory {
     stamp: Stamp,
+    /// 1 while a call is in the robot: a second thread is refused.
+    in_use: AtomicU32,
     live: MaybeUninit<Live>,
 }
 
@@ -118,12 +122,38 @@ unsafe fn room<'a>(pointer: *mut u8, length: usize) -> Result<&'a mut [u8], Cros
     Ok(unsafe { slice::from_raw_parts_mut(pointer, length) })
 }
 
-/// The robot in some memory, if there is one that this library made.
+/// A robot, for one call at a time.
+struct Held<'a> {
+    live: &'a mut Live,
+    in_use: &'a AtomicU32,
+}
+
+impl Deref for Held<'_> {
+    type Target = Live;
+
+    fn deref(&self) -> &Live {
+        self.live
+    }
+}
+
+impl DerefMut for Held<'_> {
+    fn deref_mut(&mut self) -> &mut Live {
+        self.live
+    }
+}
+
+impl Drop for Held<'_> {
+    fn drop(&mut self) {
+        self.in_use.store(0, Ordering::Release);
+    }
+}
+
+/// The robot in some memory, if there is one that this library made, and no other call is in it.
 ///
 /// # Safety
 /// As for [`write`]. Memory whose first 16 octets are a stamp of this library was written by it, and
 /// by nobody else since, other than by copying all of it.
-unsafe fn live<'a>(robot: *mut CrossguardRobot) -> Result<&'a mut Live, CrossguardStatus> {
+unsafe fn live<'a>(robot: *mut CrossguardRobot) -> Result<Held<'a>, CrossguardStatus> {
     check(robot)?;
     let memory = robot.cast::<Memory>();
     // SAFETY: it points to a robot's memory, which is as large as `Memory` and aligned as it.
@@ -132,9 +162,16 @@ unsafe fn live<'a>(robot: *mut CrossguardRobot) -> Result<&'a mut Live, Crossgua
         MAGIC_LIVE if stamp.abi != CROSSGUARD_ABI_VERSION || stamp.live_len != LIVE_LEN => {
             Err(CrossguardStatus::WrongVersion)
         }
-        // SAFETY: the stamp is set last by `crossguard_robot_init`, when the robot is there, and
-        // taken off first by `crossguard_robot_finish`.
-        MAGIC_LIVE => Ok(unsafe { (*memory).live.assume_init_mut() }),
+        MAGIC_LIVE => {
+            // SAFETY: every pattern of bits is such a number, and calls touch it in no other way.
+            let in_use = unsafe { &(*memory).in_use };
+            let free = in_use.compare_exchange(0, 1, Ordering::Acquire, Ordering::Relaxed);
+            free.map_err(|_| CrossguardStatus::InUse)?;
+            // SAFETY: the stamp is set last by `crossguard_robot_init`, when the robot is there, and
+            // taken off first by `crossguard_robot_finish`; no other call has it.
+            let live = unsafe { (*memory).live.assume_init_mut() };
+            Ok(Held { live, in_use })
+        }
         MAGIC_FINISHED => Err(CrossguardStatus::Finished),
         _ => Err(CrossguardStatus::NotInitialised),
     }
@@ -168,7 +205,11 @@ unsafe fn try_with(
 ) -> CrossguardStatus {
     let outcome = (|| {
         // SAFETY: the caller's promise.
-        let (live, plain) = unsafe { (live(robot)?, write(turn)?) };
+        let plain = unsafe { write(turn)? };
+        // A call that is refused leaves nothing of the last one to carry out.
+        clear(plain);
+        // SAFETY: the caller's promise.
+        let mut live = unsafe { live(robot)? };
         // SAFETY: the caller's promise.
         let packets = unsafe { room(plain.packets, plain.packets_capacity)? };
         if packets.len() < CROSSGUARD_PACKETS_LEN {
@@ -181,14 +222,13 @@ unsafe fn try_with(
             Some(unsafe { room(plain.log.cast(), plain.log_capacity)? })
         };
         let state = plain.body.to_state().ok_or(CrossguardStatus::BadArgument)?;
-        clear(plain);
         let mut turn = Turn {
             plain,
             packets,
             lines: Lines::new(log),
             state,
         };
-        let status = act(live, &mut turn);
+        let status = act(&mut live, &mut turn);
         turn.plain.log_length = turn.lines.length();
         turn.plain.log_lost = turn.lines.lost();
         Ok(status)
@@ -219,7 +259,7 @@ pub extern "C" fn crossguard_abi_version() -> u32 {
 /// Text of a status, in English. It is never null and lives as long as the program.
 #[unsafe(no_mangle)]
 pub extern "C" fn crossguard_status_text(status: u32) -> *const c_char {
-    const TEXTS: [&CStr; 11] = [
+    const TEXTS: [&CStr; 12] = [
         c"done",
         c"a pointer is null",
         c"a buffer is too short",
@@ -231,6 +271,7 @@ pub extern "C" fn crossguard_status_text(status: u32) -> *const c_char {
         c"the settings break an inequality, see crossguard_config_check",
         c"there is no more",
         c"the library was built without this",
+        c"another call is in the robot",
     ];
     let text = TEXTS.get(status as usize).copied();
     text.unwrap_or(c"no status of this library").as_ptr()
@@ -370,6 +411,7 @@ pub unsafe extern "C" fn crossguard_robot_init(
     let memory = robot.cast::<Memory>();
     // SAFETY: it points to a robot's memory, which is as large as `Memory` and aligned as it.
     let memory = unsafe { &mut *memory };
+    memory.in_use = AtomicU32::new(0);
     memory
         .live
         .write(Live::new(config.station, config.boot, checked));
@@ -388,14 +430,14 @@ pub unsafe extern "C" fn crossguard_robot_init(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn crossguard_robot_finish(robot: *mut CrossguardRobot) -> CrossguardStatus {
     // SAFETY: the contract of the pointer.
-    let live = match unsafe { live(robot) } {
-        Ok(live) => live,
+    let held = match unsafe { live(robot) } {
+        Ok(held) => held,
         Err(status) => return status,
     };
     // SAFETY: the memory is a robot's, and its stamp is taken off before what it stands for.
     unsafe {
         (*robot.cast::<Memory>()).stamp.magic = MAGIC_FINISHED;
-        ptr::drop_in_place(live);
+        ptr::drop_in_place(ptr::from_mut(held.live));
     }
     CrossguardStatus::Ok
 }
@@ -404,7 +446,8 @@ pub unsafe extern "C" fn crossguard_robot_finish(robot: *mut CrossguardRobot) ->
 /// called before every other input, and at the latest `delay_max_ms` after `next_due_ms` of its view.
 ///
 /// Errors: `Null`, `Misaligned`, `NotInitialised`, `Finished`, `WrongVersion`, `ShortBuffer`,
-/// `BadArgument` for a code in the body that is none. Nothing has happened then.
+/// `BadArgument` for a code in the body that is none, `InUse`. Nothing has happened then, and the turn has no outputs; the
+/// time is yet to be told.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn crossguard_elapse(
     robot: *mut CrossguardRobot,
@@ -426,11 +469,12 @@ pub unsafe extern "C" fn crossguard_tell(
     turn: *mut CrossguardTurn,
 ) -> CrossguardStatus {
     // SAFETY: the contract of the pointer.
-    let event = match unsafe { read(event) } {
-        Ok(event) => *event,
-        Err(status) => return status,
-    };
+    let event = unsafe { read(event) };
     let act = |live: &mut Live, turn: &mut Turn<'_>| {
+        let event = match event {
+            Ok(event) => *event,
+            Err(status) => return status,
+        };
         let told = event.to_protocol().zip(event.parameters.to_codec());
         let Some((event, parameters)) = told else {
             return CrossguardStatus::BadArgument;
@@ -454,12 +498,11 @@ pub unsafe extern "C" fn crossguard_receive(
     turn: *mut CrossguardTurn,
 ) -> CrossguardStatus {
     // SAFETY: the contract of the pointer.
-    let packet = match unsafe { octets(packet, packet_length) } {
-        Ok(packet) => packet,
-        Err(status) => return status,
-    };
+    let packet = unsafe { octets(packet, packet_length) };
+    let act =
+        |live: &mut Live, turn: &mut Turn<'_>| status(packet.map(|it| live.receive(it, turn)));
     // SAFETY: the contracts of the pointers.
-    unsafe { with(robot, turn, |live, turn| live.receive(packet, turn)) }
+    unsafe { try_with(robot, turn, act) }
 }
 
 /// Hands a robot a RAM or an RMCM that another stack took out of its packet: UPER, from the header on.
@@ -473,12 +516,10 @@ pub unsafe extern "C" fn crossguard_receive_message(
     turn: *mut CrossguardTurn,
 ) -> CrossguardStatus {
     // SAFETY: the contract of the pointer.
-    let message = match unsafe { octets(message, message_length) } {
-        Ok(message) => message,
-        Err(status) => return status,
-    };
+    let message = unsafe { octets(message, message_length) };
+    let act = |live: &mut Live, turn: &mut Turn<'_>| status(message.map(|it| live.hear(it, turn)));
     // SAFETY: the contracts of the pointers.
-    unsafe { with(robot, turn, |live, turn| live.hear(message, turn)) }
+    unsafe { try_with(robot, turn, act) }
 }
 
 /// Makes a RAM outside of a session, where the protocol does not say when: `next_ram_ms` of the view is

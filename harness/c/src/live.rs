@@ -24,6 +24,8 @@ use crate::trace::{ByName, Entry, Hex, Lines, Reception};
 const HEADERS_LEN: usize = 44;
 /// Time on a robot's clock when it boots, in ms: a packet may have waited for longer than the robot runs.
 const BOOT_MS: u64 = CROSSGUARD_NONE_MS as u64;
+/// A longer time, 24 days, is that of a clock that went back, in 32 bits.
+const WENT_BACK_MS: u32 = u32::MAX / 2;
 
 // A message of several commands is one step for each of them, and one of them at most is for this robot:
 // the others are ignored with one output.
@@ -92,6 +94,10 @@ impl Live {
     }
 
     pub(crate) fn elapse(&mut self, elapsed_ms: u32, turn: &mut Turn<'_>) {
+        // The difference of two readings of a clock that went back. The time passes all the same: leases end, and nothing is left open.
+        if elapsed_ms > WENT_BACK_MS {
+            self.counters.count(Cause::ClockWentBack);
+        }
         let (exchange, mut call) = self.parts(turn, elapsed_ms);
         exchange.elapse(&mut call);
     }

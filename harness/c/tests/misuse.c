@@ -233,6 +233,68 @@ static void anything(void) {
     EXPECT(OK, crossguard_robot_finish(robot));
 }
 
+/* Hazard: a program that does not look at the status carries out the turn of before again and again, and its sign shows go for
+   ever: a call that is refused leaves nothing to carry out. */
+static void refused(void) {
+    EXPECT(OK, init(robot));
+    for (int how = 0; how < 4; how++) {
+        turn->log = lines;
+        turn->log_capacity = CROSSGUARD_LOG_LEN;
+        EXPECT(OK, crossguard_event_init(event, CROSSGUARD_EVENT_KIND_OPEN_CORRIDOR));
+        EXPECT(OK, crossguard_tell(robot, event, turn));
+        if (turn->outputs_length == 0 || turn->log_length == 0) failures++, puts("no output");
+        switch (how) {
+        case 0:
+            turn->body.control_mode = 200;
+            EXPECT(BAD, crossguard_elapse(robot, 1, turn));
+            crossguard_body_init(&turn->body);
+            break;
+        case 1:
+            event->kind = 200;
+            EXPECT(BAD, crossguard_tell(robot, event, turn));
+            break;
+        case 2: EXPECT(IS_NULL, crossguard_receive(robot, NULL, 5, turn)); break;
+        case 3: EXPECT(IS_NULL, crossguard_elapse(NULL, 1, turn)); break;
+        }
+        if (turn->outputs_length != 0 || turn->packets_length != 0 || turn->log_length != 0)
+            failures++, printf("%d: the last turn is there again\n", how);
+    }
+    turn->log = NULL;
+    EXPECT(OK, crossguard_robot_finish(robot));
+}
+
+/* Hazard: a clock that goes back is a time of 49 days. It passes, so that everything ends that waits for time, and is counted. */
+static void clock_goes_back(void) {
+    const uint32_t before = 2000, now = 1000;
+    uint64_t count = 0;
+    char name[CROSSGUARD_CAUSE_LEN];
+    CrossguardView after;
+    EXPECT(OK, init(robot));
+    EXPECT(OK, crossguard_event_init(event, CROSSGUARD_EVENT_KIND_PEDESTRIAN_DETECTED));
+    event->followers = 1;
+    event->tasks = 1;
+    EXPECT(OK, crossguard_tell(robot, event, turn));
+    EXPECT(OK, crossguard_elapse(robot, now - before, turn));
+    EXPECT(OK, crossguard_view(robot, &after));
+    if (after.state != CROSSGUARD_STATE_IDLE) failures++, puts("it asks for help still");
+    EXPECT(OK, crossguard_counter(robot, 0, name, sizeof name, &count));
+    if (strcmp(name, "protocol: clock went back") != 0 || count != 1) failures++, puts(name);
+    EXPECT(OK, crossguard_robot_finish(robot));
+}
+
+/* Hazard: a thread for packets and one for the time share a robot. A call that finds another one in it is refused. */
+static void two_threads(void) {
+    const uint32_t in_use = 1, free_again = 0;
+    EXPECT(OK, init(robot));
+    /* Whether a call is in the robot stands behind the first sixteen octets. */
+    memcpy((char *)robot + 16, &in_use, sizeof in_use);
+    expect_no_robot(CROSSGUARD_STATUS_IN_USE, robot);
+    memcpy((char *)robot + 16, &free_again, sizeof free_again);
+    EXPECT(OK, crossguard_elapse(robot, 1, turn));
+    EXPECT(OK, crossguard_elapse(robot, 1, turn));
+    EXPECT(OK, crossguard_robot_finish(robot));
+}
+
 /* What waited for too long is dropped before it is read, and says so. */
 static void waits_too_long(void) {
     const uint8_t packet[4] = {0};
@@ -268,6 +330,9 @@ int main(void) {
     codes();
     anything();
     waits_too_long();
+    refused();
+    clock_goes_back();
+    two_threads();
     void *all[] = {config, other, robot, turn, event, view, packets, lines};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) free(all[i]);
     printf("%d failures\n", failures);
