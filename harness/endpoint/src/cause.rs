@@ -100,6 +100,10 @@ pub enum Cause {
     OperatorsFull,
     /// Another user wanted to connect to the operator port.
     OperatorStranger,
+    /// The robot was held, and what programs said at the operator port may have waited: their connections ended.
+    OperatorHeld,
+    /// A program said again at once what a person says of the road or of the robot: it is taken for a stuck button.
+    OperatorRepeats,
     /// The next boot counter could not be persisted; the robot keeps the one that it has.
     EpochNotRenewed,
     /// The time could not be persisted; a robot that loses power now may trust a clock that was put back.
@@ -137,7 +141,9 @@ impl Cause {
             Self::OperatorGarbled
             | Self::OperatorSlow
             | Self::OperatorsFull
-            | Self::OperatorStranger => Layer::Operator,
+            | Self::OperatorStranger
+            | Self::OperatorHeld
+            | Self::OperatorRepeats => Layer::Operator,
             Self::EpochNotRenewed | Self::TimeNotKept | Self::RevokedUnread | Self::TicketsEnd => {
                 Layer::Storage
             }
@@ -184,6 +190,8 @@ impl Display for Reason {
             Cause::OperatorSlow => "too slow",
             Cause::BodiesFull | Cause::OperatorsFull => "too many",
             Cause::BodyStranger | Cause::OperatorStranger => "another user",
+            Cause::OperatorHeld => "held",
+            Cause::OperatorRepeats => "said again",
             Cause::EpochNotRenewed => "boot counter not renewed",
             Cause::TimeNotKept => "time not kept",
             Cause::RevokedUnread => "revocation list not read",

@@ -353,7 +353,7 @@ impl RobotFile {
         };
         let holding = self.config.settings().holding;
         let place = self.place.unwrap_or_default();
-        let body = Ported::open(self.build, self.site, place, port, holding)?;
+        let body = Ported::open(&self.name, self.build, self.site, place, port, holding)?;
         Ok(Box::new(body))
     }
 

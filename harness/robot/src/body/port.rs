@@ -65,6 +65,8 @@ enum Presence {
 
 /// A body that is another process.
 pub struct Ported {
+    /// Name of its robot.
+    robot: String,
     build: Build,
     site: Site,
     port: BodyPort,
@@ -97,11 +99,12 @@ impl fmt::Debug for Ported {
 }
 
 impl Ported {
-    /// Opens the port of a body of this build, which says that it is in position in the maneuvers of `holding`.
+    /// Opens the port of the body of this robot and build, which says that it is in position in the maneuvers of `holding`.
     ///
     /// # Errors
     /// When the operating system does not open the socket.
     pub fn open(
+        robot: &str,
         build: Build,
         site: Site,
         place: Place,
@@ -115,6 +118,7 @@ impl Ported {
             speed_mps: None,
         };
         Ok(Self {
+            robot: robot.to_owned(),
             build,
             site,
             listening: listen(&port.address)?,
@@ -170,6 +174,14 @@ impl Ported {
         }
     }
 
+    /// Ends the connection of a body that is none of this robot.
+    fn refuse(&mut self, why: String) {
+        let refused = ToBody::Refused { why: why.clone() };
+        // It is refused whether it hears that or not.
+        let _ = self.say(&refused);
+        self.lose(&in_a_line(&why));
+    }
+
     fn hear(&mut self, heard: Heard) {
         match heard {
             Heard::Connected(_, mut stream) if self.stream.is_some() => {
@@ -221,19 +233,24 @@ impl Ported {
         self.silent_s = 0.0;
         match line {
             FromBody::Hello {
+                robot: Some(robot), ..
+            } if robot != self.robot => {
+                let own = &self.robot;
+                self.refuse(format!(
+                    "this is the body port of {own}, and no body of {robot} is wanted"
+                ));
+            }
+            FromBody::Hello {
                 crossguard: VERSION,
+                ..
             } => {
                 if self.presence != Presence::Here {
                     self.presence = Presence::Here;
                     self.reports.push(Report::Here);
                 }
             }
-            FromBody::Hello { crossguard } => {
-                let why = format!("version {crossguard}: {VERSION} is spoken here");
-                let refused = ToBody::Refused { why: why.clone() };
-                // It is refused whether it hears that or not.
-                let _ = self.say(&refused);
-                self.lose(&why);
+            FromBody::Hello { crossguard, .. } => {
+                self.refuse(format!("version {crossguard}: {VERSION} is spoken here"));
             }
             FromBody::Pose {
                 east_m,

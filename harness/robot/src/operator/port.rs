@@ -21,7 +21,7 @@ use std::time::Duration;
 use crossguard_endpoint::Stimulus;
 use crossguard_endpoint::cause::{Cause, Layer};
 use crossguard_endpoint::counters::CauseName;
-use crossguard_protocol::{Event, HelpRequest, Input, Output, OutputKind, Robot};
+use crossguard_protocol::{Availability, Event, HelpRequest, Input, Output, OutputKind, Robot};
 use serde_json::{Map, Value};
 
 use self::lines::{Fields, ToOperator, condition, said};
@@ -49,6 +49,15 @@ const TICK: Duration = Duration::from_millis(10);
 
 /// How many lines are taken in at a time.
 const LINES_AT_A_TIME: usize = 16;
+
+/// After how long without a turn lines may have waited for too long: what a person saw of the road may not be so any more.
+const HELD_US: u64 = 1_000_000;
+
+/// For how long after that somebody who connects may have waited, too.
+const WAITED_US: u64 = 100_000;
+
+/// How soon a person does not say again what only a person says.
+const AGAIN_US: u64 = 3_000_000;
 
 /// Facts of a robot besides its records, and the context of command words.
 #[derive(Clone, Debug)]
@@ -79,9 +88,11 @@ impl Desk {
     ) -> JoinHandle<()> {
         std::thread::spawn(move || {
             let mut counter = Counter::new(self, orders);
+            counter.turned_us = clock.now_us();
             loop {
                 let record = records.recv_timeout(TICK);
                 let now_us = clock.now_us();
+                counter.wake(now_us);
                 match record {
                     Ok(record) => counter.record(&record, now_us),
                     Err(RecvTimeoutError::Timeout) => {}
@@ -126,6 +137,11 @@ struct Counter<O> {
     told: Option<(Fields, u64)>,
     /// Until when the pedestrian may cross, by the leases that stand.
     go_ends_us: u64,
+    /// When the last turn was, and until when connections may be ones that waited.
+    turned_us: u64,
+    waited_until_us: u64,
+    /// When a person said each of these last.
+    said_us: [Option<u64>; 3],
 }
 
 impl<O: Obeys> Counter<O> {
@@ -137,7 +153,31 @@ impl<O: Obeys> Counter<O> {
             robot: None,
             told: None,
             go_ends_us: 0,
+            turned_us: 0,
+            waited_until_us: 0,
+            said_us: [None; 3],
         }
+    }
+
+    /// A turn begins. After a long pause nobody knows how old lines are that wait: the connections end, and with them the lines.
+    fn wake(&mut self, now_us: u64) {
+        let held_us = now_us.saturating_sub(self.turned_us);
+        self.turned_us = now_us;
+        if held_us < HELD_US {
+            return;
+        }
+        self.waited_until_us = now_us + WAITED_US;
+        for client in std::mem::take(&mut self.clients).into_values() {
+            self.send_away(client.stream);
+        }
+    }
+
+    fn send_away(&self, mut stream: Stream) {
+        let why = "the robot was held: what was said meanwhile is dropped".to_owned();
+        // A program that does not hear it sees that the connection ends.
+        let _ = stream.say(&ToOperator::Refused { line: 0, why });
+        stream.close();
+        self.count(Cause::OperatorHeld, "what a program said may have waited");
     }
 
     fn record(&mut self, record: &Record, now_us: u64) {
@@ -165,6 +205,7 @@ impl<O: Obeys> Counter<O> {
                     self.tell_dropped(at_us, &cause, "", count);
                 }
             }
+            Entry::Hindered { why } => self.tell(&ToOperator::Hindered { at_us, why }),
             Entry::Stopped { .. } => self.tell(&ToOperator::Stopped { at_us }),
             _ => {}
         }
@@ -216,6 +257,9 @@ impl<O: Obeys> Counter<O> {
                 stream.close();
                 self.count(Cause::OperatorsFull, "a program more than can be connected");
             }
+            Heard::Connected(_, stream) if now_us < self.waited_until_us => {
+                self.send_away(stream);
+            }
             Heard::Connected(number, mut stream) => {
                 // A program that does not take it is gone when the next line is told.
                 let _ = stream.say(&ToOperator::Hello {
@@ -252,12 +296,18 @@ impl<O: Obeys> Counter<O> {
         };
         client.lines += 1;
         let nth = client.lines;
+        let mut cause = Cause::OperatorGarbled;
         let outcome = match line {
-            Ok(line) if client.has_greeted => self.understand(line).map(|order| {
-                if let Some(order) = order {
-                    self.orders.order(order);
+            Ok(line) if client.has_greeted => {
+                match self.understand(line) {
+                    Ok(Some(order)) if self.is_said_again(&order, now_us) => {
+                        cause = Cause::OperatorRepeats;
+                        Err("it was said just now: a person looks first, and says it again after 3 s".to_owned())
+                    }
+                    understood => understood
+                        .map(|order| order.into_iter().for_each(|it| self.orders.order(it))),
                 }
-            }),
+            }
             Ok(line) => {
                 let greeting = greeting(line);
                 client.has_greeted = greeting.is_ok();
@@ -266,7 +316,7 @@ impl<O: Obeys> Counter<O> {
             Err(why) => Err(why.to_owned()),
         };
         let Err(why) = outcome else { return };
-        self.count(Cause::OperatorGarbled, "a line at the operator port");
+        self.count(cause, "a line at the operator port");
         if may_be_frame(line) {
             self.orders.order(Order::LookedInVain(why.clone()));
         }
@@ -278,6 +328,19 @@ impl<O: Obeys> Counter<O> {
         if said.is_err() || !client.has_greeted {
             self.dismiss(number, said.err().as_ref().and_then(slowness));
         }
+    }
+
+    /// Whether a person just said this, who has to look before they say it again. Said on and on, it would take guards off
+    /// the road, or end a stop, in the moment in which that begins.
+    fn is_said_again(&mut self, order: &Order, now_us: u64) -> bool {
+        let place = match order {
+            Order::Clear => 0,
+            Order::Wish(Stimulus::Event(Event::TaskCompleted)) => 1,
+            Order::Wish(Stimulus::Event(Event::AvailabilityChanged(Availability::Available))) => 2,
+            _ => return false,
+        };
+        let last_us = self.said_us[place].replace(now_us);
+        last_us.is_some_and(|last_us| now_us.saturating_sub(last_us) < AGAIN_US)
     }
 
     /// Order of a line to the robot, or why the line means nothing.

@@ -64,6 +64,8 @@ pub(super) struct At {
 pub(super) enum FromBody {
     Hello {
         crossguard: u8,
+        /// The robot whose body it is, where it knows.
+        robot: Option<String>,
     },
     Pose {
         east_m: f64,

@@ -26,7 +26,7 @@ fn open(hello: &str) -> (Ported, UnixStream, tempfile::TempDir) {
     };
     let holding = TaskSet::of(&[TaskType::BLOCK]);
     let (build, site) = (Build::Quadruped, Site::default());
-    let mut body = Ported::open(build, site, Place::default(), port, holding).unwrap();
+    let mut body = Ported::open("Go2", build, site, Place::default(), port, holding).unwrap();
     let mut other = UnixStream::connect(path).unwrap();
     assert_eq!(report(&mut body), Some(Report::Absent));
     writeln!(other, "{hello}").unwrap();
@@ -287,6 +287,25 @@ fn a_body_of_the_version_without_wait_is_refused() {
     let refused = heard(&mut lines);
     let why = refused["why"].as_str().unwrap();
     assert!(why.starts_with("version 1: 2 is spoken"), "{why}");
+}
+
+/// Hazard: the sockets of two robots are mixed up in a launch file. One robot is where the other one was sent, and says that it
+/// is in position there.
+#[test]
+fn the_body_of_another_robot_is_refused() {
+    for (robot, is_refused) in [("Go2", false), ("ARI", true)] {
+        let hello = format!(r#"{{"type": "hello", "crossguard": 2, "robot": "{robot}"}}"#);
+        let (mut body, other, _folder) = open(&hello);
+        if !is_refused {
+            assert_eq!(report(&mut body), Some(Report::Here));
+            continue;
+        }
+        is_garbled(&mut body);
+        let mut lines = BufReader::new(other);
+        assert_eq!(heard(&mut lines)["type"], "hello");
+        let why = heard(&mut lines)["why"].as_str().unwrap().to_owned();
+        assert!(why.starts_with("this is the body port of Go2"), "{why}");
+    }
 }
 
 #[track_caller]

@@ -63,6 +63,11 @@ pub(super) enum ToOperator<'a> {
         detail: &'a str,
         count: u64,
     },
+    /// People may not cross now.
+    Hindered {
+        at_us: u64,
+        why: &'a str,
+    },
     Refused {
         line: u64,
         why: String,

@@ -48,6 +48,10 @@ fn counter() -> (Counter<Told>, Told) {
 fn connect(counter: &mut Counter<Told>, number: u64) -> BufReader<UnixStream> {
     let (ours, theirs) = UnixStream::pair().unwrap();
     let (stream, _) = prepare(ours).unwrap();
+    // A line that does not come is a test that fails.
+    theirs
+        .set_read_timeout(Some(Duration::from_mins(1)))
+        .unwrap();
     counter.hear(Heard::Connected(number, stream), 0);
     BufReader::new(theirs)
 }
@@ -229,6 +233,23 @@ fn what_the_robot_does_is_told_with_its_state_at_every_change_and_as_a_beat() {
         &json!({"state": "HelpRequested", "role": "requester", "corridor": "clear"}),
     );
     assert!(state.get("openMs").is_none() && state["session"]["leader"] == 2);
+    // A detector that never says anything keeps go away, and programs hear why.
+    let why = "no sight".to_owned();
+    let entry = Entry::Hindered { why };
+    let robot = "Go2".to_owned();
+    let at_us = 9;
+    counter.record(
+        &Record {
+            at_us,
+            robot,
+            entry,
+        },
+        9,
+    );
+    has(
+        &heard(&mut lines),
+        &json!({"type": "hindered", "why": "no sight"}),
+    );
     // Nothing more is told before it is time.
     counter.elapse(BEAT_US);
     counter.elapse(BEAT_US + 9);
@@ -276,4 +297,64 @@ fn a_client_that_does_not_read_says_no_hello_or_is_one_too_many_loses_its_connec
     counter.hear(Heard::Closed(10), 0);
     assert_eq!(heard(&mut connect(&mut counter, 18))["type"], "hello");
     assert!(told.take().is_empty());
+}
+
+/// Hazard: a person says that the road is clear, the robot hangs, somebody steps on the road, and the robot goes on.
+#[test]
+fn what_was_said_while_the_robot_was_held_is_dropped_and_counted() {
+    for (held_us, is_dropped) in [(HELD_US - 1, false), (HELD_US, true)] {
+        let (mut counter, told) = counter();
+        let mut lines = connect(&mut counter, 0);
+        heard(&mut lines);
+        say(&mut counter, 0, HELLO);
+        counter.wake(held_us);
+        let mut later = connect(&mut counter, 1);
+        for number in [0, 1] {
+            say(&mut counter, number, HELLO);
+            say(
+                &mut counter,
+                number,
+                r#"{"type": "command", "line": "clear"}"#,
+            );
+        }
+        if !is_dropped {
+            assert!(told.take().contains(&Order::Clear));
+            continue;
+        }
+        for lines in [&mut lines, &mut later] {
+            has(&heard(lines), &json!({"type": "refused", "line": 0}));
+            assert_eq!(lines.read_line(&mut String::new()).unwrap(), 0);
+        }
+        let orders = told.take();
+        let is_held = |it: &Order| matches!(it, Order::Count(Cause::OperatorHeld, _));
+        assert!(
+            orders.len() == 2 && orders.iter().all(is_held),
+            "{orders:?}"
+        );
+    }
+}
+
+/// Hazard: `ros2 topic pub` without `--once`, or a button that sticks, says on and on that the road is clear. The next guard whose
+/// leader dies leaves its person in the moment in which it falls back.
+#[test]
+fn what_only_a_person_says_is_not_taken_on_and_on() {
+    let (mut counter, told) = counter();
+    let mut lines = connect(&mut counter, 0);
+    heard(&mut lines);
+    say(&mut counter, 0, HELLO);
+    for word in ["clear", "tell taskCompleted", "available"] {
+        let line = json!({"type": "command", "line": word}).to_string();
+        let mut taken = Vec::new();
+        // Once a second for a minute, and once again after a pause.
+        for at_us in (0..60).chain([62, 65]).map(|s| s * 1_000_000) {
+            counter.hear(Heard::Line(0, line.clone()), at_us);
+            let counts = |it: &Order| matches!(it, Order::Count(Cause::OperatorRepeats, _));
+            let orders = told.take();
+            if !orders.iter().any(counts) {
+                taken.push(at_us / 1_000_000);
+            }
+        }
+        assert_eq!(taken, [0, 62, 65], "{word}");
+        has(&heard(&mut lines), &json!({"type": "refused"}));
+    }
 }
