@@ -16,10 +16,12 @@ from action_msgs.msg import GoalStatus
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import PoseStamped
 from rclpy.action import ActionClient
+from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.time import Time
 from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Empty, String
 
@@ -30,6 +32,7 @@ BODY_PORT_VERSION, OPERATOR_PORT_VERSION = 2, 1
 TURN_S = 0.02
 SHOWN_S = 0.3  # a corridor is shown no longer than this after its line
 STATUS_S = 1.0
+LEFT_S = 1.0  # how long a body port that refuses is left alone
 
 TASKS = {
     # <named tasks>
@@ -48,8 +51,8 @@ def task_of(number):
 def perceived(person):
     """Somebody in a frame; what the source does not say is left out."""
     at, by = person.position, person.velocity
-    said = {"class": person.kind, "error_m": person.error}
-    return dict(id=person.id, position_m=[at.x, at.y], velocity_mps=[by.x, by.y], confidence=person.confidence,
+    said = {"class": person.kind, "error_m": person.error, "velocity_mps": person.has_velocity and [by.x, by.y]}
+    return dict(id=person.id, position_m=[at.x, at.y], confidence=person.confidence,
                 **{name: value for name, value in said.items() if value})
 
 
@@ -72,7 +75,7 @@ class Port:
     def __init__(self, address, version):
         self.address, self.version, self.link, self.text, self.heard = address, version, None, b"", 0.0
 
-    def connect(self):
+    def connect(self, **more):
         """Whether it is connected now. It said hello, then."""
         link = socket.socket(socket.AF_UNIX)
         try:
@@ -83,7 +86,7 @@ class Port:
             return False
         link.setblocking(False)
         self.link, self.text, self.heard = link, b"", time.monotonic()
-        return self.say("hello", crossguard=self.version)
+        return self.say("hello", crossguard=self.version, **more)
 
     def close(self):
         if self.link:
@@ -127,43 +130,75 @@ class Body:
         self.goal = None  # the newest one
         self.waits = None  # the one that goes on after a wait
         self.pose = self.place = None  # not said yet; where and when it was before
+        self.cancelled = []  # goals that have not ended
+        self.left = -math.inf  # when the port refused this node
         self.client = ActionClient(node, Maneuver, "~/maneuver")
         self.beat = node.create_publisher(Empty, "~/beat", 1)
         quality = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-        node.create_subscription(PoseStamped, "~/pose", self.moved, quality)
+        self.poses = node.create_subscription(PoseStamped, "~/pose", self.moved, quality)
+
+    def doubt(self, header):
+        """Why a pose does not say where the body is now, if so: people step on the road by where it is."""
+        if header.frame_id != "site":
+            return f"a pose in frame '{header.frame_id}': it is wanted in frame 'site'"
+        drivers = self.node.count_publishers(self.poses.topic_name)
+        if drivers > 1:
+            return f"{drivers} publish poses: one driver is wanted"
+        stamp = Time.from_msg(header.stamp).nanoseconds / 1e9
+        age = self.node.get_clock().now().nanoseconds / 1e9 - stamp
+        if abs(age) > self.silence_s:
+            return f"a pose of {age:.1f} s ago by the clock of this node: {self.silence_s} s are possible"
+        # A clock that was put back leaves a time before that is in the future.
+        if self.place and 0.0 <= self.place[1] - stamp <= self.silence_s:
+            return "a pose that is not newer than the one before"
 
     def moved(self, message):
-        frame = message.header.frame_id
-        if frame not in ("", "site"):
-            return self.node.refuse(f"a pose in frame {frame}: it is wanted on the site")
-        place, now = (message.pose.position.x, message.pose.position.y), time.monotonic()
-        before, self.place = self.place, (place, now)
-        speed = math.dist(place, before[0]) / (now - before[1]) if before and now > before[1] else 0.0
+        if why := self.doubt(message.header):
+            return self.node.refuse(why)
+        place, at = (message.pose.position.x, message.pose.position.y), Time.from_msg(message.header.stamp).nanoseconds / 1e9
+        before, self.place = self.place, (place, at)
+        speed = math.dist(place, before[0]) / (at - before[1]) if before and at > before[1] else 0.0
         z, w = message.pose.orientation.z, message.pose.orientation.w
-        heading = 90.0 - math.degrees(2 * math.atan2(z, w))
-        self.pose = dict(eastM=place[0], northM=place[1], headingDeg=heading % 360.0, speedMps=speed, **self.error)
+        heading = {"headingDeg": (90.0 - math.degrees(2 * math.atan2(z, w))) % 360.0} if z or w else {}
+        self.pose = dict(eastM=place[0], northM=place[1], speedMps=speed, **heading, **self.error)
 
     def turn(self, late_s):
         if late_s > self.silence_s:  # it was held: what has come meanwhile is of no use any more
             self.port.close()
         # Nobody is a body before it says where it is, and it is one for as long as it does.
-        if not self.port.link and self.pose and self.client.server_is_ready():
-            self.port.connect()
+        is_left = time.monotonic() - self.left < LEFT_S
+        if not self.port.link and not is_left and self.pose and self.client.server_is_ready():
+            # The robot refuses the body of another one.
+            robot = self.node.operator and self.node.operator.robot
+            self.port.connect(**({"robot": robot["robot"]} if robot else {}))
         lines = self.port.lines()
+        for line in lines:
+            if line["type"] == "refused":
+                self.left = time.monotonic()
+                self.node.refuse(f"the body port refuses this node: {line['why']}")
         if not self.port.link:
-            self.pose = None
+            self.pose, self.cancelled = None, []
             return self.stand()
         for line in lines:
             self.act(line)
         if lines:
             self.beat.publish(Empty())
-        goal = self.goal or self.waits
-        if goal and time.monotonic() - self.port.heard > self.silence_s:
-            self.stand()
-            goal["done"](False)
+        self.watch_driver()
         if self.pose:
             self.port.say("pose", **self.pose)
             self.pose = None
+
+    def watch_driver(self):
+        """Ends a goal that the robot says nothing about, or its driver; a driver that lets go of none is a fault."""
+        now, goal = time.monotonic(), self.goal or self.waits
+        is_unanswered = goal and not goal["handle"] and now - goal["since"] > 2 * self.silence_s
+        if goal and (is_unanswered or now - self.port.heard > self.silence_s):
+            self.stand()
+            goal["done"](False)
+        if late := [it for it in self.cancelled if now - it["since"] > 2 * self.silence_s]:
+            self.cancelled = [it for it in self.cancelled if it not in late]
+            self.node.refuse("the driver did not end a goal that was cancelled")
+            self.port.say("fault", text="the body may go on: its driver did not end a goal that was cancelled")
 
     def act(self, line):
         kind, to = line["type"], line.get("to")
@@ -194,8 +229,6 @@ class Body:
             self.begin(self.waits["asked"], self.waits["done"])
         elif kind in ("stop", "halt") or kind == "release" and self.holds():
             self.stand()
-        elif kind == "refused":
-            self.node.get_logger().error(f"the body port refuses this node: {line['why']}")
 
     def holds(self):
         return self.goal and self.goal["asked"].policy == Maneuver.Goal.HOLD_UNTIL_CLEAR
@@ -203,9 +236,10 @@ class Body:
     def begin(self, asked, done):
         """Sends a goal; `done` hears whether the body did it, unless another one takes its place."""
         self.stand()
-        goal = self.goal = {"asked": asked, "done": done, "handle": None}
+        goal = self.goal = {"asked": asked, "done": done, "handle": None, "since": time.monotonic()}
 
         def end(is_done):
+            self.cancelled = [it for it in self.cancelled if it is not goal]
             if self.goal is goal:
                 self.goal = None
                 done(is_done)
@@ -220,7 +254,7 @@ class Body:
             if not handle.accepted:
                 return end(False)
             if self.goal is not goal:
-                handle.cancel_goal_async()
+                self.cancel(goal)
             # Who holds a place, and ends, has left it.
             handle.get_result_async().add_done_callback(
                 lambda result: end(result.result().status == GoalStatus.STATUS_SUCCEEDED and not asked.hold))
@@ -233,7 +267,12 @@ class Body:
     def stand(self):
         goal, self.goal, self.waits = self.goal, None, None
         if goal and goal["handle"] and goal["handle"].accepted:
-            goal["handle"].cancel_goal_async()
+            self.cancel(goal)
+
+    def cancel(self, goal):
+        goal["since"] = time.monotonic()
+        self.cancelled.append(goal)
+        goal["handle"].cancel_goal_async()
 
 
 class Operator:
@@ -247,9 +286,11 @@ class Operator:
         self.corridor = node.create_publisher(Corridor, "~/corridor", 1)
         self.status = node.create_publisher(Status, "~/status", 1)
         self.events = node.create_publisher(Event, "~/event", 100)
-        node.create_subscription(String, "~/command", lambda it: self.say("command", line=it.data), 10)
-        node.create_subscription(People, "~/people", self.look, 10)
-        node.create_subscription(BatteryState, "~/battery", self.charge, 10)
+        node.create_subscription(String, "~/command", self.command, 10)
+        # As most detectors publish: a subscription that wants every message would hear nothing of them.
+        quality = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+        node.create_subscription(People, "~/people", self.look, quality)
+        node.create_subscription(BatteryState, "~/battery", self.charge, quality)
 
     def trusts(self):
         return bool(self.robot and self.robot["trustsRosGraph"])
@@ -262,10 +303,17 @@ class Operator:
         else:
             self.port.say(kind, **more)
 
+    def command(self, message):
+        # What was true of the road when it was said may not be true any more.
+        if self.node.was_held():
+            self.node.refuse(f"'{message.data}' may have waited, since this node was held: say it again")
+        else:
+            self.say("command", line=message.data)
+
     def look(self, frame):
-        covers = [[it.x, it.y] for it in frame.covers.points]
+        covers = {} if frame.covers_all else {"covers_m": [[it.x, it.y] for it in frame.covers.points]}
         self.say("frame", source=frame.source, unix_s=frame.stamp.sec + frame.stamp.nanosec / 1e9,
-                 people=[perceived(it) for it in frame.people], **({"covers_m": covers} if covers else {}))
+                 people=[perceived(it) for it in frame.people], **covers)
 
     def charge(self, battery):
         if math.isfinite(battery.percentage):
@@ -289,7 +337,7 @@ class Operator:
             self.robot = line
         elif kind == "state" and self.robot:
             self.tell(line, is_newest)
-        elif kind in ("act", "notice", "ignored", "refused", "dropped", "stopped"):
+        elif kind in ("act", "notice", "ignored", "refused", "dropped", "hindered", "stopped"):
             if kind == "dropped":
                 cause = f"{line['layer']}: {line['cause']}"
                 self.drops[cause] = self.drops.get(cause, 0) + line.get("count", 1)
@@ -348,7 +396,7 @@ class Crossguard(Node):
         trusts = self.declare_parameter("trust_ros_graph", False).value
         body = self.declare_parameter("body", "").value
         operator = self.declare_parameter("operator", "").value
-        silence_s = self.declare_parameter("silence", 0.5).value
+        self.silence_s = self.declare_parameter("silence", 0.5).value
         error_m = self.declare_parameter("pose_error", 0.0).value
         if is_visible(os.environ) and not trusts:
             sys.exit("others than this machine may be on the ROS graph, and who is on it moves and commands the robot: set "
@@ -357,11 +405,13 @@ class Crossguard(Node):
         if not body and not operator:
             sys.exit("the parameters body and operator name ports of the robot's file, like unix:go2.sock: set one or both")
         self.operator = Operator(self, operator) if operator else None
-        self.body = Body(self, body, silence_s, error_m) if body else None
-        self.refused, self.turned = 0, time.monotonic()
+        self.body = Body(self, body, self.silence_s, error_m) if body else None
+        self.refused, self.turned, self.held = 0, time.monotonic(), -math.inf
         self.diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
-        self.create_timer(TURN_S, self.turn)
-        self.create_timer(STATUS_S, self.diagnose)
+        # Not the ROS clock: a simulation that stands still would stop the heartbeats, and nobody would be told.
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(TURN_S, self.turn, clock=steady)
+        self.create_timer(STATUS_S, self.diagnose, clock=steady)
 
     def now(self):
         return self.get_clock().now().to_msg()
@@ -369,11 +419,18 @@ class Crossguard(Node):
     def turn(self):
         now = time.monotonic()
         late_s, self.turned = now - self.turned, now
+        if late_s > self.silence_s:
+            self.held = now
         if self.operator:
             self.operator.turn()
         # A robot that does not trust the graph is moved by nobody on it.
         if self.body and (self.body.port.link or not self.operator or self.operator.trusts()):
             self.body.turn(late_s)
+
+    def was_held(self):
+        """Whether messages may have waited for the node: it was held until just now."""
+        now = time.monotonic()
+        return now - self.turned > self.silence_s or now - self.held < self.silence_s
 
     def refuse(self, why):
         self.refused += 1

@@ -10,6 +10,7 @@ import rclpy
 from geometry_msgs.msg import PoseStamped
 from rclpy.action import ActionServer, CancelResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.clock import Clock, ClockType
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import Empty
@@ -33,7 +34,8 @@ class Walker(Node):
         self.server = ActionServer(
             self, Maneuver, "crossguard/maneuver", self.walk, callback_group=group, handle_accepted_callback=self.take,
             cancel_callback=lambda _: CancelResponse.ACCEPT)
-        self.create_timer(STEP_S, self.say, callback_group=group)
+        # It walks by a clock that no simulation stops.
+        self.create_timer(STEP_S, self.say, callback_group=group, clock=Clock(clock_type=ClockType.STEADY_TIME))
 
     def hear(self, _):
         self.heard = time.monotonic()
