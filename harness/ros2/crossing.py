@@ -409,6 +409,15 @@ def a_second_driver_is_an_emergency_stop(stack):
     robot.until_refused("2 publish")
 
 
+def two_nodes_of_one_name_show_no_go(stack):
+    graph = Graph(stack)
+    robot = Robot(graph, "ari", 1, "humanoid", (0.0, -1.5), free_ports(), 1.0)
+    robot.until_ready()
+    # The node of another robot in the same namespace, or a display would take the go of one robot for that of the other.
+    robot.start_node()
+    robot.until_refused("2 nodes publish")
+
+
 def a_driver_that_goes_on_after_a_cancel_is_a_fault(stack):
     street = Street(stack, pace=1.0, body=False)
     street.ari.command("detect")
@@ -457,7 +466,8 @@ CASES = [
     a_whole_crossing_is_done_by_two_bodies_of_rclpy, a_node_that_is_killed_is_an_emergency_stop,
     a_body_that_is_killed_is_an_emergency_stop, a_body_stands_when_its_robot_is_killed, a_node_that_was_held_says_nothing_old,
     a_robot_that_takes_signed_packets_only_takes_nothing_from_the_graph, a_frame_of_people_reaches_the_robot,
-    a_pose_that_is_old_is_none, a_second_driver_is_an_emergency_stop, a_driver_that_goes_on_after_a_cancel_is_a_fault,
+    a_pose_that_is_old_is_none, a_second_driver_is_an_emergency_stop, two_nodes_of_one_name_show_no_go,
+    a_driver_that_goes_on_after_a_cancel_is_a_fault,
     a_command_that_waited_in_the_node_is_refused, a_node_with_a_clock_that_stands_still_goes_on,
     the_body_of_another_robot_is_refused, a_graph_that_others_can_reach_is_refused]
 

@@ -364,7 +364,11 @@ class Operator:
         self.offset = passed if self.offset is None else min(passed, self.offset)
         left = min(line.get("openMs", 0) / 1e3, SHOWN_S) - (passed - self.offset)
         if is_newest:
-            corridor = Corridor(station=line["station"], open=left > 0, road_occupied=line["roadOccupied"],
+            # A display would take the go of one robot for that of the other.
+            nodes = self.node.count_publishers(self.corridor.topic_name)
+            if nodes > 1:
+                self.node.refuse(f"{nodes} nodes publish {self.corridor.topic_name}: no go is told, each wants a namespace")
+            corridor = Corridor(station=line["station"], open=left > 0 and nodes <= 1, road_occupied=line["roadOccupied"],
                                 valid_for=Duration(seconds=max(left, 0.0)).to_msg())
             corridor.header.stamp = self.node.now()
             self.corridor.publish(corridor)
