@@ -93,15 +93,17 @@ class Heard:
 class Robot:
     """`crossguard run`, its node, and its body."""
 
-    def __init__(self, street, name, station, build, place, link, pace, lines="", options=(), zone="", node=(), body=True):
+    def __init__(self, street, name, station, build, place, link, pace, lines="", options=(), zone="", node=(), body=True,
+                 is_ported=True):
         self.street, self.name, self.place, self.pace = street, name, place, pace
         folder, space = street.folder, f"/{name}/crossguard"
+        tables = README.split("```toml\n")[1].split("```")[0].replace("go2", name)
+        tables = tables.replace("[body]", f"[body]\nsilence_ms = {1000 * SILENCE_S:.0f}")
         self.log, config = folder / f"{name}.jsonl", folder / f"{name}.toml"
         config.write_text(
             f'{lines}\nname = "{name}"\nstation = {station}\nbuild = "{build}"\nboot_file = "{name}.boot"\n'
             f'autopilot = true\n\n[link]\naddress = "127.0.0.1:{link[0]}"\npeers = ["127.0.0.1:{link[1]}"]\n\n'
-            + README.split("```toml\n")[1].split("```")[0].replace("go2", name)
-            .replace("[body]", f"[body]\nsilence_ms = {1000 * SILENCE_S:.0f}") + zone)
+            + tables[0 if is_ported else tables.index("[operator]"):] + zone)
         self.corridor = Heard(street, Corridor, f"{space}/corridor")
         self.status = Heard(street, Status, f"{space}/status")
         self.events = Heard(street, Event, f"{space}/event")
@@ -409,6 +411,14 @@ def a_second_driver_is_an_emergency_stop(stack):
     robot.until_refused("2 publish")
 
 
+def a_robot_without_a_body_port_takes_no_part(stack):
+    graph = Graph(stack)
+    # Its file lacks [body]: a simulated body would say that it is in position, and the real one has not moved.
+    robot = Robot(graph, "ari", 1, "humanoid", (0.0, -1.5), free_ports(), 1.0, is_ported=False)
+    robot.until_refused("without the body of this node")
+    robot.until_available(Status.LOCAL_FAULT)
+
+
 def two_nodes_of_one_name_show_no_go(stack):
     graph = Graph(stack)
     robot = Robot(graph, "ari", 1, "humanoid", (0.0, -1.5), free_ports(), 1.0)
@@ -464,12 +474,13 @@ def a_graph_that_others_can_reach_is_refused(_):
 
 CASES = [
     a_whole_crossing_is_done_by_two_bodies_of_rclpy, a_node_that_is_killed_is_an_emergency_stop,
-    a_body_that_is_killed_is_an_emergency_stop, a_body_stands_when_its_robot_is_killed, a_node_that_was_held_says_nothing_old,
-    a_robot_that_takes_signed_packets_only_takes_nothing_from_the_graph, a_frame_of_people_reaches_the_robot,
-    a_pose_that_is_old_is_none, a_second_driver_is_an_emergency_stop, two_nodes_of_one_name_show_no_go,
-    a_driver_that_goes_on_after_a_cancel_is_a_fault,
-    a_command_that_waited_in_the_node_is_refused, a_node_with_a_clock_that_stands_still_goes_on,
-    the_body_of_another_robot_is_refused, a_graph_that_others_can_reach_is_refused]
+    a_body_that_is_killed_is_an_emergency_stop, a_body_stands_when_its_robot_is_killed,
+    a_node_that_was_held_says_nothing_old, a_robot_that_takes_signed_packets_only_takes_nothing_from_the_graph,
+    a_frame_of_people_reaches_the_robot, a_robot_without_a_body_port_takes_no_part, a_pose_that_is_old_is_none,
+    a_second_driver_is_an_emergency_stop, two_nodes_of_one_name_show_no_go,
+    a_driver_that_goes_on_after_a_cancel_is_a_fault, a_command_that_waited_in_the_node_is_refused,
+    a_node_with_a_clock_that_stands_still_goes_on, the_body_of_another_robot_is_refused,
+    a_graph_that_others_can_reach_is_refused]
 
 
 def main():

@@ -410,6 +410,7 @@ class Crossguard(Node):
             sys.exit("the parameters body and operator name ports of the robot's file, like unix:go2.sock: set one or both")
         self.operator = Operator(self, operator) if operator else None
         self.body = Body(self, body, self.silence_s, error_m) if body else None
+        self.bodiless = 0  # for how many seconds the robot has taken part without its body
         self.refused, self.turned, self.held = 0, time.monotonic(), -math.inf
         self.diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
         # Not the ROS clock: a simulation that stands still would stop the heartbeats, and nobody would be told.
@@ -442,7 +443,19 @@ class Crossguard(Node):
         if self.operator:
             self.operator.event(Event.REFUSED, {"text": why})
 
+    def watch_body(self):
+        """A robot that takes part without this body has another one, perhaps a simulated one: people would rely on a guard
+        that does not move."""
+        has_part = self.operator and self.operator.trusts() and self.operator.said
+        is_bodiless = has_part and self.operator.said["availability"] == Status.AVAILABLE and not self.body.port.link
+        self.bodiless = self.bodiless + 1 if is_bodiless else 0
+        if self.bodiless > 2:
+            self.refuse("the robot takes part without the body of this node: is there a [body] in its file?")
+            self.operator.say("command", line="unavailable local-fault")
+
     def diagnose(self):
+        if self.body:
+            self.watch_body()
         message = DiagnosticArray()
         message.header.stamp = self.now()
         for name, end in (("body", self.body), ("operator", self.operator)):
