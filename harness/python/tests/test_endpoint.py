@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import json
 import math
@@ -184,6 +185,23 @@ def test_a_log_is_lines_of_records_and_valid() -> None:
     validation = validate([log])
     assert validation and validation.validated is not None
     assert validation.validated.robots == 1
+
+
+def test_a_full_disk_ends_the_log_and_costs_no_effect(caplog: pytest.LogCaptureFixture) -> None:
+    """Hazard: the disk is full, the step that says *fall back* raises, and the body is not told."""
+
+    class Full(io.StringIO):
+        def write(self, text: str, /) -> int:
+            if "pedestrianDetected" in text:
+                raise OSError(errno.ENOSPC, "No space left on device")
+            return super().write(text)
+
+    log = Full()
+    go2 = robot(2, log)
+    assert outputs.LockIdentity() in go2.tell(events.PedestrianDetected(), at(10))
+    assert isinstance(go2.log_error, OSError) and "its log ends here" in caplog.text
+    assert any(isinstance(it, outputs.Send) for it in go2.elapse(at(1_000)))
+    assert len(log.getvalue().splitlines()) == 1 and len(caplog.records) == 1
 
 
 def test_a_robot_that_is_looked_at_is_a_copy() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import time
 from dataclasses import dataclass
 from typing import Protocol
@@ -50,10 +51,11 @@ class Endpoint:
 
     Each of `receive`, `tell` and `elapse` returns what is to be done, in order. They raise `ValueError`
     for a number that is out of range, and nothing has happened then; what a packet does wrong is no
-    error, but `outputs.Dropped`, and counted.
+    error, but `outputs.Dropped`, and counted. A log that cannot be written ends, and costs no effect:
+    `log_error` says why.
     """
 
-    __slots__ = ("_body", "_config", "_log", "_native")
+    __slots__ = ("_body", "_config", "_log", "_log_error", "_native")
 
     def __init__(
         self,
@@ -69,6 +71,7 @@ class Endpoint:
     ) -> None:
         self._config = Config() if config is None else config
         self._log = log
+        self._log_error: Exception | None = None
         identifiers = Identifiers() if identifiers is None else identifiers
         self._native = _crossguard.Endpoint(
             name,
@@ -132,6 +135,11 @@ class Endpoint:
         return self._native.name
 
     @property
+    def log_error(self) -> Exception | None:
+        """Why its log has ended, if it has: a full disk, for example. The robot goes on without."""
+        return self._log_error
+
+    @property
     def all_have_answered(self) -> bool:
         """Whether it asks for help, has offers enough, and has heard an answer of every robot that it heard
         in the last second: then `events.AllAnswered` may be told, and it selects at once."""
@@ -155,8 +163,14 @@ class Endpoint:
 
     def _write_log(self) -> None:
         lines = self._native.take_log()
-        if self._log is not None:
+        if self._log is None:
+            return
+        try:
             self._log.write(lines)
+        except Exception as error:
+            # The robot has taken its step: its effects, a fallback perhaps, must reach the body all the same.
+            self._log, self._log_error = None, error
+            logging.getLogger("crossguard").error("%s goes on, and its log ends here: %s", self.name, error)
 
     def __repr__(self) -> str:
         return f"<Endpoint {self.name}: {self._native.robot().describe()}>"
