@@ -11,7 +11,6 @@
 
 use core::ffi::{CStr, c_char};
 use core::mem::{MaybeUninit, align_of, offset_of, size_of};
-use core::ops::{Deref, DerefMut};
 use core::sync::atomic::{AtomicU32, Ordering};
 use core::{ptr, slice};
 
@@ -128,20 +127,6 @@ struct Held<'a> {
     in_use: &'a AtomicU32,
 }
 
-impl Deref for Held<'_> {
-    type Target = Live;
-
-    fn deref(&self) -> &Live {
-        self.live
-    }
-}
-
-impl DerefMut for Held<'_> {
-    fn deref_mut(&mut self) -> &mut Live {
-        self.live
-    }
-}
-
 impl Drop for Held<'_> {
     fn drop(&mut self) {
         self.in_use.store(0, Ordering::Release);
@@ -209,7 +194,7 @@ unsafe fn try_with(
         // A call that is refused leaves nothing of the last one to carry out.
         clear(plain);
         // SAFETY: the caller's promise.
-        let mut live = unsafe { live(robot)? };
+        let held = unsafe { live(robot)? };
         // SAFETY: the caller's promise.
         let packets = unsafe { room(plain.packets, plain.packets_capacity)? };
         if packets.len() < CROSSGUARD_PACKETS_LEN {
@@ -228,7 +213,7 @@ unsafe fn try_with(
             lines: Lines::new(log),
             state,
         };
-        let status = act(&mut live, &mut turn);
+        let status = act(held.live, &mut turn);
         turn.plain.log_length = turn.lines.length();
         turn.plain.log_lost = turn.lines.lost();
         Ok(status)
@@ -471,15 +456,11 @@ pub unsafe extern "C" fn crossguard_tell(
     // SAFETY: the contract of the pointer.
     let event = unsafe { read(event) };
     let act = |live: &mut Live, turn: &mut Turn<'_>| {
-        let event = match event {
-            Ok(event) => *event,
+        match event.map(|event| event.to_protocol().zip(event.parameters.to_codec())) {
+            Ok(Some((event, parameters))) => live.tell(event, parameters, turn),
+            Ok(None) => return CrossguardStatus::BadArgument,
             Err(status) => return status,
-        };
-        let told = event.to_protocol().zip(event.parameters.to_codec());
-        let Some((event, parameters)) = told else {
-            return CrossguardStatus::BadArgument;
-        };
-        live.tell(event, parameters, turn);
+        }
         CrossguardStatus::Ok
     };
     // SAFETY: the contracts of the pointers.
@@ -545,8 +526,8 @@ pub unsafe extern "C" fn crossguard_view(
     view: *mut CrossguardView,
 ) -> CrossguardStatus {
     // SAFETY: the contracts of the pointers; nothing is written to the robot.
-    let both = unsafe { live(robot.cast_mut()).and_then(|live| Ok((live, write(view)?))) };
-    status(both.map(|(live, view)| *view = CrossguardView::of(live.robot())))
+    let both = unsafe { live(robot.cast_mut()).and_then(|held| Ok((held, write(view)?))) };
+    status(both.map(|(held, view)| *view = CrossguardView::of(held.live.robot())))
 }
 
 /// Reads a count of dropped or ignored inputs: the cause number `index`, as text that ends with NUL, cut to
@@ -563,25 +544,19 @@ pub unsafe extern "C" fn crossguard_counter(
 ) -> CrossguardStatus {
     // SAFETY: the contracts of the pointers; nothing is written to the robot.
     let all = unsafe {
-        live(robot.cast_mut()).and_then(|live| {
+        live(robot.cast_mut()).and_then(|held| {
             let count = write(count)?;
             check(name)?;
-            Ok((
-                live,
-                count,
-                slice::from_raw_parts_mut(name, name_capacity.min(256)),
-            ))
+            let name = slice::from_raw_parts_mut(name, name_capacity.min(256));
+            Ok((held, count, name))
         })
     };
-    status(all.and_then(|(live, count, name)| {
+    status(all.and_then(|(held, count, name)| {
         if name.is_empty() {
             return Err(CrossguardStatus::ShortBuffer);
         }
-        let (cause, times) = live
-            .counters()
-            .iter()
-            .nth(index)
-            .ok_or(CrossguardStatus::End)?;
+        let counted = held.live.counters().iter().nth(index);
+        let (cause, times) = counted.ok_or(CrossguardStatus::End)?;
         copy_text(Text::<256>::of(&cause).as_str(), name);
         *count = times;
         Ok(())
