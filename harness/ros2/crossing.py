@@ -162,12 +162,14 @@ class Robot:
 
     def until_ready(self):
         """Available for half a second. What stopped it while all started, on a busy machine, its operator takes back."""
-        since = None
+        since, said = None, time.monotonic()
 
         def is_ready():
-            nonlocal since
+            nonlocal since, said
             newest = self.status.messages[-1].availability if self.status.messages else ""
-            if newest == Status.EMERGENCY_STOP:
+            # The robot takes it once in three seconds, and not at once.
+            if newest == Status.EMERGENCY_STOP and time.monotonic() - said > 4.0:
+                said = time.monotonic()
                 self.command("available")
             since = (since or time.monotonic()) if newest == Status.AVAILABLE else None
             return since and time.monotonic() - since > 0.5
@@ -309,6 +311,7 @@ def lose(stack, which):
     assert go2.status.messages[-1].availability == Status.EMERGENCY_STOP
     told = len(go2.status.messages)
     until("somebody who hears commands", lambda: go2.commands.get_subscription_count() == 1)
+    time.sleep(4.0)  # a stop is not ended sooner
     go2.command("available")
     go2.until_available(since=told)
     for robot in street.robots:

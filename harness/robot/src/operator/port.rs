@@ -59,6 +59,9 @@ const WAITED_US: u64 = 100_000;
 /// How soon a person does not say again what only a person says.
 const AGAIN_US: u64 = 3_000_000;
 
+/// The place of `available` among the words that only a person says.
+const AVAILABLE: usize = 2;
+
 /// Facts of a robot besides its records, and the context of command words.
 #[derive(Clone, Debug)]
 pub struct Desk {
@@ -191,6 +194,10 @@ impl<O: Obeys> Counter<O> {
                 for output in outputs.iter() {
                     self.output(at_us, input, output);
                 }
+                let was_available = self.robot.as_ref().is_none_or(is_available);
+                if was_available && !is_available(state) {
+                    self.said_us[AVAILABLE] = Some(at_us);
+                }
                 self.robot = Some((**state).clone());
                 self.tell_state(now_us, false);
             }
@@ -298,16 +305,15 @@ impl<O: Obeys> Counter<O> {
         let nth = client.lines;
         let mut cause = Cause::OperatorGarbled;
         let outcome = match line {
-            Ok(line) if client.has_greeted => {
-                match self.understand(line) {
-                    Ok(Some(order)) if self.is_said_again(&order, now_us) => {
-                        cause = Cause::OperatorRepeats;
-                        Err("it was said just now: a person looks first, and says it again after 3 s".to_owned())
-                    }
-                    understood => understood
-                        .map(|order| order.into_iter().for_each(|it| self.orders.order(it))),
+            Ok(line) if client.has_greeted => match self.understand(line) {
+                Ok(Some(order)) if self.is_said_again(&order, now_us) => {
+                    cause = Cause::OperatorRepeats;
+                    Err("it was said just now, or a stop has just begun: look first, and say it again after 3 s".to_owned())
                 }
-            }
+                understood => {
+                    understood.map(|order| order.into_iter().for_each(|it| self.orders.order(it)))
+                }
+            },
             Ok(line) => {
                 let greeting = greeting(line);
                 client.has_greeted = greeting.is_ok();
@@ -331,12 +337,14 @@ impl<O: Obeys> Counter<O> {
     }
 
     /// Whether a person just said this, who has to look before they say it again. Said on and on, it would take guards off
-    /// the road, or end a stop, in the moment in which that begins.
+    /// the road, or end a stop, in the moment in which that begins. A stop of one operator is not ended at once by another.
     fn is_said_again(&mut self, order: &Order, now_us: u64) -> bool {
         let place = match order {
             Order::Clear => 0,
             Order::Wish(Stimulus::Event(Event::TaskCompleted)) => 1,
-            Order::Wish(Stimulus::Event(Event::AvailabilityChanged(Availability::Available))) => 2,
+            Order::Wish(Stimulus::Event(Event::AvailabilityChanged(Availability::Available))) => {
+                AVAILABLE
+            }
             _ => return false,
         };
         let last_us = self.said_us[place].replace(now_us);
@@ -450,6 +458,10 @@ impl<O: Obeys> Counter<O> {
             client.stream.close();
         }
     }
+}
+
+fn is_available(robot: &Robot) -> bool {
+    robot.availability() == Availability::Available
 }
 
 /// Whether a line that means nothing may have been of a sensor source, so that somebody may have been in it.

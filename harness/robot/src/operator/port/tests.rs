@@ -334,6 +334,25 @@ fn what_was_said_while_the_robot_was_held_is_dropped_and_counted() {
     }
 }
 
+/// Hazard: one operator stops a robot, and a supervisor that sees an unavailable robot says `available` at once.
+#[test]
+fn a_stop_is_not_ended_at_once_by_another_program() {
+    let (mut counter, told) = counter();
+    let mut lines = connect(&mut counter, 0);
+    heard(&mut lines);
+    say(&mut counter, 0, HELLO);
+    let mut robot = Robot::new(StationId(2), 7);
+    let stopped = Availability::Unavailable(Unavailability::EmergencyStop);
+    let stop = step(&mut robot, 9_000_000, Event::AvailabilityChanged(stopped));
+    counter.record(&stop, 9_000_000);
+    let available = json!({"type": "command", "line": "available"}).to_string();
+    for (at_us, is_taken) in [(9_100_000, false), (12_000_000, false), (15_000_000, true)] {
+        counter.hear(Heard::Line(0, available.clone()), at_us);
+        let wished = |it: &Order| matches!(it, Order::Wish(_));
+        assert_eq!(told.take().iter().any(wished), is_taken, "{at_us}");
+    }
+}
+
 /// Hazard: `ros2 topic pub` without `--once`, or a button that sticks, says on and on that the road is clear. The next guard whose
 /// leader dies leaves its person in the moment in which it falls back.
 #[test]
