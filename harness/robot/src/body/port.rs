@@ -175,11 +175,13 @@ impl Ported {
     }
 
     /// Ends the connection of a body that is none of this robot.
-    fn refuse(&mut self, why: String) {
-        let refused = ToBody::Refused { why: why.clone() };
+    fn refuse(&mut self, why: &str) {
+        let refused = ToBody::Refused {
+            why: why.to_owned(),
+        };
         // It is refused whether it hears that or not.
         let _ = self.say(&refused);
-        self.lose(&in_a_line(&why));
+        self.lose(&in_a_line(why));
     }
 
     fn hear(&mut self, heard: Heard) {
@@ -236,7 +238,7 @@ impl Ported {
                 robot: Some(robot), ..
             } if robot != self.robot => {
                 let own = &self.robot;
-                self.refuse(format!(
+                self.refuse(&format!(
                     "this is the body port of {own}, and no body of {robot} is wanted"
                 ));
             }
@@ -250,7 +252,7 @@ impl Ported {
                 }
             }
             FromBody::Hello { crossguard, .. } => {
-                self.refuse(format!("version {crossguard}: {VERSION} is spoken here"));
+                self.refuse(&format!("version {crossguard}: {VERSION} is spoken here"));
             }
             FromBody::Pose {
                 east_m,
