@@ -50,8 +50,9 @@ const TICK: Duration = Duration::from_millis(10);
 /// How many lines are taken in at a time.
 const LINES_AT_A_TIME: usize = 16;
 
-/// After how long without a turn lines may have waited for too long: what a person saw of the road may not be so any more.
-const HELD_US: u64 = 1_000_000;
+/// After how long without a turn lines may have waited for too long: what a person saw of the road may not be so any more. A
+/// message of a station is fresh for as long.
+const HELD_US: u64 = 2_000_000;
 
 /// For how long after that somebody who connects may have waited, too.
 const WAITED_US: u64 = 100_000;
