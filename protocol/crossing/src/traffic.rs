@@ -2,7 +2,8 @@
 //!
 //! A vehicle is no hindrance when it stands, has passed with its whole length, passes aside, or is farther away than it needs to stop:
 //! `v * reaction + v² / (2 * deceleration)`. An older report counts as if the vehicle had gone on since. A vehicle that
-//! falls silent counts for `keep`. Vehicles that are neither heard nor seen are the road authority's concern.
+//! falls silent counts for `keep`, also where its number is that of another one by now: a vehicle that cannot be where the next
+//! report has it is another one. Vehicles that are neither heard nor seen are the road authority's concern.
 //!
 //! A vehicle passes aside if its line does, and if no bend leads it to the crossing: drivers take one with a radius of
 //! `v² / deceleration` at least, for they put up with no more to the side than before them.
@@ -29,6 +30,13 @@ const BESIDE_CM: u64 = 180;
 /// 3B.16), and guards stand there.
 const STOP_LINE_CM: u32 = 600;
 
+/// How far a vehicle may be from where it was, in centimetres, beyond its way and the errors of both places: the next one in a queue
+/// is farther away.
+const JUMP_CM: u64 = 500;
+
+/// The key of a vehicle whose number is that of another one by now.
+const RENUMBERED: u64 = 1 << 60;
+
 /// How fast a vehicle is taken to be that does not say it, in cm/s: the limit in towns, 50 km/h.
 const UNKNOWN_CMPS: u32 = 1_390;
 
@@ -50,6 +58,17 @@ struct Known {
     age: Millis,
     /// For how long yet its word counts that it will stop.
     promise: Millis,
+}
+
+impl Known {
+    /// True if it may be where a newer report has a vehicle of its number.
+    fn reaches(&self, vehicle: &Vehicle, time: Millis) -> bool {
+        let speeds = [self.vehicle.velocity, vehicle.velocity].map(|it| u64::from(it.length_cm()));
+        let way_cm = speeds.into_iter().max().unwrap_or(0) * u64::from(time.0) / 1_000;
+        let errors_cm = u64::from(self.vehicle.error_cm) + u64::from(vehicle.error_cm);
+        let gone_cm = u64::from(self.vehicle.at.distance_cm(vehicle.at));
+        gone_cm <= way_cm + errors_cm + JUMP_CM
+    }
 }
 
 /// The beliefs about the vehicles around.
@@ -85,11 +104,15 @@ impl Traffic {
         }
         let mut known = self.vehicles.iter_mut().flatten();
         if let Some(known) = known.find(|it| it.vehicle.key == vehicle.key) {
-            // A late report says nothing new.
-            if age <= known.age {
+            let Some(since) = known.age.0.checked_sub(age.0).map(Millis) else {
+                // A late report says nothing new.
+                return;
+            };
+            if known.reaches(&vehicle, since) {
                 (known.vehicle, known.age) = (vehicle, age);
+                return;
             }
-            return;
+            known.vehicle.key |= RENUMBERED;
         }
         if !may_hinder(setup, &vehicle) {
             return;

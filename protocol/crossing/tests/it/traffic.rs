@@ -191,6 +191,31 @@ fn vehicles_of_two_sources_and_two_of_one_are_two() {
     }
 }
 
+/// Ids are hints: a tracker that starts anew, or an object of a CPM without a number, gives a parked car the number of one that comes.
+#[test]
+fn a_vehicle_that_jumps_is_another_one() {
+    let fast = 1_389;
+    for (name, later, hinders_then) in [
+        ("parked, 60 m off", vehicle(2_000, 900, 0, 0), true),
+        ("it has braked hard", vehicle(-3_600, 200, 0, 0), false),
+        ("behind, 50 m off", vehicle(-9_000, 200, 0, 0), true),
+    ] {
+        let mut scene = Scene::new(street());
+        scene.setup.watches = false;
+        scene.tell(Input::Vehicle(vehicle(-4_000, 200, fast, 0), Millis::ZERO));
+        scene.pass(200);
+        scene.tell(Input::Vehicle(later, Millis::ZERO));
+        let is_hindered = |scene: &Scene| scene.crossing.hindered(&scene.setup).is_some();
+        assert_eq!(is_hindered(&scene), hinders_then, "{name}");
+        // It is forgotten as one that falls silent is.
+        let keep = scene.setup.traffic.keep.0;
+        scene.pass(keep - 200);
+        assert_eq!(is_hindered(&scene), hinders_then, "{name}");
+        scene.pass(50);
+        assert!(!is_hindered(&scene), "{name}");
+    }
+}
+
 /// Absence of a field makes nothing safer: it comes at 50 km/h.
 #[test]
 fn a_vehicle_in_a_frame_that_tells_no_velocity_hinders_like_one_that_comes() {
