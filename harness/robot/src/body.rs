@@ -106,9 +106,6 @@ impl Build {
     }
 }
 
-/// How near a body is to a place at which it stands, in metres.
-const AT_PLACE_M: f64 = 0.05;
-
 /// Act for a body to carry out.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum BodyAct {
@@ -147,9 +144,6 @@ pub trait Body: fmt::Debug + Send {
 
     /// Where the body is, as far as is known.
     fn place(&self) -> Place;
-
-    /// Whether the body is known to stand at a place.
-    fn stands_at(&self, place: Place) -> bool;
 
     /// How far the body is with a fallback; `None` when it carries none out.
     fn fallback(&self) -> Option<Fallback>;

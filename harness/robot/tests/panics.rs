@@ -46,10 +46,6 @@ impl Body for Mistaken {
         self.body.place()
     }
 
-    fn stands_at(&self, place: Place) -> bool {
-        self.body.stands_at(place)
-    }
-
     fn fallback(&self) -> Option<Fallback> {
         self.body.fallback()
     }

@@ -42,10 +42,6 @@ impl Body for Broken {
         Place::default()
     }
 
-    fn stands_at(&self, _: Place) -> bool {
-        false
-    }
-
     fn fallback(&self) -> Option<Fallback> {
         Some(Fallback::UnderWay)
     }

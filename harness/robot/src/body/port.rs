@@ -51,8 +51,6 @@ pub struct BodyPort {
     pub address: PortAddress,
     /// After how long without a line it is silent.
     pub silence: Duration,
-    /// How near to a place it stands there, in metres.
-    pub stands_m: f64,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -403,11 +401,6 @@ impl Body for Ported {
 
     fn place(&self) -> Place {
         self.pose.place
-    }
-
-    fn stands_at(&self, place: Place) -> bool {
-        let is_there = |pose: Pose| pose.place.distance(place) <= self.port.stands_m;
-        self.known().is_some_and(is_there)
     }
 
     fn fallback(&self) -> Option<Fallback> {

@@ -8,7 +8,7 @@ use crossguard_protocol::{FallbackPolicy, Maneuver, TaskSet, TaskType};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::{AT_PLACE_M, Body, BodyAct, Build, Fallback, NotTaken, Pose, Report, state_of};
+use super::{Body, BodyAct, Build, Fallback, NotTaken, Pose, Report, state_of};
 use crate::site::{Place, SIMULATED_ERROR_M, Site};
 
 /// How fast a body gains and loses speed, in m/s².
@@ -246,10 +246,6 @@ impl Body for Simulated {
 
     fn place(&self) -> Place {
         self.place
-    }
-
-    fn stands_at(&self, place: Place) -> bool {
-        self.motion.is_none() && self.place.distance(place) < AT_PLACE_M
     }
 
     fn fallback(&self) -> Option<Fallback> {

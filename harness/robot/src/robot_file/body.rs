@@ -4,7 +4,6 @@
 //! [body]
 //! listen = "unix:go2.sock"
 //! silence_ms = 500
-//! stands_m = 0.3
 //! ```
 
 use std::path::Path;
@@ -22,16 +21,10 @@ pub(super) struct BodyTable {
     listen: String,
     #[serde(default = "silence_ms")]
     silence_ms: u32,
-    #[serde(default = "stands_m")]
-    stands_m: f64,
 }
 
 const fn silence_ms() -> u32 {
     500
-}
-
-const fn stands_m() -> f64 {
-    0.3
 }
 
 /// Why no body can be reached like that.
@@ -40,7 +33,7 @@ pub enum NoBody {
     /// It is no UNIX socket.
     #[error(transparent)]
     Address(#[from] NoAddress),
-    /// The time of silence, or the tolerance of a standing body, is out of range.
+    /// The time of silence is out of range.
     #[error(transparent)]
     Number(#[from] Impossible),
 }
@@ -52,7 +45,6 @@ impl BodyTable {
         Ok(BodyPort {
             address: PortAddress::parse(&self.listen, folder)?,
             silence: Duration::from_millis(self.silence_ms.into()),
-            stands_m: possible("stands_m", self.stands_m, 0.01..=2.0, "0.01 to 2")?,
         })
     }
 }

@@ -22,7 +22,6 @@ fn open(hello: &str) -> (Ported, UnixStream, tempfile::TempDir) {
     let port = BodyPort {
         address: PortAddress(path.clone()),
         silence: Duration::from_millis(500),
-        stands_m: 0.3,
     };
     let holding = TaskSet::of(&[TaskType::BLOCK]);
     let (build, site) = (Build::Quadruped, Site::default());
@@ -83,7 +82,6 @@ fn acts_go_out_as_lines_and_what_the_body_says_comes_in() {
     writeln!(other, "{said}").unwrap();
     let there = Report::InPosition(maneuver(TaskType::BLOCK).id);
     assert_eq!(report(&mut body), Some(there));
-    assert!(body.stands_at(Place::new(6.0, 5.0)) && !body.stands_at(Place::new(6.5, 5.0)));
 }
 
 #[test]
