@@ -166,17 +166,24 @@ fn too_many_vehicles_hinder() {
     }
 }
 
-/// Two cameras number from 1. A vehicle that stands does not take the place of one that comes, whichever camera has it.
+/// Two cameras number from 1. A vehicle that stands does not take the place of one that comes behind it, whichever camera has it, and
+/// by whatever number.
 #[test]
 fn vehicles_of_two_sources_and_two_of_one_are_two() {
-    let [comes, stands] = [(-1_900, 1_389), (2_900, 0)].map(|(east, speed)| Sighting {
+    let seen = |id, east, speed| Sighting {
+        id,
         what: RoadUser::Vehicle,
-        ..walking(person(1, east, 200), speed, 0)
-    });
-    let id = Some(2);
+        ..walking(person(0, east, 200), speed, 0)
+    };
+    let comes = |id| seen(id, -1_900, 1_389);
+    let stands = |id| seen(id, -1_500, 0);
+    let [one, two] = [Some(1), Some(2)];
     let cases = [
-        [(0, vec![comes]), (1, vec![stands])],
-        [(0, vec![comes, Sighting { id, ..stands }]), (1, vec![])],
+        [(0, vec![comes(one)]), (1, vec![stands(one)])],
+        [(0, vec![comes(one), stands(two)]), (1, vec![])],
+        [(0, vec![comes(one), stands(one)]), (1, vec![])],
+        [(0, vec![comes(None), stands(None)]), (1, vec![])],
+        [(0, vec![comes(one), stands(None)]), (1, vec![])],
     ];
     for frames in cases {
         let mut scene = Scene::new(street());
@@ -189,6 +196,13 @@ fn vehicles_of_two_sources_and_two_of_one_are_two() {
             "{hindered:?}, {frames:?}"
         );
     }
+    // Nor that of one with its number that says itself where it is.
+    let mut scene = Scene::new(street());
+    let heard = vehicle(-1_900, 200, 1_389, 0);
+    scene.tell(Input::Vehicle(heard, Millis(0)));
+    scene.frame(0, 0, 0b11, &[stands(Some(7))]);
+    let hindered = scene.crossing.hindered(&scene.setup);
+    assert_eq!(hindered, Some(Hindrance::Vehicle(7)));
 }
 
 /// Ids are hints: a tracker that starts anew, or an object of a CPM without a number, gives a parked car the number of one that comes.
