@@ -3,7 +3,9 @@
 use std::iter::once;
 
 use crossguard_crossing::*;
-use crossguard_protocol::{Availability, Event, List, Millis, TaskType, Unavailability};
+use crossguard_protocol::{
+    Availability, Event, List, Millis, Phase, TaskType, Unavailability,
+};
 
 use crate::scene::*;
 use crate::team::*;
@@ -41,21 +43,28 @@ fn a_robot_that_is_unavailable_calls_nobody_and_stays() {
     assert!(calls(&team) > 0 && team.robots[0].body.at != Point::new(0, 100));
 }
 
-/// It has fallen back on the road, which is not known to be clear yet.
+/// It has fallen back on the road, which is not known to be clear yet: soon after, and, without sensors, once it has left the session.
 #[test]
 fn a_guard_on_duty_calls_nobody_and_stays() {
-    let mut team = left_alone(TaskType::BLOCK, true);
-    team.robots[1].setup.home = Some(Point::new(-100, -150));
-    team.robots[1].setup.ground = street().ground;
-    team.people = vec![person(1, 100, -100)];
-    team.pass_until("a duty", |it| it.robots[1].robot.duty().is_some());
-    let at = team.robots[1].body.at;
-    assert!(is_on_road(&team.robots[1].body));
-    team.pass(3_000);
-    assert!(team.robots[1].robot.duty().is_some());
-    assert_eq!(team.robots[1].body.at, at);
-    let called = team.told(1, |it| matches!(it, Event::PedestrianDetected(_)));
-    assert_eq!(called, 0);
+    for (sees, ms) in [(true, 3_000), (false, 10_000)] {
+        let mut team = left_alone(TaskType::BLOCK, sees);
+        team.robots[1].setup.home = Some(Point::new(-100, -150));
+        team.robots[1].setup.ground = street().ground;
+        team.people = vec![person(1, 100, -100)];
+        team.pass_until("a duty", |it| it.robots[1].robot.duty().is_some());
+        let at = team.robots[1].body.at;
+        assert!(is_on_road(&team.robots[1].body));
+        for _ in 0..ms / TICK {
+            team.hear(1, Input::Heard(WITNESS, team.people[0], Millis(0)));
+            team.pass(TICK);
+        }
+        let guard = &team.robots[1];
+        assert!(guard.robot.duty().is_some());
+        assert_eq!(matches!(guard.robot.phase(), Phase::Idle), !sees);
+        assert_eq!(guard.body.at, at);
+        let called = team.told(1, |it| matches!(it, Event::PedestrianDetected(_)));
+        assert_eq!(called, 0);
+    }
 }
 
 /// A robot without sensors hears of somebody on the road, and then of nobody any more.
@@ -267,6 +276,9 @@ fn a_call_ends_when_the_person_leaves() {
         // Somebody else called a second time.
         team.hear(0, Input::CallIgnored);
         team.people[0] = walking(team.people[0], 140, 0);
+        // People who are lost from sight for three seconds may come again.
+        team.pass(3_000);
+        assert_eq!(team.told(0, |it| *it == Event::LeaveRequested), 0);
         team.pass_until("idle", Team::is_idle);
         // A guard that is on its way to the road goes there first.
         let left = team.told(0, |it| *it == Event::LeaveRequested);
