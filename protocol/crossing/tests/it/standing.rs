@@ -3,9 +3,7 @@
 use std::iter::once;
 
 use crossguard_crossing::*;
-use crossguard_protocol::{
-    Availability, Event, List, Millis, Phase, TaskType, Unavailability,
-};
+use crossguard_protocol::{Availability, Event, List, Millis, Phase, TaskType, Unavailability};
 
 use crate::scene::*;
 use crate::team::*;

@@ -511,3 +511,49 @@ fn no_number_of_people_who_were_lost_on_the_road_takes_the_place_of_those_who_ar
     let expected = vec![Conduct::OnRoad, Conduct::Passing];
     assert_eq!(look(100, &[stays, comes]), (expected, false));
 }
+
+/// A robot with room for two sees one more person, or hears of one.
+#[test]
+fn a_person_too_many_takes_the_place_of_somebody_elsewhere_or_of_hearsay() {
+    let setup = street();
+    let [road, kerb, comes] = [(100, 300), (100, -100), (450, -100)];
+    let elsewhere = (900, -100);
+    let seen = |at| (true, at);
+    let heard = |at| (false, at);
+    for (before, newcomer, gone) in [
+        ([seen(road), seen(elsewhere)], seen(comes), Some(elsewhere)),
+        ([heard(kerb), seen(elsewhere)], seen(comes), Some(elsewhere)),
+        ([heard(road), heard(kerb)], seen(comes), Some(kerb)),
+        ([heard(road), heard(kerb)], heard(comes), None),
+        ([heard(road), heard(kerb)], seen(elsewhere), None),
+        ([seen(road), seen(kerb)], seen(comes), None),
+    ] {
+        let mut crossing = Crossing::<2>::default();
+        for (id, (is_seen, (east, north))) in (0..).zip(before.into_iter().chain([newcomer])) {
+            crossing.step(&setup, Input::Elapsed(Millis(10)));
+            let who = person(id, east, north);
+            let sightings = &[who];
+            let frame = Frame {
+                source: 0,
+                age: Millis(0),
+                covers: Coverage::ALL,
+                sightings,
+            };
+            let heard = Input::Heard(WITNESS, who, Millis(0));
+            let input = if is_seen { Input::Frame(frame) } else { heard };
+            crossing.step(&setup, input);
+        }
+        let stays = |(east, north)| {
+            let mut tracks = crossing.tracks().iter();
+            tracks.any(|it| it.at() == Point::new(east, north))
+        };
+        for (_, at) in before {
+            assert_eq!(stays(at), gone != Some(at), "{before:?}, {newcomer:?}");
+        }
+        assert_eq!(
+            stays(newcomer.1),
+            gone.is_some(),
+            "{before:?}, {newcomer:?}"
+        );
+    }
+}

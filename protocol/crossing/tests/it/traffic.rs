@@ -208,17 +208,34 @@ fn vehicles_of_two_sources_and_two_of_one_are_two() {
 /// Ids are hints: a tracker that starts anew, or an object of a CPM without a number, gives a parked car the number of one that comes.
 #[test]
 fn a_vehicle_that_jumps_is_another_one() {
-    let fast = 1_389;
+    let inexact = |error_cm, vehicle| Vehicle {
+        error_cm,
+        ..vehicle
+    };
+    let first = inexact(200, vehicle(-4_000, 200, 1_389, 0));
+    // It goes 2.77 m until the later report, its places are 5 m inexact together, and the next in a queue is 5 m from it.
     for (name, later, hinders_then) in [
         ("parked, 60 m off", vehicle(2_000, 900, 0, 0), true),
         ("it has braked hard", vehicle(-3_600, 200, 0, 0), false),
         ("behind, 50 m off", vehicle(-9_000, 200, 0, 0), true),
+        (
+            "the farthest",
+            inexact(300, vehicle(-2_723, 200, 0, 0)),
+            false,
+        ),
+        ("1 cm more", inexact(300, vehicle(-2_722, 200, 0, 0)), true),
     ] {
         let mut scene = Scene::new(street());
         scene.setup.watches = false;
-        scene.tell(Input::Vehicle(vehicle(-4_000, 200, fast, 0), Millis::ZERO));
+        scene.tell(Input::Vehicle(first, Millis::ZERO));
         scene.pass(200);
         scene.tell(Input::Vehicle(later, Millis::ZERO));
+        // Nor does one without a number take its place.
+        let zero = Vehicle {
+            key: 0,
+            ..vehicle(-4_000, 200, 0, 0)
+        };
+        scene.tell(Input::Vehicle(zero, Millis::ZERO));
         let is_hindered = |scene: &Scene| scene.crossing.hindered(&scene.setup).is_some();
         assert_eq!(is_hindered(&scene), hinders_then, "{name}");
         // It is forgotten as one that falls silent is.
