@@ -111,6 +111,8 @@ fn an_older_report_counts_as_if_the_vehicle_had_gone_on() {
             "{age} ms, {silence} ms"
         );
     }
+    // So it does on a bend that it may have taken meanwhile.
+    assert!(hinders(vehicle(-9_000, 9_000, 1_389, 0), 5_000, 0));
 }
 
 #[test]
