@@ -130,7 +130,11 @@ fn a_robot_is_told_what_was_confirmed_for_it_and_its_own_answer_is_passed_on() {
     for order in offered["keys"].as_array().unwrap() {
         let line = order[2].as_str().unwrap();
         let answer = obeys(line);
-        assert_eq!(said(&answer, "type", "refused"), line == "clear", "{answer}");
+        assert_eq!(
+            said(&answer, "type", "refused"),
+            line == "clear",
+            "{answer}"
+        );
         assert_eq!(answer["state"]["availability"], "emergencyStop", "{answer}");
     }
     let answer = obeys("quit");
