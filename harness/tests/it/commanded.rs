@@ -130,12 +130,10 @@ fn a_robot_is_told_what_was_confirmed_for_it_and_its_own_answer_is_passed_on() {
     for order in offered["keys"].as_array().unwrap() {
         let line = order[2].as_str().unwrap();
         let answer = obeys(line);
-        assert_eq!(
-            said(&answer, "type", "refused"),
-            line == "clear",
-            "{answer}"
-        );
-        assert_eq!(answer["state"]["availability"], "emergencyStop", "{answer}");
+        let is_refused = said(&answer, "type", "refused");
+        assert_eq!(is_refused, line == "clear", "{answer}");
+        let is_stopped = answer["state"]["availability"] == "emergencyStop";
+        assert!(is_stopped || is_refused, "{answer}");
     }
     let answer = obeys("quit");
     assert!(said(&answer, "type", "stopped"), "{answer}");
