@@ -128,8 +128,8 @@ macro_rules! marks {
 }
 
 /// Declares the harnesses of a stage: the laws of one step from any valid state of it, with any input of
-/// one kind (to a proof each is a case of its own), and what must be able to come of it. Where all laws together are much
-/// to prove, two harnesses share them. Harnesses with the same marks stand in front, as lists.
+/// one kind (to a proof each is a case of its own), and what must be able to come of it. Harnesses with the same marks stand
+/// in front, as lists.
 macro_rules! steps {
     ($from:expr, $laws:expr;
         $(@each |$any:ident| $same:tt {
@@ -138,7 +138,7 @@ macro_rules! steps {
         $(
             $(#[doc = $doc:literal])*
             $(#[random_only($reason:literal)])?
-            $name:ident($kind:expr $(, $own:expr)?) |$step:ident| $marks:tt
+            $name:ident($kind:expr) |$step:ident| $marks:tt
         )*
     ) => {
         $crate::harness::harnesses! {
@@ -156,8 +156,7 @@ macro_rules! steps {
                 #[unwind(6)]
                 $(#[random_only($reason)])?
                 fn $name() {
-                    let laws = $crate::protocol::stage::laws_of!($laws $(, $own)?);
-                    let $step = &$from.any_step($kind, laws);
+                    let $step = &$from.any_step($kind, $laws);
                     $crate::protocol::stage::marks!($marks);
                 }
             )*

@@ -45,6 +45,15 @@ fn counter() -> (Counter<Told>, Told) {
 }
 
 /// A client's end of a connection of this number.
+/// A desk, and a program that has said hello.
+fn greeted() -> (Counter<Told>, Told, BufReader<UnixStream>) {
+    let (mut counter, told) = counter();
+    let mut lines = connect(&mut counter, 0);
+    heard(&mut lines);
+    say(&mut counter, 0, HELLO);
+    (counter, told, lines)
+}
+
 fn connect(counter: &mut Counter<Told>, number: u64) -> BufReader<UnixStream> {
     let (ours, theirs) = UnixStream::pair().unwrap();
     let (stream, _) = prepare(ours).unwrap();
@@ -213,11 +222,8 @@ no json                                                   | expected ident      
 
 #[test]
 fn what_the_robot_does_is_told_with_its_state_at_every_change_and_as_a_beat() {
-    let (mut counter, _) = counter();
+    let (mut counter, _, mut lines) = greeted();
     let mut robot = Robot::new(StationId(2), 7);
-    let mut lines = connect(&mut counter, 0);
-    heard(&mut lines);
-    say(&mut counter, 0, HELLO);
     counter.record(&step(&mut robot, 5, Event::OpenCorridor), 5);
     let ignored = json!({"type": "ignored", "event": "openCorridor", "reason": "notLeading"});
     has(&heard(&mut lines), &ignored);
@@ -303,10 +309,7 @@ fn a_client_that_does_not_read_says_no_hello_or_is_one_too_many_loses_its_connec
 #[test]
 fn what_was_said_while_the_robot_was_held_is_dropped_and_counted() {
     for (held_us, is_dropped) in [(HELD_US - 1, false), (HELD_US, true)] {
-        let (mut counter, told) = counter();
-        let mut lines = connect(&mut counter, 0);
-        heard(&mut lines);
-        say(&mut counter, 0, HELLO);
+        let (mut counter, told, mut lines) = greeted();
         counter.wake(held_us);
         let mut later = connect(&mut counter, 1);
         for number in [0, 1] {
@@ -337,10 +340,7 @@ fn what_was_said_while_the_robot_was_held_is_dropped_and_counted() {
 /// Hazard: one operator stops a robot, and a supervisor that sees an unavailable robot says `available` at once.
 #[test]
 fn a_stop_is_not_ended_at_once_by_another_program() {
-    let (mut counter, told) = counter();
-    let mut lines = connect(&mut counter, 0);
-    heard(&mut lines);
-    say(&mut counter, 0, HELLO);
+    let (mut counter, told, _lines) = greeted();
     let mut robot = Robot::new(StationId(2), 7);
     let stopped = Availability::Unavailable(Unavailability::EmergencyStop);
     let stop = step(&mut robot, 9_000_000, Event::AvailabilityChanged(stopped));
@@ -357,10 +357,7 @@ fn a_stop_is_not_ended_at_once_by_another_program() {
 /// leader dies leaves its person in the moment in which it falls back.
 #[test]
 fn what_only_a_person_says_is_not_taken_on_and_on() {
-    let (mut counter, told) = counter();
-    let mut lines = connect(&mut counter, 0);
-    heard(&mut lines);
-    say(&mut counter, 0, HELLO);
+    let (mut counter, told, mut lines) = greeted();
     for word in ["clear", "tell taskCompleted", "available"] {
         let line = json!({"type": "command", "line": word}).to_string();
         let mut taken = Vec::new();
