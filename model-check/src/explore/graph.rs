@@ -33,7 +33,7 @@ impl<S: TransitionSystem> Graph<'_, S> {
         self.states.get(number)
     }
 
-    /// Where the transitions out of a state lead that are marked, or those that are not; nowhere where none are kept.
+    /// Targets of the marked transitions out of a state, or of its other ones. There are none where transitions are not kept.
     pub(crate) fn targets(&self, state: usize, are_marked: bool) -> impl Iterator<Item = u32> {
         let edges = self.edges.iter();
         edges.flat_map(move |edges| edges.targets_with_mark(state, are_marked))
