@@ -465,7 +465,8 @@ def the_body_of_another_robot_is_refused(stack):
     Robot(graph, "ari", 1, "humanoid", (0.0, -1.5), free_ports(), 1.0, body=False).node.end()
     robot = Robot(graph, "go2", 2, "quadruped", (1.0, -1.11), free_ports(), 1.0, node=["body:=unix:ari.sock"])
     robot.until_refused("this is the body port of ari")
-    assert robot.status.messages[-1].availability == Status.LOCAL_FAULT
+    robot.until_available(Status.LOCAL_FAULT, len(robot.status.messages))
+    assert {it.availability for it in robot.status.messages} == {Status.LOCAL_FAULT}
 
 
 def a_graph_that_others_can_reach_is_refused(_):
