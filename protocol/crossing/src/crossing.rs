@@ -13,7 +13,7 @@ use crate::lead::{Lead, View};
 use crate::occupancy::Occupancy;
 use crate::position::Presence;
 use crate::setup::Setup;
-use crate::tracks::{Origin, Tracks};
+use crate::tracks::{Origin, Track, Tracks};
 use crate::traffic::{self, Traffic};
 
 /// How long a robot waits after a call before it calls again.
@@ -132,8 +132,10 @@ pub struct Crossing<const N: usize = 64> {
     walk: Option<Point>,
     /// Whether the body was told to wait on its way.
     waits: bool,
-    /// For how long it has stood on the carriageway since its start, without a part; without end once it was beside it, or knew
-    /// that nobody is on it.
+    /// Whether it was to wait for vehicles at the kerb, and they have not passed.
+    is_held_at_kerb: bool,
+    /// For how long it has stood on the carriageway since its start, or since it failed there, without a part; without end once it was
+    /// beside it, or knew that nobody is on it.
     stood: Millis,
     /// Where its own body is, and how long ago that was measured.
     pose: Option<(Pose, Millis)>,
@@ -190,6 +192,7 @@ impl<const N: usize> Crossing<N> {
             Input::CallIgnored => {}
             Input::SaidClear => {
                 self.is_person_said = false;
+                self.tracks.resolve(true);
                 if let Some(obligation) = &mut self.obligation {
                     obligation.is_said_clear = true;
                 }
@@ -213,6 +216,13 @@ impl<const N: usize> Crossing<N> {
             Phase::Following(_) => Standing::Following,
             Phase::Idle | Phase::Offering(_) => Standing::Bound,
         };
+        // A robot that failed among people looks as one that has just started, before it leaves the road.
+        if let Phase::Following(following) = robot.phase()
+            && let Some(job) = following.job
+            && matches!(job.progress, Progress::Failed(_))
+        {
+            self.stood = Millis::ZERO;
+        }
         if was_own && !self.is_own() {
             self.end_call();
             self.lead = None;
@@ -270,7 +280,7 @@ impl<const N: usize> Crossing<N> {
         // Nothing tells a robot without sensors that somebody who was lost on the road has left it. Without a part it guards nobody,
         // and would stand on the lane for them for ever.
         if !self.occupancy.has_sources() && self.has_no_part() {
-            self.tracks.resolve();
+            self.tracks.resolve(true);
         }
         self.tracks.elapse(setup, time, self.sign > Millis::ZERO);
         self.occupancy.elapse(setup, time);
@@ -329,8 +339,7 @@ impl<const N: usize> Crossing<N> {
     fn frame(&mut self, setup: &Setup, frame: &Frame<'_>, out: &mut Outputs) {
         if let Err(why) = self.occupancy.admit(setup, frame) {
             let mut people = frame.sightings.iter();
-            let is_person = |it: &Sighting| it.what != RoadUser::Vehicle;
-            if people.any(|it| is_person(it) && may_be_on_road(setup, it)) {
+            if people.any(|it| may_be_on_road(setup, it)) {
                 self.occupy(setup);
             }
             return out.put(Output::Dropped(why));
@@ -350,8 +359,9 @@ impl<const N: usize> Crossing<N> {
             self.occupy(setup);
         } else if frame.age.saturating_add(setup.waiting.step_off) < self.quiet {
             self.occupancy.count(setup, frame);
-            if self.occupancy.settle(setup) {
-                self.tracks.resolve();
+            // One source that is gone keeps the others from settling; the road may be known to be clear without it.
+            if self.occupancy.settle(setup) || self.occupancy.is_clear(setup) {
+                self.tracks.resolve(self.occupancy.is_covered(setup));
             }
         } else {
             self.occupancy.doubt(frame.source);
@@ -396,7 +406,7 @@ impl<const N: usize> Crossing<N> {
             &[sighting],
             |person| {
                 is_occupied |= if has_sources {
-                    setup.ground.is_road(person.at)
+                    setup.is_person_on_road(person.what, person.at, 0)
                 } else {
                     may_be_on_road(setup, person)
                 };
@@ -440,9 +450,13 @@ impl<const N: usize> Crossing<N> {
         match (report, &mut self.task) {
             (BodyReport::InPosition(id), Some(task)) if is_own(id, task) => task.has_arrived = true,
             (BodyReport::Completed(id), Some(task)) if is_own(id, task) => task.is_completed = true,
-            (BodyReport::Gone, Some(task)) => {
-                (task.has_arrived, task.is_completed) = (false, false);
-                task.presence = Presence::NOWHERE;
+            (BodyReport::Gone, task) => {
+                if let Some(task) = task {
+                    (task.has_arrived, task.is_completed) = (false, false);
+                    task.presence = Presence::NOWHERE;
+                }
+                // Another one has been told nothing.
+                (self.walk, self.waits, self.is_held_at_kerb) = (None, false, false);
             }
             _ => {}
         }
@@ -470,12 +484,12 @@ impl<const N: usize> Crossing<N> {
     /// The body begins a maneuver, a fallback, or to stand still: whatever it did before is over.
     fn begin(&mut self, task: Option<Task>, is_kerbward: bool) {
         (self.task, self.is_kerbward) = (task, is_kerbward);
-        (self.walk, self.waits) = (None, false);
+        (self.walk, self.waits, self.is_held_at_kerb) = (None, false, false);
     }
 
     /// The body goes somewhere without a maneuver.
     fn walk_to(&mut self, to: Point, out: &mut Outputs) {
-        (self.walk, self.waits) = (Some(to), false);
+        (self.walk, self.waits, self.is_held_at_kerb) = (Some(to), false, false);
         out.put(Output::WalkTo(to));
     }
 
@@ -518,12 +532,16 @@ impl<const N: usize> Crossing<N> {
     /// Has the body wait on its way, or go on.
     fn watch_way(&mut self, setup: &Setup, out: &mut Outputs) {
         let is_escort = |task: &Task| setup.escorts().contains(task.maneuver.task);
+        let to = self.task.map_or(self.walk, |task| task.place);
+        let to = to.filter(|_| !self.is_kerbward);
+        let is_held = to.is_some_and(|to| self.is_held_by_vehicles(setup, to));
+        let is_on_road = |pose: Pose| setup.ground.is_road(pose.at);
+        let is_out = self.pose.is_some_and(|(pose, _)| is_on_road(pose));
+        self.is_held_at_kerb = is_held && (self.is_held_at_kerb || !is_out);
         let waits = if self.is_kerbward {
             self.is_person_apart(setup)
         } else {
-            let to = self.task.map_or(self.walk, |task| task.place);
-            self.task.as_ref().is_some_and(is_escort) && self.is_person_behind(setup)
-                || to.is_some_and(|to| self.is_held_by_vehicles(setup, to))
+            is_held || self.task.as_ref().is_some_and(is_escort) && self.is_person_behind(setup)
         };
         match (self.waits, waits) {
             (false, true) => out.put(Output::Wait),
@@ -539,13 +557,18 @@ impl<const N: usize> Crossing<N> {
         let (Some(road), Some((pose, _))) = (setup.ground.road, self.pose) else {
             return false;
         };
+        // A body that is told to stand at the kerb may roll over it.
         let may_be_held = if road.has(pose.at) {
-            self.task.is_none()
+            self.task.is_none() || self.is_held_at_kerb
         } else {
             road.distance_cm(pose.at) <= KERB_CM && road.is_between(pose.at, to)
         };
         let is_urgent = self.tracks.is_on_road();
-        may_be_held && self.traffic.comes_at(setup, [pose.at, to], is_urgent)
+        let way = [pose.at, to];
+        may_be_held
+            && self
+                .traffic
+                .comes_at(setup, way, is_urgent, self.is_held_at_kerb)
     }
 
     /// Tells the protocol whether a follower itself sees somebody on the road: at once, for its leader may end the session.
@@ -605,7 +628,10 @@ impl<const N: usize> Crossing<N> {
         };
         let limit = u32::from(setup.position.ahead_cm);
         let mut people = self.tracks.iter();
-        people.any(|it| it.is_fresh() && it.is_on_road() && it.at().distance_cm(pose.at) > limit)
+        people.any(|it| {
+            let is_there = it.is_fresh() && it.is_on_road() && it.is_crossing(setup);
+            is_there && it.at().distance_cm(pose.at) > limit
+        })
     }
 
     /// Whether somebody who is escorted is too far behind the body: on the road, or at the kerb for as long as nobody
@@ -620,11 +646,13 @@ impl<const N: usize> Crossing<N> {
         let own = pose.at.distance_cm(target);
         let limit = own.saturating_add(u32::from(setup.position.ahead_cm));
         let is_behind = |at: Point| at.distance_cm(target) > limit;
-        let mut on_road = self
-            .tracks
-            .iter()
-            .filter(|track| track.is_on_road())
-            .peekable();
+        // Sensors that cover the road have a person themselves whose own reports are lost.
+        let is_covered = self.occupancy.is_covered(setup);
+        let is_somebody = |it: &&Track| {
+            let is_known = it.is_fresh() || !(is_covered && it.is_hearsay());
+            it.is_on_road() && it.is_crossing(setup) && is_known
+        };
+        let mut on_road = self.tracks.iter().filter(is_somebody).peekable();
         if on_road.peek().is_some() {
             return on_road.any(|track| is_behind(track.at()));
         }
@@ -874,8 +902,8 @@ fn rides(setup: &Setup, sighting: &Sighting) -> bool {
         || sighting.velocity.is_some_and(is_fast)
 }
 
-/// Whether somebody may be on the carriageway.
+/// Whether somebody may be a person on the carriageway.
 fn may_be_on_road(setup: &Setup, sighting: &Sighting) -> bool {
     let error = sighting.error_cm.max(setup.sensors.error_cm);
-    setup.ground.may_be_road(sighting.at, u32::from(error))
+    setup.is_person_on_road(sighting.what, sighting.at, u32::from(error))
 }

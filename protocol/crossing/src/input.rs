@@ -161,6 +161,8 @@ impl FrameDrop {
 /// Causes that keep people from crossing.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Hindrance {
+    /// The plan has more guards than the session.
+    GuardMissing,
     /// A guard is not at its place, or nobody knows where it is.
     GuardElsewhere(StationId),
     /// The leader itself is not at its place.
@@ -176,6 +178,7 @@ pub enum Hindrance {
 impl Display for Hindrance {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
+            Self::GuardMissing => f.write_str("a guard of the plan is missing"),
             Self::GuardElsewhere(station) => write!(f, "guard {station} is not at its place"),
             Self::LeaderElsewhere => f.write_str("the leader is not at its place"),
             Self::NoSight => f.write_str("sensors do not cover the carriageway"),

@@ -227,6 +227,12 @@ impl Lead {
                 out.tell(Event::LeaveRequested);
                 return false;
             }
+            // The protocol takes no guard off a road on which there may be people: it is commanded back when that is clear.
+            Notice::ManeuverFailed(station, _, Failure::ExecutionLimit)
+                if view.corridor != Corridor::Clear && self.holds(station) =>
+            {
+                self.goes_on(station);
+            }
             Notice::ManeuverFailed(station, ..)
             | Notice::FollowerSafeIdle(station, _)
             | Notice::CommandRejected(station, ..) => {
@@ -274,7 +280,13 @@ impl Lead {
         self.command(view, seat, out);
     }
 
-    /// A guard has left its place again.
+    /// Whether a follower guards from a place.
+    fn holds(&self, station: StationId) -> bool {
+        let seat = self.seat_of(station);
+        seat.is_some_and(|seat| self.is(seat, |it| it.part == Part::Holds))
+    }
+
+    /// A guard has left its place again, or counts as one that has.
     fn goes_on(&mut self, station: StationId) {
         let seat = self.seat_of(station).and_then(|seat| self.at(seat));
         if let Some(seat) = seat
@@ -406,17 +418,21 @@ impl Lead {
 
     /// Whether every role has its follower, and this holds for every seat.
     fn are_all(&self, view: &View<'_>, holds: impl Fn(usize, &Seat) -> bool) -> bool {
-        let plan = view.plan;
-        let seats = || self.seats.iter().enumerate();
-        let seated = seats().filter(|(seat, it)| plan.has_role(*seat) && it.station.is_some());
-        seated.count() >= usize::from(plan.followers) && seats().all(|(seat, it)| holds(seat, it))
+        let mut seats = self.seats.iter().enumerate();
+        self.is_staffed(view.plan) && seats.all(|(seat, it)| holds(seat, it))
+    }
+
+    /// Whether the plan has its followers.
+    fn is_staffed(&self, plan: &Plan) -> bool {
+        let seats = self.seats.iter().enumerate();
+        let seated = seats.filter(|(seat, it)| plan.has_role(*seat) && it.station.is_some());
+        seated.count() >= usize::from(plan.followers)
     }
 
     /// Whether the newest position of every follower is fresh.
     fn are_heard(&self, view: &View<'_>) -> bool {
         let mut seated = self.seats.iter().filter(|it| it.station.is_some());
-        seated.clone().count() >= usize::from(view.plan.followers)
-            && seated.all(|it| it.presence.is_fresh(view.setup.position))
+        self.is_staffed(view.plan) && seated.all(|it| it.presence.is_fresh(view.setup.position))
     }
 
     /// Whether nobody is let on the road any more in this session.
@@ -436,6 +452,9 @@ impl Lead {
 
     /// The cause that keeps people from crossing, besides that nobody wants to and that the plan is not so far.
     pub(crate) fn hindrance(&self, view: &View<'_>) -> Option<Hindrance> {
+        if !self.is_staffed(view.plan) {
+            return Some(Hindrance::GuardMissing);
+        }
         for (seat, it) in self.seats.iter().enumerate() {
             let Some(station) = it.station else { continue };
             let holds = view.holds(self.held_leg(view.plan, seat));
@@ -533,7 +552,12 @@ impl Lead {
                 if is_done && !lets_cross || may_end && (view.everybody_is_across || is_through) {
                     out.tell(Event::TaskCompleted);
                 } else if self.patience == Millis::ZERO {
-                    out.tell(Event::LeaveRequested);
+                    // A session that is left has guards wait for somebody's word that the road is clear, also where its leader knows it.
+                    out.tell(if view.nobody_is_lost {
+                        Event::TaskCompleted
+                    } else {
+                        Event::LeaveRequested
+                    });
                     return false;
                 } else if may_try && is_done && goes_with_escort && !self.is_full() {
                     // The escort is over there, and nobody came along.

@@ -3,6 +3,7 @@
 use crossguard_protocol::{Config, HelpRequest, Millis, Place, TaskSet, Urgency};
 
 use crate::ground::{Ground, Point};
+use crate::input::RoadUser;
 use crate::plan::Plan;
 
 /// The assumption about sensors (`sees`), and which frames count.
@@ -213,6 +214,24 @@ impl Setup {
         self.guarding = settings.guarding;
         self.holding = settings.holding;
         self.t_safety = settings.t_safety;
+    }
+
+    /// Whether a road user who is at most `error_cm` from a place may be a person on the road. Cyclists and motorcyclists who ride or
+    /// wait beside the crossing are traffic: guards that waited for them would wait for each other.
+    pub(crate) fn is_person_on_road(&self, what: RoadUser, at: Point, error_cm: u32) -> bool {
+        let is_here = match what {
+            RoadUser::Vehicle => false,
+            RoadUser::Bicyclist | RoadUser::Motorcyclist => self.is_at_crossing(at, error_cm),
+            _ => true,
+        };
+        is_here && self.ground.may_be_road(at, error_cm)
+    }
+
+    /// Whether somebody who is at most `error_cm` from a place may be on the crossing, or as near to it as an escort waits for its person.
+    pub(crate) fn is_at_crossing(&self, at: Point, error_cm: u32) -> bool {
+        let limit = error_cm.saturating_add(self.position.ahead_cm.into());
+        let crossing = self.ground.crossing;
+        crossing.is_none_or(|crossing| crossing.distance_cm(at) <= limit)
     }
 
     /// How long a person needs from one kerb to the other who walks: faster than people who stand.

@@ -20,7 +20,7 @@
 //! |---|---|---|
 //! | A pedestrian or wheelchair user, or a cyclist who stands. | – | Cyclists ride along, vehicles use the road. |
 //! | The confidence is at least `confidence_min`, and half of it for a person who waits already. | 50 % | The same people are announced in RAM. |
-//! | In the zone, or on the road in it. | – | A person who stands on the road needs help most: the urgency is *emergency*. |
+//! | In the zone, or on the road in it; a cyclist not on the road beside the crossing. | – | A person who stands on the road needs help most: the urgency is *emergency*. |
 //! | Observed within the last [`FRESH`]. | 1 s | One old observation is no person who waits. |
 //! | For `dwell` slower than `speed_max`, by velocity and by places. | 1 s, 0.5 m/s | Slow walkers go at 0.8 m/s, people who stand sway. |
 //! | Or, on foot or in a wheelchair, heads for the road for `dwell`, and would be on it within `approach`. | 3 s | A person who walks up to the road is going to cross it. |
@@ -134,10 +134,21 @@ impl Track {
         self.unseen.0 <= FRESH.0
     }
 
+    /// Whether another station reports them.
+    pub(crate) const fn is_hearsay(&self) -> bool {
+        matches!(self.origin, Origin::Station(_))
+    }
+
     /// Whether they are on the road, or were when last seen.
     #[must_use]
     pub const fn is_on_road(&self) -> bool {
         self.entered.is_some()
+    }
+
+    /// Whether they may be on the crossing, or as near to it as an escort waits for its person: a body waits for nobody else.
+    pub(crate) fn is_crossing(&self, setup: &Setup) -> bool {
+        let error = self.error_cm.max(setup.sensors.error_cm);
+        setup.is_at_crossing(self.at, error.into())
     }
 
     /// Whether they wait to cross.
@@ -205,7 +216,7 @@ impl Track {
 
     /// Follows them on the road and off it.
     fn walk(&mut self, setup: &Setup) {
-        if setup.ground.is_road(self.at) && self.what != RoadUser::Vehicle {
+        if setup.is_person_on_road(self.what, self.at, 0) {
             self.entered.get_or_insert(self.at);
         } else if let Some(entered) = self.entered.take()
             && entered.distance_cm(self.at) >= CROSSED_MIN_CM
@@ -237,7 +248,8 @@ impl Track {
         let may_wait = setup.ground.waiting.is_some()
             && setup.ground.is_zone(self.at)
             && self.across == Millis::ZERO
-            && (is_on_foot || self.what == RoadUser::Bicyclist);
+            && (is_on_foot || self.what == RoadUser::Bicyclist)
+            && (self.is_on_road() || !setup.ground.is_road(self.at));
         let least = rules.confidence_min / if self.waits { 2 } else { 1 };
         if !may_wait || sighting.confidence < least {
             (self.dwell, self.waits) = (None, false);
@@ -313,7 +325,7 @@ impl<const N: usize> Tracks<N> {
         }
     }
 
-    /// Takes in what was seen `age` ago. Calls `person` for each who is no vehicle.
+    /// Takes in what was seen `age` ago. Calls `person` for each who is no vehicle, or was none before.
     pub(crate) fn observe(
         &mut self,
         setup: &Setup,
@@ -323,10 +335,12 @@ impl<const N: usize> Tracks<N> {
         mut person: impl FnMut(&Sighting),
     ) {
         let mut taken = [false; N];
+        // Two people of a frame may have one number: neither has the track that the other one begins.
+        let before = self.clone();
         // A sighting that keeps its id goes first; the others continue the nearest track that is left.
         for by_id in [true, false] {
             for sighting in sightings {
-                let own = self.with_id(setup, origin, age, sighting);
+                let own = before.with_id(setup, origin, age, sighting);
                 if own.is_some() != by_id {
                     continue;
                 }
@@ -337,7 +351,7 @@ impl<const N: usize> Tracks<N> {
                 let free = || self.tracks.iter().position(Option::is_none);
                 let place = found.or_else(free);
                 let place = place.or_else(|| self.spare(setup, origin, sighting.at));
-                let mut is_person = sighting.what != RoadUser::Vehicle;
+                let mut seen = *sighting;
                 if let Some(place) = place {
                     taken[place] = true;
                     if found.is_none() {
@@ -345,13 +359,15 @@ impl<const N: usize> Tracks<N> {
                     }
                     let track =
                         self.tracks[place].get_or_insert_with(|| Track::new(origin, sighting, age));
-                    is_person |= track.what != RoadUser::Vehicle;
+                    if sighting.what == RoadUser::Vehicle {
+                        seen.what = track.what;
+                    }
                     track.update(setup, origin, sighting, age);
-                } else if is_person && setup.ground.is_zone(sighting.at) {
+                } else if seen.what != RoadUser::Vehicle && setup.ground.is_zone(seen.at) {
                     self.crowd = FRESH;
                 }
-                if is_person {
-                    person(sighting);
+                if seen.what != RoadUser::Vehicle {
+                    person(&seen);
                 }
             }
         }
@@ -378,18 +394,17 @@ impl<const N: usize> Tracks<N> {
             .map(|(place, _)| place)
     }
 
-    /// The track to replace where there are too many: of a person who was lost on the road, for occupancy decides whether it is clear; of
-    /// somebody elsewhere; and, for somebody in the zone whom the robot sees itself, of those whom others report.
+    /// The track to replace where there are too many: of somebody elsewhere; of a person who was lost on the road, for occupancy decides
+    /// whether it is clear, where there are sensors; and, for somebody in the zone whom the robot sees itself, of those whom others report.
     fn spare(&self, setup: &Setup, origin: Origin, at: Point) -> Option<usize> {
-        let is_hearsay = |it: Origin| matches!(it, Origin::Station(_));
-        let takes_hearsay = !is_hearsay(origin) && setup.ground.is_zone(at);
+        let takes_hearsay = matches!(origin, Origin::Sensor(_)) && setup.ground.is_zone(at);
         let rank = |track: &Track| {
-            if track.is_on_road() && !track.is_fresh() {
+            if !track.is_on_road() && !setup.ground.is_zone(track.at) {
                 Some(0)
-            } else if !track.is_on_road() && !setup.ground.is_zone(track.at) {
+            } else if track.is_on_road() && !track.is_fresh() {
                 Some(1)
             } else {
-                let gives_way = takes_hearsay && is_hearsay(track.origin);
+                let gives_way = takes_hearsay && track.is_hearsay();
                 gives_way.then(|| 2 + u8::from(track.is_on_road()))
             }
         };
@@ -424,10 +439,15 @@ impl<const N: usize> Tracks<N> {
         near.min().map(|(_, place)| place)
     }
 
-    /// The road is empty: the people who were lost on it are off it.
-    pub(crate) fn resolve(&mut self) {
+    /// The road is empty: the people who were lost on it are off it. Where a part of it is not in sight, these are the ones whom the
+    /// robot saw itself.
+    pub(crate) fn resolve(&mut self, is_covered: bool) {
+        let is_off = |it: Track| {
+            let is_known = is_covered || !it.is_hearsay();
+            is_known && it.is_on_road() && !it.is_fresh()
+        };
         for slot in &mut self.tracks {
-            if slot.is_some_and(|track| track.is_on_road() && !track.is_fresh()) {
+            if slot.is_some_and(is_off) {
                 *slot = None;
             }
         }

@@ -169,8 +169,14 @@ impl Traffic {
 
     /// Whether a body that goes from one place to another would step in front of a vehicle that could no longer stop: comfortably,
     /// or by hard braking where it is urgent. Vehicles that would have to bend do not count, nor, on the road, those whose line it
-    /// stands on already.
-    pub(crate) fn comes_at(&self, setup: &Setup, [from, to]: [Point; 2], is_urgent: bool) -> bool {
+    /// stands on already, unless it was held at the kerb and could not stop before it.
+    pub(crate) fn comes_at(
+        &self,
+        setup: &Setup,
+        [from, to]: [Point; 2],
+        is_urgent: bool,
+        is_held: bool,
+    ) -> bool {
         let Some(way) = Shape::new(&[from, to, to]) else {
             return false;
         };
@@ -179,7 +185,7 @@ impl Traffic {
         } else {
             setup.traffic
         };
-        let is_on_road = setup.ground.is_road(from);
+        let is_on_road = setup.ground.is_road(from) && !is_held;
         let counts = |vehicle: &Vehicle, motion: &Motion| {
             motion.is_in_line && (!is_on_road || aside_cm(vehicle, from) >= BESIDE_CM)
         };
@@ -248,12 +254,15 @@ fn ahead(setup: &Setup, place: &Shape, vehicle: &Vehicle) -> Option<Motion> {
     let middle: Point = place.middle();
     let corners = place.corners().map(|corner| corner.distance_cm(middle));
     let half = corners.max().unwrap_or(0);
-    let aside = aside_cm(vehicle, middle).saturating_sub(half.into());
+    // It may be anywhere within its error.
+    let error_cm = u32::from(vehicle.error_cm);
+    let near = half.saturating_add(error_cm);
+    let aside = aside_cm(vehicle, middle).saturating_sub(near.into());
     let is_in_line = aside <= rules.aside_cm.into();
     let distance_cm = place.distance_cm(vehicle.at);
     let left_cm = if vehicle.velocity.dot(vehicle.at.to(middle)) > 0 {
         distance_cm
-    } else if distance_cm <= u32::from(rules.length_cm) {
+    } else if distance_cm <= u32::from(rules.length_cm).saturating_add(error_cm) {
         0
     } else {
         return None;

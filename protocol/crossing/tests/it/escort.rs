@@ -35,10 +35,13 @@ fn waits(scene: &Scene) -> bool {
 #[test]
 fn an_escort_waits_for_people_behind_it_on_the_road_and_for_those_who_have_not_set_out_yet() {
     let [near, far, at_kerb] = [300, 299, -20].map(|north| vec![person(1, 100, north)]);
+    // A road worker, 7 m from the crossing.
+    let with_worker = vec![near[0], person(2, -1_000, 100)];
     for (name, seen, expected) in [
         ("near", vec![&near], false),
         ("far", vec![&far], true),
         ("comes nearer", vec![&far, &near], false),
+        ("somebody else", vec![&with_worker], false),
         ("at the kerb", vec![&at_kerb], true),
         ("too late", vec![&near, &vec![], &at_kerb], false),
     ] {
@@ -317,4 +320,13 @@ fn a_follower_says_once_that_it_has_completed() {
     let told = team.told(1, |event| matches!(event, Event::ManeuverCompleted(_)));
     let reported = team.told(1, |event| matches!(event, Event::InPosition(_)));
     assert_eq!((told, reported), (1, 1));
+}
+
+/// The person's phone falls silent on the road, as phones do in a cluster, and the sensors see its owner.
+#[test]
+fn an_escort_with_sensors_waits_for_no_report_that_is_lost() {
+    let mut scene = escort();
+    scene.tell(Input::Heard(WITNESS, person(1, 100, 100), Millis(0)));
+    look(&mut scene, 15, &[person(1, 100, 300)]);
+    assert!(!waits(&scene));
 }

@@ -169,3 +169,53 @@ fn a_guard_without_a_part_in_a_stage_goes_on_with_its_last_one() {
     team.pass_until("idle", Team::is_idle);
     assert_eq!(team.alone, 0);
 }
+
+/// An operator asked for one follower, and the plan has two.
+#[test]
+fn go_is_not_shown_with_fewer_guards_than_the_plan_has() {
+    let mut team = blocking();
+    let plan = team.robots[0].setup.plan.as_mut().unwrap();
+    plan.followers = 2;
+    team.pass(20_000);
+    assert_eq!(team.first(0, |it| matches!(it, Output::Go(_))), None);
+    let leader = &team.robots[0];
+    let why = leader.crossing.hindered(&leader.setup);
+    assert_eq!(why, Some(Hindrance::GuardMissing));
+}
+
+/// The limit of its maneuver is a minute.
+#[test]
+fn a_guard_whose_time_ran_out_beside_people_is_commanded_back_once_the_road_is_clear() {
+    let mut team = blocking();
+    team.robots[0].setup.plan.as_mut().unwrap().patience = Millis(200_000);
+    team.pass_until("go", Team::shows_go);
+    team.people[0] = walking(team.people[0], 0, 100);
+    team.pass(3_000);
+    team.people[0] = walking(team.people[0], 0, 0);
+    team.pass(60_000);
+    assert!(!team.is_idle());
+    let orders = team.robots[0].log.len();
+    team.people[0] = walking(team.people[0], 0, 100);
+    team.pass_until("idle", Team::is_idle);
+    let later = &team.robots[0].log[orders..];
+    assert!(later.iter().any(|it| matches!(it, Output::Order(..))));
+    assert_eq!(team.told(0, |it| *it == Event::LeaveRequested), 0);
+    assert_eq!(team.alone, 0);
+}
+
+/// A session that is left has guards without sensors stand on the lane until somebody says that the road is clear.
+#[test]
+fn a_leader_that_gives_up_before_an_empty_road_completes_the_task() {
+    for sees in [true, false] {
+        let mut team = blocking();
+        team.robots[0].setup.plan.as_mut().unwrap().patience = Millis(9_000);
+        team.pass(4_000);
+        if !sees {
+            team.sensor = |_, _| None;
+        }
+        pass_beside(&mut team, 0, car(-1_900), 10_000);
+        let told = |event| team.told(0, |it| *it == event) > 0;
+        assert_eq!(told(Event::TaskCompleted), sees);
+        assert_eq!(told(Event::LeaveRequested), !sees);
+    }
+}

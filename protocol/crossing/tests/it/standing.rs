@@ -319,3 +319,66 @@ fn nobody_is_called_for_people_who_pass_vehicles_and_stale_sensors() {
     team.pass(10_000);
     assert_eq!(calls(&team), 0, "a frame, and silence");
 }
+
+/// Its process hung, or somebody stopped it, and an operator says that it is available again.
+#[test]
+fn a_guard_that_was_stopped_beside_people_looks_before_it_leaves_the_road() {
+    let mut team = team(plan(&[leg(TaskType::BLOCK, POST)]), false);
+    team.robots[1].setup.home = Some(Point::new(-100, -150));
+    team.robots[1].setup.calls = false;
+    team.people = vec![person(1, 100, -100)];
+    team.pass_until("go", Team::shows_go);
+    team.people[0] = walking(team.people[0], 0, 60);
+    team.pass(4_000);
+    let stop = Availability::Unavailable(Unavailability::EmergencyStop);
+    team.event(1, Event::AvailabilityChanged(stop));
+    team.pass(1_000);
+    team.event(1, Event::AvailabilityChanged(Availability::Available));
+    team.pass_until("across", |it| {
+        assert_eq!(it.robots[1].body.at, POST);
+        it.people[0].at.north_cm() > 700
+    });
+    team.pass(20_000);
+    assert!(!is_on_road(&team.robots[1].body));
+}
+
+#[test]
+fn a_body_that_is_there_again_on_its_way_home_is_sent_there_again() {
+    let home = Point::new(0, -150);
+    let mut scene = Scene::new(Setup {
+        home: Some(home),
+        ..street()
+    });
+    scene.is_at(0, -20, 0);
+    for expected in [1, 2] {
+        for _ in 0..3 {
+            scene.is_at(0, 100, 0);
+            scene.pass(100);
+        }
+        let goes = scene.out.iter().filter(|it| **it == Output::WalkTo(home));
+        assert_eq!(goes.count(), expected);
+        scene.tell(Input::Body(BodyReport::Gone));
+    }
+}
+
+/// A car at 50 km/h is heard when a guard is 0.2 m before the kerb.
+#[test]
+fn a_body_that_rolls_over_the_kerb_while_it_is_to_wait_stays_there() {
+    let mut scene = Scene::new(street());
+    let blocks = maneuver(TaskType::BLOCK, 0);
+    scene.is_at(-800, -20, 0);
+    scene.tell(Input::Started(blocks, Some(Point::new(-800, 175))));
+    scene.tell(Input::Vehicle(car(-3_300), Millis(0)));
+    for (north, ms, expected) in [
+        (-20, 100, vec![Output::Wait]),
+        (5, 400, vec![]),
+        (5, 5_000, vec![Output::GoOn]),
+    ] {
+        scene.out.clear();
+        scene.is_at(-800, north, 0);
+        scene.pass(ms);
+        scene.is_at(-800, north, 0);
+        scene.pass(0);
+        assert_eq!(scene.out, expected, "{north} cm, {ms} ms");
+    }
+}

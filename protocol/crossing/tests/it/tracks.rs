@@ -2,7 +2,7 @@
 
 use crossguard_crossing::tracks::*;
 use crossguard_crossing::*;
-use crossguard_protocol::{Event, HelpRequest, Millis, Urgency};
+use crossguard_protocol::{Event, HelpRequest, Millis, StationId, Urgency};
 
 use crate::scene::*;
 
@@ -555,5 +555,93 @@ fn a_person_too_many_takes_the_place_of_somebody_elsewhere_or_of_hearsay() {
             gone.is_some(),
             "{before:?}, {newcomer:?}"
         );
+    }
+}
+
+/// Hazard: guards wait for a cyclist in the queue before them, who waits for the guards. The crossing ends at 3 m west.
+#[test]
+fn a_rider_is_a_person_on_the_crossing_and_traffic_beside_it() {
+    for what in [RoadUser::Bicyclist, RoadUser::Motorcyclist] {
+        for (east, is_person) in [(-530, false), (-490, true), (100, true)] {
+            let mut scene = watch();
+            let rider = Sighting {
+                what,
+                ..person(1, east, 200)
+            };
+            (0..60).for_each(|_| drop(scene.look(100, &[rider])));
+            assert_eq!(scene.is_clear(), !is_person, "{what:?} at {east}");
+            let tracks = scene.crossing.tracks();
+            assert_eq!(tracks.is_on_road(), is_person, "{what:?} at {east}");
+            assert!(
+                is_person || tracks.urgency().is_none(),
+                "{what:?} at {east}"
+            );
+        }
+    }
+}
+
+/// A tracker gives everybody whom it has not confirmed the same number.
+#[test]
+fn two_new_people_with_one_number_are_two() {
+    let mut scene = watch();
+    let [beside, on_road] = [-30, 5].map(|north| person(0, 100, north));
+    for people in [[beside, on_road], [on_road, beside]] {
+        (0..40).for_each(|_| drop(scene.look(100, &[])));
+        assert!(scene.is_clear());
+        scene.look(100, &people);
+        assert!(!scene.is_clear());
+        assert_eq!(scene.conducts().len(), 2);
+        scene.pass(1_000);
+    }
+}
+
+/// A robot without sensors, in a busy place.
+#[test]
+fn a_crowd_elsewhere_takes_no_place_from_a_person_who_was_lost_on_the_road() {
+    let mut scene = Scene::new(Setup {
+        watches: false,
+        ..street()
+    });
+    let hear = |scene: &mut Scene, station, who| {
+        scene.tell(Input::Heard(StationId(station), who, Millis(0)));
+    };
+    hear(&mut scene, 9, person(1, 100, 300));
+    scene.pass(1_100);
+    for id in 0..70 {
+        let east = 50_000 + 300 * i32::try_from(id).unwrap();
+        hear(&mut scene, 10, person(id, east, 0));
+    }
+    assert!(scene.crossing.tracks().is_on_road());
+}
+
+/// Sensors say nothing of people whom others report where they do not look.
+#[test]
+fn people_whom_others_report_are_off_the_road_once_sensors_cover_it() {
+    for (covers, expected) in [(0b01, true), (0b11, false)] {
+        let mut scene = watch();
+        scene.tell(Input::Heard(WITNESS, person(1, 100, 300), Millis(0)));
+        for _ in 0..50 {
+            scene.pass(100);
+            scene.frame(0, 0, covers, &[]);
+        }
+        assert_eq!(scene.crossing.tracks().is_on_road(), expected, "{covers:b}");
+    }
+}
+
+/// Hazard: a robot stays on the lane for ever for somebody whom a sensor saw there that has failed.
+#[test]
+fn another_sensor_or_a_person_knows_that_somebody_has_left_the_road() {
+    for sees in [true, false] {
+        let mut scene = watch();
+        scene.frame(0, 0, 0b11, &[person(1, 100, 300)]);
+        for _ in 0..50 {
+            scene.pass(100);
+            if sees {
+                scene.frame(1, 0, 0b11, &[]);
+            }
+        }
+        assert_eq!(scene.crossing.tracks().is_on_road(), !sees);
+        scene.tell(Input::SaidClear);
+        assert!(!scene.crossing.tracks().is_on_road());
     }
 }

@@ -122,6 +122,14 @@ fn the_error_of_its_place_counts_against_it() {
         ..vehicle(-6_500, 200, 1_389, 0)
     };
     assert!(hinders(unsure, 0, 0));
+    // Aside as well, and where it seems to have passed.
+    for (exact, error_cm) in [
+        (vehicle(-1_500, 2_500, 1_389, 0), 700),
+        (vehicle(1_800, 200, 1_389, 0), 200),
+    ] {
+        assert!(!hinders(exact, 0, 0));
+        assert!(hinders(Vehicle { error_cm, ..exact }, 0, 0));
+    }
 }
 
 #[test]
