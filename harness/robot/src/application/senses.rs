@@ -32,9 +32,13 @@ const DIRECTION_M: f64 = 1e3;
 /// older is of a station whose wall clock is another one than the robot's.
 const MEASURED_MS: u64 = 2_048;
 
-/// Types of stations that are vulnerable road users by ETSI, and no slower than cars: `TrafficParticipantType` of TS 102 894-2.
+/// Vulnerable road users who ride, by ETSI: `TrafficParticipantType` of TS 102 894-2. The last two are no slower than cars.
+const CYCLIST: u8 = 2;
 const MOPED: u8 = 3;
 const MOTORCYCLE: u8 = 4;
+
+/// Error of a vehicle's place that its message does not say, in centimetres.
+const UNSAID_ERROR_CM: u16 = 1_000;
 
 /// The sources of people who come one by one, and of vehicles that are heard.
 const ONE_BY_ONE: u8 = u8::MAX;
@@ -291,6 +295,10 @@ impl Application {
         let velocity = traffic::velocity(&self.setup, at, speed, direction);
         let seen = heard(known, at, RoadUser::Vehicle, Some(velocity));
         self.observe_one(HEARD, seen);
+        let error_cm = match user.position.ellipse {
+            Some(_) => seen.error_cm,
+            None => UNSAID_ERROR_CM,
+        };
         // A CAM says where the front is, a CPM where the middle of the bounding box (`PerceivedObject`, TS 102 894-2).
         let to_front_cm = match user.identity {
             Identity::Station(_) => 0,
@@ -311,7 +319,7 @@ impl Application {
                 _ => None,
             },
             at,
-            error_cm: seen.error_cm.saturating_add(to_front_cm),
+            error_cm: error_cm.saturating_add(to_front_cm),
             velocity,
         };
         self.step(Input::Vehicle(vehicle, measured_ago(known, moment)));
@@ -321,7 +329,12 @@ impl Application {
         let Some(at) = self.at_point(&known.user.position) else {
             return;
         };
-        let seen = heard(known, at, RoadUser::Pedestrian, None);
+        let what = match known.user.station_type {
+            Some(CYCLIST) => RoadUser::Bicyclist,
+            Some(MOPED | MOTORCYCLE) => RoadUser::Motorcyclist,
+            _ => RoadUser::Pedestrian,
+        };
+        let seen = heard(known, at, what, None);
         let (Identity::Station(by) | Identity::Object { by, .. } | Identity::Unnumbered { by, .. }) =
             known.user.identity;
         self.step(Input::Heard(StationId(by), seen, Millis::ZERO));
