@@ -2,7 +2,9 @@
 
 use std::sync::{Arc, Mutex};
 
-use crossguard_codec::{Identity, Kind, Position, RoadUser, RobotState, TaskParameters};
+use crossguard_codec::{
+    ConfidenceEllipse, Identity, Kind, Position, RoadUser, RobotState, TaskParameters,
+};
 use crossguard_endpoint::Moment;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_endpoint::station::LocalDynamicMap;
@@ -249,13 +251,21 @@ fn a_late_frame_is_no_sight_of_now() {
     assert_eq!(application.next_sight().unwrap().vehicles.len(), 1);
 }
 
-/// A vehicle so many metres to the east, with its speed in m/s and its heading in degrees.
+/// A vehicle so many metres to the east, with its speed in m/s and its heading in degrees, which knows its place to a metre.
 fn vehicle(east: f64, (speed, heading): (f64, f64)) -> RoadUser {
+    let metre = ConfidenceEllipse {
+        semi_major: 1.0,
+        semi_minor: 1.0,
+        orientation: 0.0,
+    };
     RoadUser {
         identity: Identity::Station(9),
         kind: Kind::Vehicle,
         station_type: None,
-        position: Site::default().position(Place::new(east, 2.0)),
+        position: Position {
+            ellipse: Some(metre),
+            ..Site::default().position(Place::new(east, 2.0))
+        },
         speed: Some(speed),
         heading: Some(heading),
         cardinality: 1,
@@ -378,6 +388,41 @@ fn what_a_vehicle_does_not_say_makes_nothing_safer() {
         application.advance(10.0);
         let hindered = application.crossing.hindered(&application.setup);
         assert_eq!(hindered.is_some(), expected, "{what}: {hindered:?}");
+    }
+}
+
+/// A car at 50 km/h, 67 m before the crossing.
+#[test]
+fn a_vehicle_that_does_not_say_how_exact_its_place_is_may_be_nearer() {
+    let exact = vehicle(-76.0, (13.9, 90.0));
+    for (ellipse, expected) in [(exact.position.ellipse, false), (None, true)] {
+        let mut application = watching();
+        let position = Position {
+            ellipse,
+            ..exact.position
+        };
+        hears_of(&mut application, RoadUser { position, ..exact }, 10_000);
+        let hindered = application.crossing.hindered(&application.setup);
+        assert_eq!(hindered.is_some(), expected);
+    }
+}
+
+/// A cyclist, by VAM, in the queue before a guard.
+#[test]
+fn a_rider_who_is_heard_beside_the_crossing_is_not_on_the_road() {
+    for (station_type, expected) in [(1, true), (2, false), (4, false)] {
+        let mut application = watching();
+        let corners = [(-300, 0), (500, 0), (500, 700), (-300, 700)];
+        let corners = corners.map(|(east, north)| crossguard_crossing::Point::new(east, north));
+        application.setup.ground.crossing = crossguard_crossing::Shape::new(&corners);
+        let user = RoadUser {
+            kind: Kind::Vru,
+            station_type: Some(station_type),
+            ..vehicle(-8.0, (0.0, 90.0))
+        };
+        hears_of(&mut application, user, 10_000);
+        let tracks = application.crossing.tracks();
+        assert_eq!(tracks.is_on_road(), expected, "{station_type}");
     }
 }
 
