@@ -283,8 +283,11 @@ impl<P: StateMachine> Endpoint<P> {
             Stimulus::Time => {}
         }
         self.others.tell_of_people(exchange, &mut turn);
-        // Who protects somebody is not silent.
-        if exchange.robot().identity() != Identity::Unlocked || turn.around.surroundings.announces()
+        // A robot that protects somebody is not silent.
+        let robot = exchange.robot();
+        if robot.identity() != Identity::Unlocked
+            || robot.duty().is_some()
+            || turn.around.surroundings.announces()
         {
             self.pseudonyms.break_silence();
         }

@@ -36,15 +36,17 @@ struct Street {
     started: Option<ManeuverId>,
     /// How often a robot said that its tickets end.
     ends: [usize; 2],
+    /// When each robot sent something.
+    sent_ms: [Vec<u64>; 2],
 }
 
 impl Street {
     fn new() -> Self {
-        Self::with(&[None; 2])
+        Self::with(&[None; 2], PERIOD_MS)
     }
 
     /// Each robot has many tickets for a day, or one for each of these times, from and until, in s after the start.
-    fn with(tickets: &[Option<&[[u16; 2]]>; 2]) -> Self {
+    fn with(tickets: &[Option<&[[u16; 2]]>; 2], period_ms: u64) -> Self {
         let identifiers = Identifiers::default();
         let now = Time64::of_timestamp_its(EPOCH_ITS);
         let pki = Pki::for_a_day(&identifiers, now).unwrap();
@@ -66,7 +68,7 @@ impl Street {
                 };
                 credentials.tickets = times.iter().map(ticket).collect();
             }
-            let security = Security::new(Mode::Enforce, credentials, Some(PERIOD_MS), now);
+            let security = Security::new(Mode::Enforce, credentials, Some(period_ms), now);
             let number = u8::try_from(id).unwrap();
             let id = number.into();
             let security = security.unwrap().with_secret(Secret::new([number; 32]));
@@ -80,6 +82,7 @@ impl Street {
             heard_as: [Vec::new(), Vec::new()],
             started: None,
             ends: [0; 2],
+            sent_ms: [Vec::new(), Vec::new()],
         }
     }
 
@@ -95,6 +98,7 @@ impl Street {
             match effect {
                 Effect::Transmit { packet, octets, .. } => {
                     self.note(robot, &packet, &octets);
+                    self.sent_ms[robot].push(self.now_ms);
                     let datagram = Stimulus::Datagram {
                         packet: &packet,
                         arrived_ms: self.now_ms,
@@ -151,6 +155,21 @@ impl Street {
         let request = Plan::crossing(Site::default()).request();
         self.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
         self.pass(1_000);
+    }
+
+    /// The second robot guards from a place, and its leader leaves.
+    fn guard(&mut self) {
+        self.ask();
+        let order = Stimulus::Order {
+            follower: self.id(1),
+            task: TaskType::BLOCK,
+            parameters: TaskParameters::default(),
+        };
+        self.tell(0, order);
+        self.pass(200);
+        let maneuver = self.started.take().expect("a maneuver");
+        self.tell(1, Stimulus::Event(Event::InPosition(maneuver)));
+        self.tell(0, Stimulus::Event(Event::LeaveRequested));
     }
 
     /// One session, longer than pseudonyms last; its name.
@@ -210,6 +229,38 @@ fn a_pseudonym_changes_outside_of_sessions_only_and_as_a_whole() {
     }
 }
 
+/// Hazard: a guard stands on the lane after its leader has gone, and says nothing for up to 10 s, because its pseudonym changes.
+#[test]
+fn a_guard_with_a_duty_changes_its_pseudonym_for_the_end_of_a_ticket_alone_and_is_not_silent() {
+    let ends_s = 20;
+    let t_lock_s = u16::try_from(Config::default().settings().t_lock.0 / 1_000).unwrap();
+    let until_s = t_lock_s + ends_s;
+    for (tickets, period_ms, changes) in [
+        (None, PERIOD_MS, false),
+        (Some([[0, until_s], [0, 3_600]]), Alone::PERIOD_MS, true),
+    ] {
+        let tickets = tickets.as_ref().map(|it| &it[..]);
+        let mut street = Street::with(&[None, tickets], period_ms);
+        street.pass(100);
+        street.guard();
+        street.pass(5_000);
+        assert_eq!(street.robots[1].robot().identity(), Identity::Unlocked);
+        let (guard, began_ms) = (street.id(1), street.now_ms);
+        assert!(began_ms < u64::from(ends_s) * 1_000, "{began_ms}");
+        street.pass(30_000);
+        assert!(street.robots[1].robot().duty().is_some());
+        assert_eq!(street.id(1) != guard, changes, "{period_ms}");
+        let sent = street.sent_ms[1].iter().filter(|ms| **ms >= began_ms);
+        let sent: Vec<_> = sent.chain([&street.now_ms]).collect();
+        let silences = sent.windows(2).map(|two| two[1] - two[0]);
+        assert!(
+            silences.clone().max() <= Some(1_000),
+            "{:?}",
+            silences.max()
+        );
+    }
+}
+
 /// Hazard: the last ticket of a leader ends in the middle of a crossing, and nobody who verifies hears it any more.
 #[test]
 fn a_robot_whose_tickets_end_within_a_session_begins_none() {
@@ -221,7 +272,7 @@ fn a_robot_whose_tickets_end_within_a_session_begins_none() {
         ([&short, &long], false, [1, 0]),
         ([&long, &short], false, [0, 1]),
     ] {
-        let mut street = Street::with(&tickets.map(|it| Some(&it[..])));
+        let mut street = Street::with(&tickets.map(|it| Some(&it[..])), PERIOD_MS);
         street.pass(100);
         street.ask();
         assert_eq!(street.ends, ends);
@@ -242,7 +293,7 @@ fn a_robot_takes_part_again_when_its_next_ticket_begins_unless_a_person_said_oth
     let tickets = [[0, begins_s + 1], [begins_s, 3_600]];
     let not_safe = Availability::Unavailable(Unavailability::NotSafe);
     for (told, after) in [(None, Availability::Available), (Some(not_safe), not_safe)] {
-        let mut street = Street::with(&[None, Some(&tickets)]);
+        let mut street = Street::with(&[None, Some(&tickets)], PERIOD_MS);
         let told_of = |told| Stimulus::Event(Event::AvailabilityChanged(told));
         let is = |street: &Street| street.robots[1].robot().availability();
         street.pass(100);

@@ -11,8 +11,8 @@
 //! ```
 //!
 //! Robots with the same period change at the same moments, at multiples of the period on the ITS clock: where each
-//! changed at its own, the station that appears would be the one that has just vanished. A robot that has a part in a session then waits
-//! for the next such moment.
+//! changed at its own, the station that appears would be the one that has just vanished. A robot that has a part in a session or
+//! a duty on the road then waits for the next such moment.
 
 use std::collections::BTreeMap;
 
@@ -126,7 +126,8 @@ impl Pseudonyms {
     }
 
     /// Takes another ticket if that is due, or if the ticket is over within `lock_ms`, as long as a session may take.
-    /// The caller changes all that goes with it at once, and calls this only while the identity is not locked.
+    /// The caller changes all that goes with it at once, and calls this only while the identity is not locked. A robot that stands on
+    /// the road for its duty changes for the end of a ticket alone: a change without silence hides nothing.
     pub(crate) fn take(
         &mut self,
         envelope: &mut Envelope,
@@ -138,7 +139,8 @@ impl Pseudonyms {
         let Envelope::Secured(secured) = envelope else {
             return None;
         };
-        let period_ms = self.period_ms.filter(|_| self.is_due(ego.timestamp_its));
+        let is_due = robot.duty().is_none() && self.is_due(ego.timestamp_its);
+        let period_ms = self.period_ms.filter(|_| is_due);
         // Until the next change at least, so that no ticket ends between two of them.
         let longer = period_ms.and_then(|period_ms| {
             secured.renew_pseudonym(ego, true, lock_ms.saturating_add(period_ms))
