@@ -201,6 +201,9 @@ impl Default for Setup {
 }
 
 impl Setup {
+    /// How fast a slow walker is, in cm/s: crossings are designed so for elderly people and small children, for others by 120 cm/s.
+    pub const SLOW_CMPS: u16 = 90;
+
     /// The same, beside a protocol with these settings.
     #[must_use]
     pub fn with(mut self, config: &Config) -> Self {
@@ -234,11 +237,21 @@ impl Setup {
         crossing.is_none_or(|crossing| crossing.distance_cm(at) <= limit)
     }
 
-    /// How long a person needs from one kerb to the other who walks: faster than people who stand.
+    /// How long a slow walker needs from one kerb to the other.
+    #[must_use]
+    pub fn slow_walk(&self) -> Millis {
+        self.walk(Self::SLOW_CMPS)
+    }
+
+    /// How long a person needs from one kerb to the other who walks: faster than people who stand, and no faster than slow walkers.
     pub(crate) fn crossing_time(&self) -> Millis {
+        self.walk(self.waiting.speed_max_cmps.min(Self::SLOW_CMPS))
+    }
+
+    /// How long a person needs from one kerb to the other at this speed.
+    fn walk(&self, speed_cmps: u16) -> Millis {
         let width_cm = self.ground.road.map_or(0, |road| road.width_cm());
-        let speed_cmps = u64::from(self.waiting.speed_max_cmps.max(1));
-        let time = u64::from(width_cm) * 1_000 / speed_cmps;
+        let time = u64::from(width_cm) * 1_000 / u64::from(speed_cmps.max(1));
         Millis(u32::try_from(time).unwrap_or(u32::MAX))
     }
 
