@@ -27,7 +27,7 @@ use crossguard_protocol::{
 };
 
 use self::bodily::Bodily;
-use self::senses::Said;
+use self::senses::{Said, UNHEARD};
 pub use self::traits::Traits;
 use crate::body::{Body, BodyAct, Fallback};
 use crate::plan::{Plan, millis};
@@ -62,7 +62,7 @@ pub struct Application {
     /// The reason that keeps people from crossing, as told last.
     hindrance: Option<Hindrance>,
     /// The same, until it is logged.
-    pub(crate) untold_hindrance: Option<Hindrance>,
+    untold_hindrance: Option<Hindrance>,
     said: Said,
     traits: Traits,
     availability: Availability,
@@ -256,6 +256,16 @@ impl Application {
         }
     }
 
+    /// Why nobody may cross any more, to be logged.
+    pub(crate) fn next_hindrance(&mut self) -> Option<String> {
+        let why = self.untold_hindrance.take()?;
+        Some(if why == Hindrance::Vehicle(UNHEARD) {
+            "packets were dropped, and a vehicle may come that was not heard".to_owned()
+        } else {
+            why.to_string()
+        })
+    }
+
     /// Takes in what the protocol knows after a step.
     pub fn learn(&mut self, robot: &Robot, config: &Config) {
         self.setup.learn(config);
@@ -351,6 +361,7 @@ impl Application {
             Effect::VehicleAnswered(station, promises) => {
                 return self.step(Input::Answered(*station, *promises));
             }
+            Effect::Dropped { cause, .. } => return self.miss(*cause),
             _ => return,
         };
         match output {

@@ -11,6 +11,7 @@
 //! [`runtime`](crate::runtime) drives it by a real clock and a socket, the simulator of `crossguard-judge` in
 //! virtual time; both do what the effects say.
 
+use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_protocol::{Event, ManeuverId, Phase, Robot, StateMachine};
 
@@ -73,6 +74,12 @@ impl<P: StateMachine> Machine<P> {
         let (robot, config) = (self.endpoint.robot(), self.endpoint.config());
         self.application.learn(robot, config);
         effects
+    }
+
+    /// A packet was dropped before it came to the endpoint.
+    pub fn miss(&mut self, cause: Cause) {
+        self.endpoint.count(cause);
+        self.application.miss(cause);
     }
 
     /// The maneuver that the body executes as a follower, if one runs.

@@ -335,7 +335,7 @@ impl Loop {
     /// Counts what the reader had no place for.
     fn count_overflow(&mut self) {
         for _ in 0..self.waiting.dropped.swap(0, Ordering::Relaxed) {
-            self.machine.endpoint.count(Cause::InboxFull);
+            self.machine.miss(Cause::InboxFull);
         }
     }
 
@@ -475,8 +475,7 @@ impl Loop {
                 self.sampler.count(&cause.into());
             }
         }
-        if let Some(why) = self.machine.application.untold_hindrance.take() {
-            let why = why.to_string();
+        if let Some(why) = self.machine.application.next_hindrance() {
             self.log(Entry::Hindered { why });
         }
         self.look_around(shown);

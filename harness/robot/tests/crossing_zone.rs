@@ -6,10 +6,11 @@ mod support;
 mod zone;
 
 use crossguard_codec::{Identity, Kind, RoadUser};
+use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::station::{LocalDynamicMap, Security};
 use crossguard_endpoint::{Effect, Moment};
-use crossguard_protocol::{EndReason, Event, Input, Millis, Notice, Output, Urgency};
+use crossguard_protocol::{EndReason, Event, Input, Millis, Notice, Output, Phase, Urgency};
 use crossguard_robot::body::Build;
 use crossguard_robot::machine::{Machine, is_at_rest};
 use crossguard_robot::perception::SensorFrame;
@@ -157,6 +158,35 @@ fn the_session_waits_for_a_person_who_is_slow_on_the_road() {
     crossing.pass_until(&mut slow, |it| !it.ends.is_empty() && it.all_rest());
     assert_eq!(crossing.ends, [EndReason::TaskCompleted]);
     assert!(slow.position_m[1] > 7.0);
+}
+
+/// Hazard: somebody floods the leader with packets, a car that comes meanwhile is not heard, and go begins in front of it. The team is
+/// heard all the same: its robots have places of their own.
+#[test]
+fn nobody_is_let_across_while_packets_are_dropped() {
+    let mut crossing = Crossing::new();
+    let mut waiting = person(1.0, -0.8);
+    let mut is_flooded = |crossing: &mut Crossing| {
+        crossing.0.robot(0).miss(Cause::InboxFull);
+        crossing.pass(100, Some(&mut waiting));
+    };
+    // Without a flood it takes less than 10 s.
+    (0..300).for_each(|_| is_flooded(&mut crossing));
+    assert_eq!((crossing.go, &crossing.ends[..]), (false, &[][..]));
+    crossing.pass_until(&mut waiting, |it| it.go);
+    let opened_ms = crossing.0.now_ms;
+    assert!((34_000..36_000).contains(&opened_ms), "{opened_ms}");
+    // People who are on the road keep their guards.
+    waiting.velocity_mps = [0.0, 1.4];
+    crossing.pass(2_000, Some(&mut waiting));
+    crossing.0.robot(0).miss(Cause::InboxFull);
+    crossing.pass(100, Some(&mut waiting));
+    assert!(!crossing.go && (0.0..=7.0).contains(&waiting.position_m[1]));
+    crossing.pass(1_000, Some(&mut waiting));
+    let helper = crossing.0.robot(1).endpoint.robot();
+    assert!(matches!(helper.phase(), Phase::Following(_)), "{helper:?}");
+    crossing.pass_until(&mut waiting, |it| !it.ends.is_empty() && it.all_rest());
+    assert_eq!(crossing.ends, [EndReason::TaskCompleted]);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
+use crossguard_codec::security::Rejected;
 use crossguard_codec::{
     ConfidenceEllipse, Identity, Kind, Position, RoadUser, RobotState, TaskParameters,
 };
@@ -349,6 +350,71 @@ fn a_position_that_is_no_number_is_no_place() {
     for (latitude, longitude) in [(f64::NAN, 8.4), (49.0, f64::INFINITY)] {
         assert_eq!(application.pose(&Position::at(latitude, longitude)), None);
     }
+}
+
+/// A robot that leads where nobody has to look, and drops a packet.
+fn leader_that_drops(cause: Cause, shows_go: bool) -> Application {
+    let mut application = watching();
+    application.setup.watches = false;
+    application.counts = true;
+    if shows_go {
+        application.step(Input::CorridorOpen(Millis(1_900)));
+    }
+    application.act(&Effect::Dropped {
+        cause,
+        detail: String::new(),
+        octets: Vec::new(),
+    });
+    application
+}
+
+/// Hazard: a car comes during a flood of packets, nobody hears it, and go begins in front of it.
+#[test]
+fn packets_that_are_dropped_for_their_number_may_be_those_of_a_vehicle() {
+    let too_many_new = Cause::Rejected(Rejected::TooManyNew.cause());
+    for (cause, hindered_ms) in [
+        (Cause::InboxFull, Some(5_000)),
+        (too_many_new, Some(5_000)),
+        (Cause::WaitedTooLong, Some(1_000)),
+        (Cause::Rejected(Rejected::Signature.cause()), None),
+        (Cause::NotCanonical, None),
+    ] {
+        for ms in [0, 1_000, 1_001, 5_000, 5_001] {
+            let mut application = leader_that_drops(cause, false);
+            application.advance(10.0 + f64::from(ms) / 1e3);
+            let hindered = application.crossing.hindered(&application.setup);
+            let expected = hindered_ms.is_some_and(|last_ms| ms <= last_ms);
+            assert_eq!(hindered.is_some(), expected, "{cause} {ms} ms");
+        }
+    }
+    let mut application = leader_that_drops(Cause::InboxFull, false);
+    application.step(Input::CorridorOpen(Millis(1_900)));
+    let why = application.next_hindrance().unwrap();
+    assert!(why.starts_with("packets were dropped"), "{why}");
+}
+
+/// Go ends in a flood as it does where the channel is jammed. A robot that was held up for a moment keeps the go that it has.
+#[test]
+fn go_ends_in_a_flood_and_not_because_packets_have_waited() {
+    let too_many_new = Cause::Rejected(Rejected::TooManyNew.cause());
+    for (cause, goes_on) in [
+        (Cause::InboxFull, false),
+        (too_many_new, false),
+        (Cause::WaitedTooLong, true),
+    ] {
+        let application = leader_that_drops(cause, true);
+        let shows_go = application.sign().shows_go(10_000_000);
+        assert_eq!(shows_go, goes_on, "{cause}");
+    }
+}
+
+/// Hazard: somebody sends so many packets that a robot without a part in a session stays on the lane.
+#[test]
+fn packets_that_are_dropped_hold_nobody_but_a_leader() {
+    let mut application = watching();
+    application.setup.watches = false;
+    application.miss(Cause::InboxFull);
+    assert_eq!(application.crossing.hindered(&application.setup), None);
 }
 
 /// Hazard: a vehicle that does not say how fast it is, or that was measured a while ago, counts as none, or as where it was.
