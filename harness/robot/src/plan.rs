@@ -3,7 +3,7 @@
 use crossguard_codec::PublicSignal;
 use crossguard_crossing as crossing;
 pub use crossguard_crossing::Who;
-use crossguard_protocol::{HelpRequest, Millis, StationId, TaskSet, TaskType, Urgency};
+use crossguard_protocol::{HelpRequest, Millis, Settings, StationId, TaskSet, TaskType, Urgency};
 
 use crate::site::{Place, Site};
 use crate::zone::point;
@@ -68,6 +68,23 @@ impl Leg {
             speed_mps: 1.4,
             heading_deg: None,
         }
+    }
+
+    /// The time that a way of this length takes, in seconds, and the setting that gives it less: its name, and how much that is.
+    pub(crate) fn too_long(
+        &self,
+        way_m: f64,
+        settings: &Settings,
+    ) -> Option<(f64, &'static str, f64)> {
+        let way_s = way_m / self.speed_mps;
+        let of_task = settings.t_exec[usize::from(self.task.value())];
+        let escorts = settings.guarding.without(settings.holding);
+        let of_crossing = escorts.contains(self.task).then_some(settings.t_cross);
+        let limits = [("t_exec", Some(of_task)), ("t_cross", of_crossing)];
+        limits.into_iter().find_map(|(limit, time)| {
+            let most_s = f64::from(time?.0) / 1e3;
+            (way_s > most_s).then_some((way_s, limit, most_s))
+        })
     }
 
     /// The leg as the crossing machine has it.

@@ -42,7 +42,7 @@ use self::link::LinkTable;
 use self::traits::BatteryTable;
 pub use self::traits::{NoTraits, job_named};
 pub use self::zone::NoZone;
-use self::zone::{ZoneTable, outline};
+use self::zone::{ZoneTable, check_escort, outline};
 
 /// A robot's configuration, checked.
 #[derive(Clone, Debug)]
@@ -208,7 +208,7 @@ pub enum Impossibility {
     Settings(#[from] BrokenInequality),
     /// `t_cross` is shorter than a slow walker takes.
     #[error(
-        "[protocol] t_cross is {t_cross_s} s: a slow walker (0.9 m/s) is between the kerbs of the site for {walk_s:.1} s"
+        "[protocol] t_cross is {t_cross_s} s: a slow walker (0.9 m/s) is on the carriageway for {walk_s:.1} s"
     )]
     CrossingTime {
         /// `t_cross`, in seconds.
@@ -378,8 +378,7 @@ impl RobotFile {
     #[must_use]
     pub fn plan(&self) -> Option<Plan> {
         self.autopilot.then(|| match (self.kerbs, &self.plan_file) {
-            (Some([from, to]), None) => Plan::escort(self.site, from, to),
-            (None, None) => Plan::crossing(self.site),
+            (kerbs, None) => own_plan(self.site, kerbs),
             (_, Some(file)) => file.plan(self.station, file.followers),
         })
     }
@@ -412,6 +411,14 @@ impl RobotFile {
             journal,
             ..Setup::new(&self.name, self.station, application, link)
         }
+    }
+}
+
+/// The plan of a robot that leads without a file of it: between these kerbs, or those of the paper's crossing.
+fn own_plan(site: Site, kerbs: Option<[Place; 2]>) -> Plan {
+    match kerbs {
+        Some([from, to]) => Plan::escort(site, from, to),
+        None => Plan::crossing(site),
     }
 }
 
@@ -486,7 +493,10 @@ impl RobotTable {
             return Err(Impossibility::EscortHolds);
         }
         let t_cross_s = f64::from(config.settings().t_cross.0) / 1_000.0;
-        if let Some(walk_s) = layout.walk_s().filter(|walk_s| *walk_s > t_cross_s) {
+        // A file without a site has the street of the demonstrations, which says nothing of a road of its own.
+        let unsited = zone.as_ref().filter(|_| self.site_file.is_none());
+        let walk_s = unsited.and_then(Zone::walk_s).or_else(|| layout.walk_s());
+        if let Some(walk_s) = walk_s.filter(|walk_s| *walk_s > t_cross_s) {
             return Err(Impossibility::CrossingTime { t_cross_s, walk_s });
         }
         let carriageway = layout.carriageway();
@@ -515,6 +525,9 @@ impl RobotTable {
         let is_own_site = self.site_file.is_some() || self.site.is_some() && kerbs.is_none();
         if self.autopilot && is_own_site && self.plan_file.is_none() {
             return Err(Impossibility::NoPlan);
+        }
+        if let (true, Some(zone), None) = (autopilot, &zone, &self.plan_file) {
+            check_escort(zone, &own_plan(site, kerbs), config.settings())?;
         }
         let plan = self.plan_file.as_deref();
         let plan = plan

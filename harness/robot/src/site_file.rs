@@ -24,6 +24,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use crossguard_crossing::Setup;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -144,9 +145,6 @@ const ALONG_M: f64 = 10.0;
 /// How far apart kerbs are at least, in metres: less is no lane.
 const WIDTH_MIN_M: f64 = 2.0;
 
-/// How fast crossings are designed for elderly people and small children, in m/s; for others it is 1.2 m/s.
-const SLOW_MPS: f64 = 0.9;
-
 /// The text of the site of the demonstrations.
 pub const STREET: &str = include_str!("../plans/street.toml");
 
@@ -194,7 +192,8 @@ impl SiteFile {
     /// How long a slow walker is on the carriageway, in seconds; `None` for a site without a crossing.
     #[must_use]
     pub fn walk_s(&self) -> Option<f64> {
-        self.carriageway().map(|road| road.width_m() / SLOW_MPS)
+        let slow_mps = f64::from(Setup::SLOW_CMPS) / 100.0;
+        self.carriageway().map(|road| road.width_m() / slow_mps)
     }
 
     /// Which way a robot faces that holds traffic back at a place, in degrees clockwise from north; `None` beside the

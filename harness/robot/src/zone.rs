@@ -79,6 +79,13 @@ impl Zone {
         }
     }
 
+    /// How long a slow walker is on its road, in seconds, if it has one. A road is longer than it is wide.
+    #[must_use]
+    pub fn walk_s(&self) -> Option<f64> {
+        let slow_walk = self.watched(Setup::default()).slow_walk();
+        self.road.as_ref().map(|_| f64::from(slow_walk.0) / 1e3)
+    }
+
     fn parts(&self) -> Parts {
         Parts::of(&self.road.as_ref().map_or_else(Vec::new, corners))
     }

@@ -93,22 +93,13 @@ pub(super) fn ways_in_time(
             return Err(at(tables, number, name, what));
         }
         let way_m = from.distance(leg.to);
-        let way_s = way_m / leg.speed_mps;
-        let of_task = settings.t_exec[usize::from(leg.task.value())];
-        let of_crossing = escorts.contains(leg.task).then_some(settings.t_cross);
-        let limits = [("t_exec", Some(of_task)), ("t_cross", of_crossing)];
-        for (limit, time) in limits {
-            if let Some(time) = time
-                && way_s > seconds(time)
-            {
-                let (name, most_s) = (&followers[follower].name, seconds(time));
-                let what = format!(
-                    "role '{name}' goes {way_m:.1} m at {} m/s, which takes {way_s:.1} s: \
-                     {limit} is {most_s} s",
-                    leg.speed_mps
-                );
-                return Err(at(tables, number, name, what));
-            }
+        if let Some((way_s, limit, most_s)) = leg.too_long(way_m, settings) {
+            let name = &followers[follower].name;
+            let what = format!(
+                "role '{name}' goes {way_m:.1} m at {} m/s, which takes {way_s:.1} s: {limit} is {most_s} s",
+                leg.speed_mps
+            );
+            return Err(at(tables, number, name, what));
         }
     }
     Ok(())

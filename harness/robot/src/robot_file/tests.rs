@@ -119,7 +119,7 @@ const UNSAFE: &str = "
 holding = 0     | [protocol] the settings break 'block-holds'
 holding = 6     | [protocol] holding has 'move': an escort guards beside a person on the way
 guarding = 0    | [protocol] the settings break 'named-tasks-guard'
-t_cross = 1     | [protocol] t_cross is 0.001 s: a slow walker (0.9 m/s) is between the kerbs of the site for 7.8 s
+t_cross = 1     | [protocol] t_cross is 0.001 s: a slow walker (0.9 m/s) is on the carriageway for 7.8 s
 t_cross = 20000 | plan crossing:27: role 'escort' goes 9.0 m at 0.424 m/s, which takes 21.2 s: t_cross is 20 s
 ";
 
@@ -129,6 +129,39 @@ fn settings_that_switch_a_protection_off_are_refused() {
     for [protocol, cause] in rows(UNSAFE) {
         let error = read(&protocol).unwrap_err();
         assert!(error.contains(&cause), "{protocol}: {error}");
+    }
+}
+
+/// A carriageway, where people are escorted over it, and what is said of that.
+const ESCORTS: &str = "
+[-13, 0], [15, 0], [15, 7], [-13, 7]     |                               |
+[-13, 0], [15, 0], [15, 7], [-13, 7]     | escort_m = [[1, 8], [4, -1]]  |
+[-20, 0], [20, 0], [20, 30], [-20, 30]   | escort_m = [[1, -1], [1, 31]] | [protocol] t_cross is 30 s: a slow walker (0.9 m/s) is on the carriageway for 33.3 s
+[-13, 0], [15, 0], [15, 7], [-13, 7]     | escort_m = [[1, -1], [1, 4]]  | [zone] escort_m leads from [1, -1] to [1, 4]: a place on each of the two pavements is wanted
+[-13, 0], [15, 0], [15, 7], [-13, 7]     | escort_m = [[1, 2], [1, 8]]   | [zone] escort_m leads from [1, 2] to [1, 8]
+[-13, 0], [15, 0], [15, 7], [-13, 7]     | escort_m = [[1, -1], [4, -1]] | [zone] escort_m leads from [1, -1] to [4, -1]
+[-13, 12], [15, 12], [15, 19], [-13, 19] |                               | [zone] escort_m leads from [1, -1] to [1, 8]
+[-30, 0], [30, 0], [30, 24], [-30, 24]   | escort_m = [[1, -1], [1, 25]] | [zone] escort_m is 26.0 m long, which takes an escort 61.3 s: t_exec is 60 s
+[-30, 0], [30, 0], [30, 20], [-30, 20]   | escort_m = [[1, -1], [1, 21]] | [zone] escort_m is 22.0 m long, which takes an escort 51.9 s: t_cross is 30 s
+";
+
+/// Hazard: a robot leaves people in the middle of a road of its own, or guards them for less time than they need.
+#[test]
+fn a_robot_escorts_people_over_its_own_road_and_in_time() {
+    for [road, escort, cause] in rows(ESCORTS) {
+        let text = format!(
+            "name = \"ARI\"\nstation = 1\nbuild = \"humanoid\"\nboot_file = \"ari.boot\"\nautopilot = true\n\
+             [link]\naddress = \"127.0.0.1:1\"\npeers = [\"127.0.0.1:2\"]\n\
+             [zone]\nplace_m = [1, -1.5]\nradius_m = 2\nroad_m = [{road}]\n{escort}"
+        );
+        let read = RobotFile::parse(Path::new("robot.toml"), &text, Besides::default());
+        let error = read.map_or_else(|error| error.to_string(), |_| String::new());
+        assert_eq!(
+            error.is_empty(),
+            cause.is_empty(),
+            "{road} {escort}: {error}"
+        );
+        assert!(error.contains(&cause), "{road} {escort}: {error}");
     }
 }
 

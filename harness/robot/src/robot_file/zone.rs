@@ -16,15 +16,15 @@
 
 use crossguard_crossing::{PositionRules, Sensors, TrafficRules, WaitingRules};
 use crossguard_endpoint::ras::area::Area;
-use crossguard_protocol::Millis;
+use crossguard_protocol::{Millis, Settings, TaskType};
 use serde::{Deserialize, Deserializer};
 
 use crate::located::{Exact, Impossible, NEAR_M, Number, is_near, possible};
-use crate::plan::millis;
+use crate::plan::{Plan, millis};
 use crate::sight::corners as corners_of;
 use crate::site::Place;
 use crate::site_file::{Purpose, SiteFile, Spot, between};
-use crate::zone::{NoPolygon, Zone, polygon};
+use crate::zone::{NoPolygon, Zone, point, polygon};
 
 /// How far from the carriageway people wait to cross it at most, in metres.
 const PAVEMENT_MAX_M: f64 = 20.0;
@@ -102,6 +102,27 @@ pub enum NoZone {
     /// A robot that leads by itself does not see when people are across.
     #[error("has no 'road_m': with autopilot one is wanted, to see when everybody is across")]
     NoRoad,
+    /// People would be escorted to the middle of the road, or along it.
+    #[error(
+        "escort_m leads from [{}, {}] to [{}, {}]: a place on each of the two pavements is wanted, with road_m between them",
+        Number(&.0[0].east), Number(&.0[0].north), Number(&.0[1].east), Number(&.0[1].north)
+    )]
+    Escort([Place; 2]),
+    /// The escort would be ended on its way, or with somebody on the road.
+    #[error(
+        "escort_m is {way_m:.1} m long, which takes an escort {way_s:.1} s: {limit} is {most_s} s; say places nearer to the kerbs, \
+         or a longer {limit} in [protocol]"
+    )]
+    EscortTime {
+        /// How long the way is, in metres.
+        way_m: f64,
+        /// How long it takes, in seconds.
+        way_s: f64,
+        /// The setting that gives it less time.
+        limit: &'static str,
+        /// How much time that is, in seconds.
+        most_s: f64,
+    },
     /// A robot that leads by itself has nobody to lead across.
     #[error("has 'road_m' alone: with autopilot it is wanted where people wait, too")]
     NobodyWaits,
@@ -215,6 +236,29 @@ impl ZoneTable {
             traffic: TrafficRules::default(),
         };
         Ok((zone, kerbs.transpose()?))
+    }
+}
+
+/// Looks that a plan has people escorted over the road of a zone, from one pavement to the other, and in the time of that.
+pub(super) fn check_escort(zone: &Zone, plan: &Plan, settings: &Settings) -> Result<(), NoZone> {
+    let (Some(road), Some(kerbs)) = (zone.ground().road, plan.kerbs) else {
+        return Ok(());
+    };
+    let [from, to] = kerbs.map(point);
+    if road.has(from) || road.has(to) || !road.is_between(from, to) {
+        return Err(NoZone::Escort(kerbs));
+    }
+    let way_m = kerbs[0].distance(kerbs[1]);
+    let mut legs = plan.stages.iter().flat_map(|stage| &stage.parts);
+    let escort = legs.find(|(_, leg)| leg.task == TaskType::MOVE);
+    match escort.and_then(|(_, leg)| leg.too_long(way_m, settings)) {
+        Some((way_s, limit, most_s)) => Err(NoZone::EscortTime {
+            way_m,
+            way_s,
+            limit,
+            most_s,
+        }),
+        None => Ok(()),
     }
 }
 
