@@ -499,24 +499,22 @@ impl Loop {
         }
     }
 
-    fn carry_out(&mut self, effect: Effect) {
-        let packet = match &effect {
-            Effect::Transmit { packet, .. } => Some(packet.clone()),
-            _ => None,
-        };
-        match &effect {
+    fn carry_out(&mut self, mut effect: Effect) {
+        let mut to_send = None;
+        match &mut effect {
             Effect::Act(Output::RenewEpoch, _) => self.keeper.ask(),
             Effect::Stepped { state, .. } => {
                 let identifiers = self.machine.endpoint.identifiers();
                 self.waiting.partners.follow(state, identifiers);
             }
+            Effect::Transmit { packet, .. } => to_send = Some(std::mem::take(packet)),
             _ => {}
         }
         // A packet is logged before it is sent: no receiver logs it before its sender.
         if let Some(entry) = recorded(effect) {
             self.log(entry);
         }
-        if let Some(packet) = packet
+        if let Some(packet) = to_send
             && let Err(error) = self.sender.send(&packet)
         {
             self.drop(Cause::NotSent, error.to_string(), Vec::new());
