@@ -299,7 +299,7 @@ impl Demo<'_> {
                 let crossing_us = plan.crossing_us(options.time_scale);
                 self.street.arrive(crossing_us, plan.sides());
                 let detected = Event::PedestrianDetected(plan.request());
-                robot.order(Order::Wish(Stimulus::Event(detected)));
+                robot.order(Order::Tell(Stimulus::Event(detected)));
             }
         }
         let deadline = Instant::now() + patience(options);

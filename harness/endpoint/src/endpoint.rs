@@ -42,7 +42,7 @@ pub enum Stimulus<'a> {
     /// The application tells an event. A maneuver is commanded without parameters.
     Event(Event),
     /// The application commands a maneuver, with parameters.
-    Order {
+    Command {
         /// The station that carries it out.
         follower: StationId,
         /// Its task.
@@ -267,7 +267,7 @@ impl<P: StateMachine> Endpoint<P> {
                 let outputs = exchange.event(&mut turn, event);
                 turn.answer(event, &outputs);
             }
-            Stimulus::Order {
+            Stimulus::Command {
                 follower,
                 task,
                 parameters,

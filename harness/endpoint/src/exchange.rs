@@ -10,7 +10,7 @@
 
 mod entitled;
 mod host;
-mod orders;
+mod parameters;
 mod pins;
 
 use crossguard_codec::geonet::{Address, Indication, Stack};
@@ -27,7 +27,7 @@ use crossguard_protocol::{
 pub use self::entitled::NotEntitled;
 use self::entitled::check_entitled;
 pub use self::host::{Arrived, Host, Moment, Outgoing};
-use self::orders::Orders;
+use self::parameters::Parameters;
 use self::pins::Pins;
 use crate::cause::Cause;
 use crate::ras::generation::{Generation, Limits, Status, Trigger};
@@ -45,7 +45,7 @@ pub struct Exchange<P = Robot> {
     /// Until when the robot knows that time passed.
     elapsed_to_ms: u64,
     generation: Generation,
-    orders: Orders,
+    parameters: Parameters,
     pins: Pins,
     /// The newest command that the robot took on, and its parameters.
     accepted: Option<(Command, Option<TaskParameters>)>,
@@ -63,7 +63,7 @@ impl<P: StateMachine> Exchange<P> {
             stack: Stack::of_robot(identifiers, station),
             elapsed_to_ms: now_ms,
             generation: Generation::default(),
-            orders: Orders::default(),
+            parameters: Parameters::default(),
             pins: Pins::default(),
             accepted: None,
             asked: None,
@@ -120,15 +120,15 @@ impl<P: StateMachine> Exchange<P> {
         task: TaskType,
         parameters: TaskParameters,
     ) -> Outputs {
-        let before = self.orders;
+        let before = self.parameters;
         let phase = self.protocol.robot().phase();
         let follows = |it| matches!(phase, Phase::Leading(leading) if leading.member(it).is_some());
-        self.orders.put(follower, parameters, follows);
+        self.parameters.put(follower, parameters, follows);
         let event = Event::CommandManeuver { follower, task };
         let outputs = self.step(host, Input::Local(event), None);
         if outputs.ignored().is_some() {
             // The command that is outstanding keeps its own parameters.
-            self.orders = before;
+            self.parameters = before;
         }
         outputs
     }
@@ -258,7 +258,7 @@ impl<P: StateMachine> Exchange<P> {
         };
         host.heard(me, &heard, arrived);
         for input in heard.inputs.iter() {
-            if self.is_another_order(input, heard.parameters) {
+            if self.is_another_command(input, heard.parameters) {
                 let cause = Cause::Contradictory("another command under its requestID");
                 let detail =
                     "a command that differs from one that was accepted takes the next requestID";
@@ -277,7 +277,7 @@ impl<P: StateMachine> Exchange<P> {
 
     /// Whether this is a command with the requestID of the one that the robot took on, and says something else: it is no
     /// repetition, and the leader must not hear that it was accepted. How long a command is valid may run down in repetitions.
-    fn is_another_order(&self, input: &Input, parameters: Option<TaskParameters>) -> bool {
+    fn is_another_command(&self, input: &Input, parameters: Option<TaskParameters>) -> bool {
         let timeless = |with: Option<TaskParameters>| {
             with.map(|with| TaskParameters {
                 validity: None,
@@ -385,7 +385,7 @@ impl<P: StateMachine> Exchange<P> {
     fn send_rmcm<H: Host>(&mut self, host: &mut H, rmcm: &Rmcm) {
         match rmcm {
             Rmcm::Command(command) => {
-                self.send_commands(host, &[(*command, self.orders.of(command.to))]);
+                self.send_commands(host, &[(*command, self.parameters.of(command.to))]);
             }
             Rmcm::Answer(answer) => {
                 let state = self.state(host);

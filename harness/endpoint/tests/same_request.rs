@@ -43,12 +43,12 @@ pub(crate) fn team_with_a_command() -> ([Endpoint; 2], Command, u64) {
             sent[robot].extend(packets(&handle(&mut robots[robot], now_ms, Stimulus::Time)));
         }
         if matches!(robots[0].robot().phase(), Phase::Leading(_)) {
-            let order = Stimulus::Order {
+            let command = Stimulus::Command {
                 follower: FOLLOWER,
                 task: TASK,
                 parameters: at(1.0),
             };
-            sent[0].extend(packets(&handle(&mut robots[0], now_ms, order)));
+            sent[0].extend(packets(&handle(&mut robots[0], now_ms, command)));
         }
         on_air = sent;
         if let Phase::Following(following) = robots[1].robot().phase()

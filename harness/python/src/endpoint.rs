@@ -179,7 +179,7 @@ impl Endpoint {
             None => TaskParameters::default(),
         };
         let stimulus = match event {
-            Event::CommandManeuver { follower, task } => Stimulus::Order {
+            Event::CommandManeuver { follower, task } => Stimulus::Command {
                 follower,
                 task,
                 parameters,

@@ -242,7 +242,7 @@ impl Application {
             map_place: site.map_place,
             ..TaskParameters::default()
         };
-        self.wish(Stimulus::Order {
+        self.wish(Stimulus::Command {
             follower,
             task: leg.task,
             parameters,

@@ -343,7 +343,7 @@ impl Loop {
     fn obey(&mut self, order: Order) {
         let seen: Vec<PerceivedVru>;
         let stimulus = match order {
-            Order::Wish(wish) => wish,
+            Order::Tell(stimulus) => stimulus,
             Order::InPosition => event(self.machine.executing().map(Event::InPosition)),
             Order::OutOfPosition => event(self.machine.executing().map(Event::OutOfPosition)),
             Order::Clear => {

@@ -42,8 +42,8 @@ fn the_next_boot_counter_is_persisted_and_used_before_numbers_run_out() {
     }
     .start();
     let request = Plan::crossing(Site::default()).request();
-    let asks = Order::Wish(Stimulus::Event(Event::PedestrianDetected(request)));
-    let leaves = Order::Wish(Stimulus::Event(Event::LeaveRequested));
+    let asks = Order::Tell(Stimulus::Event(Event::PedestrianDetected(request)));
+    let leaves = Order::Tell(Stimulus::Event(Event::LeaveRequested));
     let (mut complained, mut renewed) = (0, None);
     let deadline = Instant::now() + PATIENCE;
     while renewed.is_none() && Instant::now() < deadline {

@@ -175,7 +175,7 @@ fn a_command_without_parameters_has_none_though_the_one_before_had() {
     };
     street.tell(
         0,
-        Stimulus::Order {
+        Stimulus::Command {
             follower: FOLLOWER,
             task: TaskType::INITIAL_POS,
             parameters: slowly,

@@ -115,7 +115,7 @@ fn a_robot_that_is_told_to_stop_helps_nobody_any_more() {
         place: protocol::Place::UNKNOWN,
     };
     let asks = Event::PedestrianDetected(request);
-    requester.order(Order::Wish(Stimulus::Event(asks)));
+    requester.order(Order::Tell(Stimulus::Event(asks)));
     let offers = |record: Arc<Record>| match &record.entry {
         Entry::Step { state, .. } => matches!(state.phase(), Phase::Offering(_)),
         _ => false,

@@ -182,7 +182,7 @@ impl Street {
         let task = TaskType::INITIAL_POS;
         self.tell(
             0,
-            Stimulus::Order {
+            Stimulus::Command {
                 follower,
                 task,
                 parameters,

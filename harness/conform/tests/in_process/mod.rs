@@ -208,7 +208,7 @@ impl<P: StateMachine, F: Fn(StationId, u16) -> P> Subject for InProcess<P, F> {
             }),
             (Local::Order(follower, task), _) => {
                 let parameters = TaskParameters::default();
-                self.handle(Stimulus::Order {
+                self.handle(Stimulus::Command {
                     follower,
                     task,
                     parameters,

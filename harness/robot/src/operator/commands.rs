@@ -219,7 +219,7 @@ pub(super) const COMMANDS: &[Command] = &[
 
 /// The application tells its robot so.
 fn tell(event: Event) -> Line {
-    Line::Order(Order::Wish(Stimulus::Event(event)))
+    Line::Order(Order::Tell(Stimulus::Event(event)))
 }
 
 /// The same, by a command without words.
@@ -368,7 +368,7 @@ fn order(words: &[&str], scope: &Scope<'_>) -> Result<Line, Misunderstood> {
         map_place,
         ..TaskParameters::default()
     };
-    Ok(Line::Order(Order::Wish(Stimulus::Order {
+    Ok(Line::Order(Order::Tell(Stimulus::Command {
         follower,
         task: task(name)?,
         parameters,

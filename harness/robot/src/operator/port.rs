@@ -342,8 +342,8 @@ impl<O: Obeys> Counter<O> {
     fn is_said_again(&mut self, order: &Order, now_us: u64) -> bool {
         let place = match order {
             Order::Clear => 0,
-            Order::Wish(Stimulus::Event(Event::TaskCompleted)) => 1,
-            Order::Wish(Stimulus::Event(Event::AvailabilityChanged(Availability::Available))) => {
+            Order::Tell(Stimulus::Event(Event::TaskCompleted)) => 1,
+            Order::Tell(Stimulus::Event(Event::AvailabilityChanged(Availability::Available))) => {
                 AVAILABLE
             }
             _ => return false,
@@ -498,7 +498,7 @@ fn perceived(fields: Map<String, Value>) -> Result<Observation, String> {
 pub(super) fn order_of(event: Event) -> Result<Order, String> {
     Ok(match event {
         Event::RoadClear => Order::Clear,
-        Event::CommandManeuver { follower, task } => Order::Wish(Stimulus::Order {
+        Event::CommandManeuver { follower, task } => Order::Tell(Stimulus::Command {
             follower,
             task,
             parameters: crossguard_codec::TaskParameters::default(),
@@ -506,7 +506,7 @@ pub(super) fn order_of(event: Event) -> Result<Order, String> {
         Event::AllAnswered | Event::IdentityChanged(..) | Event::EpochRenewed(_) => {
             return Err(format!("'{}' is for the kit alone", event.kind().name()));
         }
-        event => Order::Wish(Stimulus::Event(event)),
+        event => Order::Tell(Stimulus::Event(event)),
     })
 }
 

@@ -14,7 +14,7 @@ fn parsed(text: &str) -> Result<Line, String> {
 fn each_command_is_an_order() {
     let site = Site::default();
     let detect = |followers, urgency, tasks: &[TaskType]| {
-        Order::Wish(Stimulus::Event(Event::PedestrianDetected(HelpRequest {
+        Order::Tell(Stimulus::Event(Event::PedestrianDetected(HelpRequest {
             urgency,
             followers,
             tasks: TaskSet::of(tasks),
@@ -22,7 +22,7 @@ fn each_command_is_an_order() {
         })))
     };
     let order = |parameters| {
-        Order::Wish(Stimulus::Order {
+        Order::Tell(Stimulus::Command {
             follower: StationId(2),
             task: TaskType::MOVE,
             parameters,

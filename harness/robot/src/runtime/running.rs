@@ -18,8 +18,8 @@ use crate::perception::SensorFrame;
 /// Order to a running robot from outside.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Order {
-    /// Something for its endpoint.
-    Wish(Stimulus<'static>),
+    /// Tell its endpoint this.
+    Tell(Stimulus<'static>),
     /// The body holds the place from which the maneuver that runs guards.
     InPosition,
     /// It does not hold that place any more.

@@ -55,12 +55,12 @@ impl World<'_> {
         match event {
             Event::CommandManeuver { follower, task } => {
                 let parameters = TaskParameters::default();
-                let order = Stimulus::Order {
+                let command = Stimulus::Command {
                     follower,
                     task,
                     parameters,
                 };
-                self.handle(place, order)
+                self.handle(place, command)
             }
             event => self.handle(place, Stimulus::Event(event)),
         }

@@ -124,7 +124,7 @@ fn each_line_is_an_order_or_is_refused_and_counted() {
     let hello = json!({"type": "hello", "crossguard": 1, "robot": "Go2", "station": 2, "boot": 7, "trustsRosGraph": true});
     assert_eq!(heard(&mut lines), hello);
     say(&mut counter, 0, HELLO);
-    let tell = |event| Some(Order::Wish(Stimulus::Event(event)));
+    let tell = |event| Some(Order::Tell(Stimulus::Event(event)));
     let stopped = Availability::Unavailable(Unavailability::EmergencyStop);
     let orders = [
         (
@@ -145,7 +145,7 @@ fn each_line_is_an_order_or_is_refused_and_counted() {
         ),
         (
             r#"{"type": "event", "event": {"commandManeuver": {"follower": 5, "task": 1}}}"#,
-            Some(Order::Wish(Stimulus::Order {
+            Some(Order::Tell(Stimulus::Command {
                 follower: StationId(5),
                 task: TaskType::MOVE,
                 parameters: crossguard_codec::TaskParameters::default(),
@@ -348,8 +348,8 @@ fn a_stop_is_not_ended_at_once_by_another_program() {
     let available = json!({"type": "command", "line": "available"}).to_string();
     for (at_us, is_taken) in [(9_100_000, false), (12_000_000, false), (15_000_000, true)] {
         counter.hear(Heard::Line(0, available.clone()), at_us);
-        let wished = |it: &Order| matches!(it, Order::Wish(_));
-        assert_eq!(told.take().iter().any(wished), is_taken, "{at_us}");
+        let is_event = |it: &Order| matches!(it, Order::Tell(_));
+        assert_eq!(told.take().iter().any(is_event), is_taken, "{at_us}");
     }
 }
 

@@ -5,9 +5,9 @@ use crossguard_protocol::{MAX_FOLLOWERS, StationId};
 
 /// One place for each follower that a leader may have.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Orders([Option<(StationId, TaskParameters)>; MAX_FOLLOWERS]);
+pub(super) struct Parameters([Option<(StationId, TaskParameters)>; MAX_FOLLOWERS]);
 
-impl Orders {
+impl Parameters {
     /// Keeps the parameters of a command: in the place of older ones for this follower, or of those for a
     /// station that does not follow.
     pub(super) fn put(
@@ -16,8 +16,8 @@ impl Orders {
         parameters: TaskParameters,
         follows: impl Fn(StationId) -> bool,
     ) {
-        let is_own = |order: &Option<(StationId, _)>| order.is_some_and(|(it, _)| it == follower);
-        let is_free = |order: &Option<(StationId, _)>| order.is_none_or(|(it, _)| !follows(it));
+        let is_own = |kept: &Option<(StationId, _)>| kept.is_some_and(|(it, _)| it == follower);
+        let is_free = |kept: &Option<(StationId, _)>| kept.is_none_or(|(it, _)| !follows(it));
         let place = self.0.iter().position(is_own);
         let place = place.or_else(|| self.0.iter().position(is_free));
         // A leader has no more followers than there are places, and commands nobody else.
@@ -28,9 +28,11 @@ impl Orders {
 
     /// The parameters of the newest command to `follower`; open ones where there is none.
     pub(super) fn of(&self, follower: StationId) -> TaskParameters {
-        let mut orders = self.0.iter().flatten();
-        let order = orders.find(|(station, _)| *station == follower);
-        order.map(|(_, parameters)| *parameters).unwrap_or_default()
+        let mut kept = self.0.iter().flatten();
+        let newest = kept.find(|(station, _)| *station == follower);
+        newest
+            .map(|(_, parameters)| *parameters)
+            .unwrap_or_default()
     }
 }
 
@@ -47,17 +49,17 @@ mod tests {
 
     #[test]
     fn each_follower_keeps_its_newest_parameters() {
-        let mut orders = Orders::default();
+        let mut kept = Parameters::default();
         let follows = |station: StationId| station.0 <= 4;
         // Stations that no longer follow give their places up.
         for station in [90, 91, 92, 93, 1, 2, 3, 4] {
-            orders.put(StationId(station), at(1.0), follows);
+            kept.put(StationId(station), at(1.0), follows);
         }
-        orders.put(StationId(2), at(0.5), follows);
-        assert_eq!(orders.of(StationId(2)), at(0.5));
+        kept.put(StationId(2), at(0.5), follows);
+        assert_eq!(kept.of(StationId(2)), at(0.5));
         for station in [1, 3, 4] {
-            assert_eq!(orders.of(StationId(station)), at(1.0), "{station}");
+            assert_eq!(kept.of(StationId(station)), at(1.0), "{station}");
         }
-        assert_eq!(orders.of(StationId(90)), TaskParameters::default());
+        assert_eq!(kept.of(StationId(90)), TaskParameters::default());
     }
 }
