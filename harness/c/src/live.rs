@@ -6,7 +6,7 @@ use core::fmt::Display;
 use crossguard_codec::geonet::{Indication, PACKET_LEN_MAX};
 use crossguard_codec::{Heard, RAM_LEN_MAX, RMCM_LEN_MAX, RobotState, Service, TaskParameters};
 use crossguard_endpoint::cause::Cause;
-use crossguard_endpoint::exchange::{Arrived, Exchange, Host, Moment, Outgoing};
+use crossguard_endpoint::exchange::{Exchange, Host, Moment, Outgoing};
 use crossguard_protocol::{
     Event, Input, MAX_FOLLOWERS, MAX_OUTPUTS, Output, Outputs, Robot, StationId,
 };
@@ -118,15 +118,15 @@ impl Live {
     /// Takes in a packet, if it has not waited for too long.
     pub(crate) fn receive(&mut self, packet: &[u8], turn: &mut Turn<'_>) {
         let (exchange, mut call) = self.parts(turn, 0);
-        let arrived = call.arrived(packet);
-        exchange.receive(&mut call, arrived);
+        let arrived_ms = call.arrived_ms();
+        exchange.receive(&mut call, packet, arrived_ms);
     }
 
     /// Takes in a message, if it has not waited for too long.
     pub(crate) fn hear(&mut self, message: &[u8], turn: &mut Turn<'_>) {
         let (exchange, mut call) = self.parts(turn, 0);
-        let arrived = call.arrived(message);
-        exchange.receive_message(&mut call, arrived);
+        let arrived_ms = call.arrived_ms();
+        exchange.receive_message(&mut call, message, arrived_ms);
     }
 
     /// Sends a RAM outside of a session, where the protocol does not say when.
@@ -164,13 +164,15 @@ struct Call<'a, 'b> {
 }
 
 impl Call<'_, '_> {
-    /// Octets that waited for as long as the caller says, if it does.
-    fn arrived<'c>(&self, octets: &'c [u8]) -> Arrived<'c> {
-        let at_ms = match self.turn.plain.waited_ms {
-            CROSSGUARD_NONE_MS => None,
-            waited_ms => Some(self.moment.now_ms - u64::from(waited_ms)),
-        };
-        Arrived { octets, at_ms }
+    /// For how long the octets of this call waited, if the caller says so.
+    fn waited_ms(&self) -> Option<u64> {
+        let waited_ms = self.turn.plain.waited_ms;
+        (waited_ms != CROSSGUARD_NONE_MS).then(|| waited_ms.into())
+    }
+
+    /// When they arrived; now, unless the caller says that they waited.
+    fn arrived_ms(&self) -> u64 {
+        self.moment.now_ms - self.waited_ms().unwrap_or(0)
     }
 
     fn push(&mut self, output: CrossguardOutput) {
@@ -230,24 +232,24 @@ impl Host for Call<'_, '_> {
         }
     }
 
-    fn heard(&mut self, _me: &Robot, heard: &Heard, arrived: Arrived<'_>) {
+    fn heard(&mut self, _me: &Robot, heard: &Heard, message: &[u8], _: u64) {
         self.turn.plain.heard = CrossguardHeard::of(heard);
         let told_us = self.turn.plain.log_at_us;
-        let reception = arrived.at_ms.map(|at_ms| Reception {
-            arrived_us: told_us.saturating_sub((self.moment.now_ms - at_ms) * 1_000),
+        let reception = self.waited_ms().map(|waited_ms| Reception {
+            arrived_us: told_us.saturating_sub(waited_ms * 1_000),
             told_us,
         });
         self.write(&Entry::Heard {
             message: heard.service,
             from: heard.from,
             reception,
-            octets: Hex(arrived.octets),
+            octets: Hex(message),
         });
     }
 
-    fn other(&mut self, _me: &Robot, indication: &Indication<'_>, arrived: Arrived<'_>) {
+    fn other(&mut self, _me: &Robot, indication: &Indication<'_>, packet: &[u8], _: u64) {
         let cause = Cause::NoUse(indication.service);
-        self.dropped(cause, &"the robot does not take it in", arrived.octets);
+        self.dropped(cause, &"the robot does not take it in", packet);
     }
 
     fn dropped(&mut self, cause: Cause, detail: &dyn Display, octets: &[u8]) {

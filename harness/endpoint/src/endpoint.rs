@@ -22,7 +22,7 @@ use self::pseudonyms::Pseudonyms;
 use self::turn::Turn;
 use crate::cause::Cause;
 use crate::counters::Counters;
-use crate::exchange::{Arrived, Exchange, Host as _, Moment};
+use crate::exchange::{Exchange, Host as _, Moment};
 use crate::ras::clustering::PerceivedVru;
 use crate::ras::generation::{INTERVAL_MIN_MS, Limits, Trigger};
 use crate::ras::surroundings::{Awareness, Surroundings};
@@ -256,11 +256,7 @@ impl<P: StateMachine> Endpoint<P> {
         match stimulus {
             Stimulus::Event(Event::OpenCorridor) if behind_ms > 0 => {}
             Stimulus::Datagram { packet, arrived_ms } => {
-                let arrived = Arrived {
-                    octets: packet,
-                    at_ms: Some(arrived_ms),
-                };
-                exchange.receive(&mut turn, arrived);
+                exchange.receive(&mut turn, packet, arrived_ms);
             }
             Stimulus::Event(event) => {
                 let event = self.pseudonyms.disguise(exchange, event);

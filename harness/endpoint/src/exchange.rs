@@ -26,7 +26,7 @@ use crossguard_protocol::{
 
 pub use self::entitled::NotEntitled;
 use self::entitled::check_entitled;
-pub use self::host::{Arrived, Host, Moment, Outgoing};
+pub use self::host::{Host, Moment, Outgoing};
 use self::parameters::Parameters;
 use self::pins::Pins;
 use crate::cause::Cause;
@@ -181,82 +181,75 @@ impl<P: StateMachine> Exchange<P> {
         outputs
     }
 
-    /// A packet arrived.
-    pub fn receive<H: Host>(&mut self, host: &mut H, packet: Arrived<'_>) {
-        if self.has_waited_too_long(host, packet) {
+    /// A packet arrived, at this time on the clock of [`Moment::now_ms`].
+    pub fn receive<H: Host>(&mut self, host: &mut H, packet: &[u8], arrived_ms: u64) {
+        if self.has_waited_too_long(host, packet, arrived_ms) {
             return;
         }
         let ego = host.ego();
-        match self.stack.receive(&ego, packet.octets) {
+        match self.stack.receive(&ego, packet) {
             Ok(indication) => match indication.service {
                 Service::Ram | Service::Rmcm => {
-                    self.understand(host, packet, Some(&indication));
+                    self.understand(host, packet, arrived_ms, Some(&indication));
                 }
-                _ => host.other(self.protocol.robot(), &indication, packet),
+                _ => host.other(self.protocol.robot(), &indication, packet, arrived_ms),
             },
-            Err(discarded) => host.dropped(discarded.into(), &discarded, packet.octets),
+            Err(discarded) => host.dropped(discarded.into(), &discarded, packet),
         }
     }
 
     /// A message arrived, which another stack has taken out of its packet.
-    pub fn receive_message<H: Host>(&mut self, host: &mut H, message: Arrived<'_>) {
-        if !self.has_waited_too_long(host, message) {
-            self.understand(host, message, None);
+    pub fn receive_message<H: Host>(&mut self, host: &mut H, message: &[u8], arrived_ms: u64) {
+        if !self.has_waited_too_long(host, message, arrived_ms) {
+            self.understand(host, message, arrived_ms, None);
         }
     }
 
     /// Drops octets that waited for longer than the timers allow.
-    fn has_waited_too_long<H: Host>(&self, host: &mut H, arrived: Arrived<'_>) -> bool {
+    fn has_waited_too_long<H: Host>(&self, host: &mut H, octets: &[u8], arrived_ms: u64) -> bool {
         let delay_max_ms = self.config.settings().delay_max.0;
-        let waited_ms = arrived
-            .at_ms
-            .map(|at| host.moment().now_ms.saturating_sub(at));
-        match waited_ms {
-            Some(waited_ms) if waited_ms > u64::from(delay_max_ms) => {
-                let detail = format_args!("for {waited_ms} ms; delay_max is {delay_max_ms} ms");
-                host.dropped(Cause::WaitedTooLong, &detail, arrived.octets);
-                true
-            }
-            _ => false,
+        let waited_ms = host.moment().now_ms.saturating_sub(arrived_ms);
+        let is_too_long = waited_ms > u64::from(delay_max_ms);
+        if is_too_long {
+            let detail = format_args!("for {waited_ms} ms; delay_max is {delay_max_ms} ms");
+            host.dropped(Cause::WaitedTooLong, &detail, octets);
         }
+        is_too_long
     }
 
     /// Takes in a message, which stands in a packet if there is an indication.
     fn understand<H: Host>(
         &mut self,
         host: &mut H,
-        arrived: Arrived<'_>,
+        octets: &[u8],
+        arrived_ms: u64,
         indication: Option<&Indication<'_>>,
     ) {
-        let message = indication.map_or(arrived.octets, |indication| indication.message);
+        let message = indication.map_or(octets, |indication| indication.message);
         let me = self.protocol.robot();
         let position = &host.state().position;
         let heard = match Heard::of(&self.identifiers, me.station(), position, message) {
             Ok(heard) => heard,
-            Err(unheard) => return host.dropped((&unheard).into(), &unheard, arrived.octets),
+            Err(unheard) => return host.dropped((&unheard).into(), &unheard, octets),
         };
         if let Some(indication) = indication {
             if indication.service != heard.service {
                 let (found, port) = (heard.service.name(), indication.service.name());
                 let detail = format_args!("{found} at the port of {port}");
                 let cause = Cause::Discarded("message of another port");
-                return host.dropped(cause, &detail, arrived.octets);
+                return host.dropped(cause, &detail, octets);
             }
             let entitled = check_entitled(host, &self.identifiers, indication, &heard);
             if let Err(why) = entitled {
-                return host.dropped(why.into(), &why, arrived.octets);
+                return host.dropped(why.into(), &why, octets);
             }
         }
         let signer = indication.and_then(|indication| indication.signer);
         if !self.pins.allow(self.protocol.robot(), heard.from, signer) {
             let why = NotEntitled::Unpinned(heard.from);
-            return host.dropped(why.into(), &why, arrived.octets);
+            return host.dropped(why.into(), &why, octets);
         }
-        let arrived = Arrived {
-            octets: message,
-            ..arrived
-        };
-        host.heard(me, &heard, arrived);
+        host.heard(me, &heard, message, arrived_ms);
         for input in heard.inputs.iter() {
             if self.is_another_command(input, heard.parameters) {
                 let cause = Cause::Contradictory("another command under its requestID");

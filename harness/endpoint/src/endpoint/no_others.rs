@@ -5,7 +5,7 @@ use crossguard_protocol::{Robot, StateMachine};
 
 use super::turn::Turn;
 use crate::cause::Cause;
-use crate::exchange::{Arrived, Exchange, Host as _};
+use crate::exchange::{Exchange, Host as _};
 use crate::ras::surroundings::Awareness;
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -42,8 +42,9 @@ pub(super) fn hear(
     turn: &mut Turn<'_>,
     _: &Robot,
     indication: &Indication<'_>,
-    arrived: Arrived<'_>,
+    packet: &[u8],
+    _: u64,
 ) {
     let cause = Cause::NoUse(indication.service);
-    turn.dropped(cause, &cause, arrived.octets);
+    turn.dropped(cause, &cause, packet);
 }

@@ -6,7 +6,7 @@ use crossguard_protocol::{Robot, StateMachine, StationId};
 
 use super::turn::Turn;
 use crate::cause::Cause;
-use crate::exchange::{Arrived, Exchange, Host as _};
+use crate::exchange::{Exchange, Host as _};
 use crate::ras::cam::{CamGeneration, cam};
 use crate::ras::generation::Trigger;
 use crate::ras::surroundings::Awareness;
@@ -80,12 +80,13 @@ pub(super) fn hear(
     turn: &mut Turn<'_>,
     me: &Robot,
     indication: &Indication<'_>,
-    arrived: Arrived<'_>,
+    packet: &[u8],
+    arrived_ms: u64,
 ) {
-    let (service, octets) = (indication.service, indication.message);
+    let service = indication.service;
     if service == Service::Denm {
         let why = "an event changes nothing that a robot does";
-        return turn.dropped(Cause::NoUse(service), &why, arrived.octets);
+        return turn.dropped(Cause::NoUse(service), &why, packet);
     }
     let (ego, now_ms) = (turn.ego(), turn.moment().now_ms);
     let neighbours = &mut turn.around.neighbours;
@@ -96,8 +97,8 @@ pub(super) fn hear(
             }
             let message = received.message;
             let from = StationId(message.header().station_id.0);
-            turn.understood(service, from, Arrived { octets, ..arrived });
+            turn.understood(service, from, indication.message, arrived_ms);
         }
-        Err(unobserved) => turn.dropped((&unobserved).into(), &unobserved, arrived.octets),
+        Err(unobserved) => turn.dropped((&unobserved).into(), &unobserved, packet),
     }
 }

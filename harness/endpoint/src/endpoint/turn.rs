@@ -11,7 +11,7 @@ use crossguard_protocol::{
 
 use super::{Around, Effect, others};
 use crate::cause::Cause;
-use crate::exchange::{Arrived, Host, Moment, Outgoing};
+use crate::exchange::{Host, Moment, Outgoing};
 use crate::ras::clustering::PerceivedVru;
 use crate::ras::containers;
 use crate::ras::surroundings::Told;
@@ -61,14 +61,20 @@ impl<'a> Turn<'a> {
     }
 
     /// A message was understood, from any sender.
-    pub(super) fn understood(&mut self, kind: Service, from: StationId, message: Arrived<'_>) {
+    pub(super) fn understood(
+        &mut self,
+        kind: Service,
+        from: StationId,
+        message: &[u8],
+        arrived_ms: u64,
+    ) {
         let now_ms = self.moment.now_ms;
         self.effects.push(Effect::Heard {
             kind,
             from,
-            arrived_ms: message.at_ms.unwrap_or(now_ms).min(now_ms),
+            arrived_ms: arrived_ms.min(now_ms),
             told_ms: now_ms,
-            octets: message.octets.to_vec(),
+            octets: message.to_vec(),
         });
     }
 
@@ -132,9 +138,9 @@ impl Host for Turn<'_> {
             .push(Effect::VehicleAnswered(vehicle, promises));
     }
 
-    fn heard(&mut self, me: &Robot, heard: &Heard, arrived: Arrived<'_>) {
+    fn heard(&mut self, me: &Robot, heard: &Heard, message: &[u8], arrived_ms: u64) {
         let now_ms = self.moment.now_ms;
-        self.understood(heard.service, heard.from, arrived);
+        self.understood(heard.service, heard.from, message, arrived_ms);
         for input in heard.inputs.iter() {
             if let Input::Ram { ram, .. } = input {
                 self.around.answers.hear(now_ms, ram);
@@ -163,8 +169,8 @@ impl Host for Turn<'_> {
         namesakes.bind(from, signer, address, self.moment.now_ms);
     }
 
-    fn other(&mut self, me: &Robot, indication: &Indication<'_>, arrived: Arrived<'_>) {
-        others::hear(self, me, indication, arrived);
+    fn other(&mut self, me: &Robot, indication: &Indication<'_>, packet: &[u8], arrived_ms: u64) {
+        others::hear(self, me, indication, packet, arrived_ms);
     }
 
     fn complete(&mut self, ram: &mut RAM) {

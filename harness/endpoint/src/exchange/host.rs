@@ -30,15 +30,6 @@ impl Moment {
     }
 }
 
-/// Octets that came in.
-#[derive(Clone, Copy, Debug)]
-pub struct Arrived<'a> {
-    /// A packet, or a message without one.
-    pub octets: &'a [u8],
-    /// When they arrived, on the clock of [`Moment::now_ms`]; `None` if that is not known.
-    pub at_ms: Option<u64>,
-}
-
 /// A message in its packet, which lies at the front of [`Host::room`].
 #[derive(Clone, Copy, Debug)]
 pub struct Outgoing<'a> {
@@ -84,14 +75,14 @@ pub trait Host {
     /// A vehicle answers the newest question whether it will stop.
     fn answered(&mut self, _vehicle: StationId, _promises: bool) {}
 
-    /// The robot `me` understood a message.
-    fn heard(&mut self, me: &Robot, heard: &Heard, arrived: Arrived<'_>);
+    /// The robot `me` understood a message, which arrived then.
+    fn heard(&mut self, me: &Robot, heard: &Heard, message: &[u8], arrived_ms: u64);
 
     /// The certificate of this signer vouches for the robot with this station id, whose packets come from this address.
     fn vouched(&mut self, _from: StationId, _by: (Signer, Address)) {}
 
-    /// A message of another service than those of robots arrived at the robot `me`, in this packet.
-    fn other(&mut self, me: &Robot, indication: &Indication<'_>, arrived: Arrived<'_>);
+    /// A message of another service than those of robots arrived at the robot `me`, in this packet and then.
+    fn other(&mut self, me: &Robot, indication: &Indication<'_>, packet: &[u8], arrived_ms: u64);
 
     /// The host may add what it knows of the people around.
     fn complete(&mut self, _ram: &mut RAM) {}
