@@ -203,14 +203,6 @@ impl<P: StateMachine> Endpoint<P> {
         &self.around.counters
     }
 
-    /// Whether the robot asks for help, has offers enough, and has heard an answer of every robot that it heard
-    /// in the last second, of which none leads at its place: then [`Event::AllAnswered`] may be put in.
-    #[must_use]
-    pub fn all_have_answered(&self) -> bool {
-        let now_ms = self.exchange.elapsed_to_ms();
-        self.around.answers.are_all_in(now_ms, self.robot())
-    }
-
     /// Counts something that was dropped outside of the endpoint.
     pub fn count(&mut self, cause: Cause) {
         self.around.counters.count(cause);
@@ -277,6 +269,10 @@ impl<P: StateMachine> Endpoint<P> {
             } => exchange.ask(&mut turn, vehicle, parameters),
             Stimulus::Perceived(people) => turn.perceive(people),
             Stimulus::Time => {}
+        }
+        let answers = &turn.around.answers;
+        if answers.are_all_in(exchange.elapsed_to_ms(), exchange.robot()) {
+            exchange.event(&mut turn, Event::AllAnswered);
         }
         self.others.tell_of_people(exchange, &mut turn);
         // A robot that protects somebody is not silent.

@@ -319,8 +319,6 @@ class Leader(Application):
             self.stage = "asks"
             request = HelpRequest(followers=1, tasks=TaskSet.INITIAL_POS | TaskSet.MOVE)
             self.wish(events.PedestrianDetected(request))
-        elif self.stage == "asks" and self.endpoint.all_have_answered:
-            self.wish(events.AllAnswered())
         elif self.stage == "arrived" and self.road_is_clear():
             self.stage = "done"
             self.wish(events.TaskCompleted())

@@ -218,11 +218,6 @@ impl Endpoint {
     }
 
     #[getter]
-    fn all_have_answered(&self) -> bool {
-        self.inner.all_have_answered()
-    }
-
-    #[getter]
     fn next_wakeup_ms(&self) -> u64 {
         self.inner.next_wakeup_ms()
     }

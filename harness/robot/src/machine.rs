@@ -50,9 +50,6 @@ impl<P: StateMachine> Machine<P> {
             };
             effects.extend(self.turn(moment, wish));
         }
-        if self.endpoint.all_have_answered() {
-            effects.extend(self.turn(moment, Stimulus::Event(Event::AllAnswered)));
-        }
         effects
     }
 

@@ -111,9 +111,6 @@ impl Street {
             let packet = &packet;
             self.handle(to, Stimulus::Datagram { packet, arrived_ms });
         }
-        if self.robots[0].all_have_answered() {
-            self.handle(0, Stimulus::Event(Event::AllAnswered));
-        }
     }
 
     fn phase(&self, me: usize) -> &Phase {

@@ -182,9 +182,6 @@ impl<P: StateMachine, F: Fn(StationId, u16) -> P> Subject for InProcess<P, F> {
             self.now_ms = wakes_ms.clamp(self.now_ms + 1, until_ms.max(self.now_ms + 1));
             self.handle(Stimulus::Time);
             self.arrive();
-            if self.endpoint.all_have_answered() {
-                self.tell_event(Event::AllAnswered);
-            }
         }
     }
 

@@ -33,8 +33,8 @@ class Config:
     ram_period_ms: int = _DEFAULTS["ramPeriod"]
     """Interval of RAM in a session; a leader bumps its heartbeat at the same pace. 100 ms."""
     t_select_ms: int = _DEFAULTS["tSelect"]
-    """How long a requester gathers offers, counted from the first. It selects sooner at
-    `events.AllAnswered`. 300 ms."""
+    """How long a requester gathers offers, counted from the first. It selects sooner when every robot that it
+    heard in the last second has answered. 300 ms."""
     t_offer_ms: int = _DEFAULTS["tOffer"]
     """How long a helper stays reserved after the newest heartbeat of its requester. 3000 ms."""
     t_help_ms: int = _DEFAULTS["tHelp"]

@@ -140,12 +140,6 @@ class Endpoint:
         return self._log_error
 
     @property
-    def all_have_answered(self) -> bool:
-        """Whether it asks for help, has offers enough, and has heard an answer of every robot that it heard
-        in the last second: then `events.AllAnswered` may be told, and it selects at once."""
-        return self._native.all_have_answered
-
-    @property
     def next_wakeup_ms(self) -> int:
         """When it must be told that time has passed, on the clock of `Moment.now_ms`."""
         return self._native.next_wakeup_ms
