@@ -78,6 +78,8 @@ pub enum Cause {
     Ignored(Ignored),
     /// Another leader at the place of this one goes behind, and does not yield. It is told once for each of its sessions.
     NotYielding,
+    /// The application had more for the state machine at once than waits for it.
+    WishesFull,
     /// The robot perceived people and does not know its own position.
     Unplaced,
     /// A sensor source delivered no usable frame, for this reason.
@@ -131,7 +133,9 @@ impl Cause {
             Self::NoUse(_) => Layer::Service,
             Self::Undecodable(_) | Self::NotCanonical => Layer::Syntax,
             Self::Contradictory(_) => Layer::Semantics,
-            Self::Ignored(_) | Self::NotYielding | Self::ClockWentBack => Layer::Protocol,
+            Self::Ignored(_) | Self::NotYielding | Self::WishesFull | Self::ClockWentBack => {
+                Layer::Protocol
+            }
             Self::Unplaced | Self::FrameDropped(_) => Layer::Perception,
             Self::BodySilent
             | Self::BodyFault
@@ -183,6 +187,7 @@ impl Display for Reason {
             Cause::Ignored(Ignored::NotEngaged(..)) => "not engaged",
             Cause::Ignored(why) => return why.fmt(f),
             Cause::NotYielding => "another leader does not yield",
+            Cause::WishesFull => "too many wishes of the application",
             Cause::Unplaced => "own position unknown",
             Cause::BodySilent => "silent",
             Cause::BodyFault => "fault",

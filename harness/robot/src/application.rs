@@ -37,7 +37,7 @@ use crate::site::{Place, Site};
 use crate::street::Road;
 use crate::zone::{place, point};
 
-/// The longest list of wishes; more are not kept.
+/// The longest list of wishes; more are dropped, and counted.
 const WISHES: usize = 64;
 
 /// The application of a robot: a body, a sign, and a crossing machine.
@@ -334,9 +334,15 @@ impl Application {
         self.next_availability().or_else(|| self.wishes.pop_front())
     }
 
+    /// Wants this of its endpoint. A wish that repeats the last one takes no place: each of many vehicles may close the corridor.
     fn wish(&mut self, wish: Stimulus<'static>) {
+        if self.wishes.back() == Some(&wish) {
+            return;
+        }
         if self.wishes.len() < WISHES {
             self.wishes.push_back(wish);
+        } else {
+            self.trouble(Cause::WishesFull, "an event or a command", 1);
         }
     }
 

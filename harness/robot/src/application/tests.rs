@@ -103,6 +103,23 @@ fn what_a_body_repeats_is_counted_and_takes_one_place() {
     assert_eq!(wishes(&mut application).len(), 1);
 }
 
+/// Hazard: a CPM has as many vehicles as the queue has places, each of them closes the corridor, and the end of the session
+/// finds no place.
+#[test]
+fn a_wish_that_is_repeated_takes_one_place_and_one_that_is_dropped_is_counted() {
+    let mut application = Application::new(Box::new(Broken::default()), None);
+    let told = [Event::CloseCorridor, Event::LeaveRequested].map(Stimulus::Event);
+    (0..100).for_each(|_| application.wish(told[0]));
+    application.wish(told[1]);
+    assert_eq!(wishes(&mut application), told);
+    assert_eq!(application.next_trouble(), None);
+    // Every other one of those that find no place repeats the last one that did.
+    (0..WISHES + 10).for_each(|number| application.wish(told[number % 2]));
+    assert_eq!(wishes(&mut application).len(), WISHES);
+    let (cause, _, count) = application.next_trouble().unwrap();
+    assert_eq!((cause, count), (Cause::WishesFull, 5));
+}
+
 /// Hazard: a body that is there and has a fault counts as available, since both are told in one turn.
 #[test]
 fn a_fault_outlasts_that_the_body_is_there() {
