@@ -4,13 +4,12 @@
 use crossguard_codec::core::cdd::Latitude;
 use crossguard_codec::core::ram::RAM;
 use crossguard_codec::{Identifiers, Service, decode, encode};
-use crossguard_endpoint::ras::clustering::VruClass;
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_judge::sim::{Swarm, run_recorded};
 use crossguard_judge::validate::{self, Validated};
 use crossguard_protocol::{Event, Input, Output, TaskType};
 use crossguard_robot::plan::{Leg, Stage, Who};
-use crossguard_robot::sight::{Degrees, Outline, Seen, SeenVehicle, Sight};
+use crossguard_robot::sight::{Degrees, Outline, RoadUser, Seen, SeenVehicle, Sight};
 use crossguard_robot::site::{Place, Site};
 use crossguard_robot::trace::{self, Entry, Record};
 use crossguard_robot::zone::Conduct;
@@ -128,7 +127,7 @@ impl Crossing {
         for (at_us, people) in sights {
             let seen = |place: &Degrees| Seen {
                 place: *place,
-                class: VruClass::Pedestrian,
+                class: RoadUser::Pedestrian,
                 // A robot is not judged by what it makes of people.
                 conduct: Conduct::Elsewhere,
             };

@@ -2,8 +2,8 @@
 //!
 //! Places are in degrees, as in RAM, so that a log needs no site.
 
+pub use crossguard_crossing::RoadUser;
 use crossguard_endpoint::ras::area::Area;
-use crossguard_endpoint::ras::clustering::VruClass;
 use serde::{Deserialize, Serialize};
 
 use crate::site::{Place, Site};
@@ -43,8 +43,8 @@ pub struct SeenVehicle {
 pub struct Seen {
     /// Latitude and longitude.
     pub place: Degrees,
-    /// Its class.
-    pub class: VruClass,
+    /// Its kind.
+    pub class: RoadUser,
     /// Its conduct at the crossing.
     pub conduct: Conduct,
 }

@@ -173,16 +173,3 @@ const fn road_user(class: VruClass) -> RoadUser {
         VruClass::Vehicle => RoadUser::Vehicle,
     }
 }
-
-/// Class of a road user, as sensors say it.
-#[must_use]
-pub const fn class(what: RoadUser) -> VruClass {
-    match what {
-        RoadUser::Pedestrian => VruClass::Pedestrian,
-        RoadUser::Bicyclist => VruClass::Bicyclist,
-        RoadUser::Motorcyclist => VruClass::Motorcyclist,
-        RoadUser::Animal => VruClass::Animal,
-        RoadUser::WheelchairUser => VruClass::WheelchairUser,
-        RoadUser::Vehicle => VruClass::Vehicle,
-    }
-}

@@ -11,6 +11,8 @@ use crate::plan::Leg;
 
 /// Kinds of road users.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 pub enum RoadUser {
     /// A person on foot.
     Pedestrian,

@@ -382,8 +382,7 @@ const fn stage(state: State) -> u8 {
 
 #[cfg(test)]
 mod tests {
-    use crossguard_endpoint::ras::clustering::VruClass;
-    use crossguard_robot::sight::{Seen, Sight};
+    use crossguard_robot::sight::{RoadUser, Seen, Sight};
     use crossguard_robot::trace::{Entry, Record, Timed};
 
     use super::*;
@@ -400,7 +399,7 @@ mod tests {
         ] {
             let seen = |conduct: &Conduct| Seen {
                 place: (49.0, 8.4),
-                class: VruClass::Pedestrian,
+                class: RoadUser::Pedestrian,
                 conduct: *conduct,
             };
             let people = conducts.iter().map(seen).collect();

@@ -11,8 +11,7 @@
 
 use std::collections::BTreeMap;
 
-use crossguard_endpoint::ras::clustering::VruClass;
-use crossguard_robot::sight::{Degrees, Outline, Sight};
+use crossguard_robot::sight::{Degrees, Outline, RoadUser, Sight};
 
 use crate::seconds;
 
@@ -126,7 +125,7 @@ impl Ground {
         let on_foot = sight
             .people
             .iter()
-            .filter(|seen| matches!(seen.class, VruClass::Pedestrian | VruClass::WheelchairUser));
+            .filter(|seen| matches!(seen.class, RoadUser::Pedestrian | RoadUser::WheelchairUser));
         let places: Vec<_> = on_foot.map(|seen| self.metres(seen.place)).collect();
         let watcher = self.watchers.entry(robot.to_owned()).or_default();
         let lost_us = watcher.awake_us;

@@ -21,7 +21,7 @@ use crate::body::Report;
 use crate::perception::{Perceived, SensorFrame};
 use crate::sight::{Seen, SeenVehicle, Sight, VEHICLES_MAX};
 use crate::street::Road;
-use crate::zone::{class, metres_per_second, place, point, sighting, velocity};
+use crate::zone::{metres_per_second, place, point, sighting, velocity};
 
 /// Shortest time between two sights in which as many people are on the road, in seconds of the robot's own time.
 const SIGHT_PERIOD_S: f64 = 0.2;
@@ -388,7 +388,7 @@ impl Application {
         }
         let people = self.observed().map(|(sighting, conduct)| Seen {
             place: self.site.coordinates(place(sighting.at)),
-            class: class(sighting.what),
+            class: sighting.what,
             conduct,
         });
         let vehicles = self.there().filter(|it| it.what == RoadUser::Vehicle);
