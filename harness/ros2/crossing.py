@@ -98,7 +98,8 @@ class Robot:
         self.street, self.name, self.place, self.pace = street, name, place, pace
         folder, space = street.folder, f"/{name}/crossguard"
         tables = README.split("```toml\n")[1].split("```")[0].replace("go2", name)
-        tables = tables.replace("[body]", f"[body]\nsilence_ms = {1000 * SILENCE_S:.0f}")
+        # All may lead, and most have no zone.
+        tables = tables.replace("[body]", f"[body]\nsimulated_people = true\nsilence_ms = {1000 * SILENCE_S:.0f}")
         self.log, config = folder / f"{name}.jsonl", folder / f"{name}.toml"
         config.write_text(
             f'{lines}\nname = "{name}"\nstation = {station}\nbuild = "{build}"\nboot_file = "{name}.boot"\n'

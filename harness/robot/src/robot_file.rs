@@ -488,6 +488,10 @@ impl RobotTable {
             .zone
             .map(|zone| zone.check(&layout, confidence_min, autopilot));
         let (zone, kerbs) = zone.transpose()?.unzip();
+        let has_real_people = |body: &BodyTable| !body.simulated_people;
+        if autopilot && zone.is_none() && self.body.as_ref().is_some_and(has_real_people) {
+            return Err(NoBody::SeesNobody.into());
+        }
         let config = Config::new(self.protocol)?;
         if config.settings().holding.contains(TaskType::MOVE) {
             return Err(Impossibility::EscortHolds);

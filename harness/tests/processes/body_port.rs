@@ -23,7 +23,7 @@ struct Street {
 /// The robot file of a robot with a body port at a UNIX socket beside it.
 fn ported(folder: &Path, name: &str, station: u32, port: u16, peer: u16) -> String {
     let file = robot_file(folder, name, station, port, peer);
-    let body = format!("[body]\nlisten = \"unix:{name}.sock\"\n\n[link]");
+    let body = format!("[body]\nsimulated_people = true\nlisten = \"unix:{name}.sock\"\n\n[link]");
     edit(&file, &[("[link]", &body)]);
     file
 }

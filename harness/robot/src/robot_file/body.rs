@@ -4,6 +4,7 @@
 //! [body]
 //! listen = "unix:go2.sock"
 //! silence_ms = 500
+//! simulated_people = false
 //! ```
 
 use std::path::Path;
@@ -21,6 +22,9 @@ pub(super) struct BodyTable {
     listen: String,
     #[serde(default = "silence_ms")]
     silence_ms: u32,
+    /// Whether the people whom this body leads without a zone are simulated on purpose.
+    #[serde(default)]
+    pub(super) simulated_people: bool,
 }
 
 const fn silence_ms() -> u32 {
@@ -36,6 +40,12 @@ pub enum NoBody {
     /// The time of silence is out of range.
     #[error(transparent)]
     Number(#[from] Impossible),
+    /// It leads people, and nothing sees them.
+    #[error(
+        "a real body that leads ('autopilot' or a plan) wants a table [zone], and frames of sensors: without it, its guards leave \
+         the road when simulated people are across; for a trial without people say 'simulated_people = true' under [body]"
+    )]
+    SeesNobody,
 }
 
 impl BodyTable {

@@ -165,6 +165,34 @@ fn a_robot_escorts_people_over_its_own_road_and_in_time() {
     }
 }
 
+/// Hazard: guards with real bodies leave a person on the road, because the simulated people of their leader are across.
+#[test]
+fn a_real_body_leads_people_whom_it_sees_or_none() {
+    let leads = "autopilot = true";
+    let plan = "plan_file = \"crossing\"";
+    let zone = "[zone]\npavement_m = 2.5";
+    let refused = Some("'simulated_people = true' under [body]");
+    for (leads, body, expected) in [
+        (leads, "[body]", refused),
+        (plan, "[body]", refused),
+        (leads, "[body]\nsimulated_people = false", refused),
+        (leads, "[body]\nsimulated_people = true", None),
+        (leads, &format!("{zone}\n[body]"), None),
+        ("", "[body]", None),
+    ] {
+        let text = format!(
+            "name = \"ARI\"\nstation = 1\nbuild = \"humanoid\"\nboot_file = \"ari.boot\"\n{leads}\n\
+             [link]\naddress = \"127.0.0.1:1\"\n{body}\nlisten = \"unix:ari.sock\"\n"
+        );
+        let file = RobotFile::parse(Path::new("ari.toml"), &text, Besides::default());
+        let error = file.err().map(|error| error.to_string());
+        let is_it = error
+            .as_ref()
+            .map(|error| expected.is_some_and(|it| error.contains(it)));
+        assert_eq!(is_it, expected.map(|_| true), "{body}: {error:?}");
+    }
+}
+
 /// Hazard: an escort without sensors hears of its person in the middle of the road, and takes that for nothing because it
 /// knows no road.
 #[test]
