@@ -420,11 +420,13 @@ impl Console<'_> {
         }
     }
 
-    /// Says where others connect to the robot.
+    /// Says where others connect to the robot, its body first. Without one no real robot moves.
     fn say_ports(&mut self, metrics: Option<SocketAddr>) {
-        if let Some(port) = &self.file.body_port {
-            self.say(&format!("Its body connects at {}.", port.address));
-        }
+        let body = self.file.body_port.as_ref();
+        let simulated = || "Its body is simulated: no real robot moves.".to_owned();
+        self.say(&body.map_or_else(simulated, |port| {
+            format!("Its body connects at {}.", port.address)
+        }));
         if let Some(address) = &self.file.operator_port {
             self.say(&format!(
                 "Other programs command and watch it at {address}."
