@@ -503,13 +503,13 @@ impl RobotTable {
         if let Some(walk_s) = walk_s.filter(|walk_s| *walk_s > t_cross_s) {
             return Err(Impossibility::CrossingTime { t_cross_s, walk_s });
         }
+        let area = |corners| Area::Polygon(outline(corners));
         let carriageway = layout.carriageway();
-        let carriageway = carriageway.map(|it| Area::Polygon(outline(it.whole)));
+        let carriageway = carriageway.map(|it| (area(it.whole), area(it.crossing)));
+        let (carriageway, crossing) = carriageway.unzip();
         let own_road = zone.as_ref().and_then(|zone| zone.road.as_ref());
-        if let (Some(road), Some(of_site), true) =
-            (own_road, layout.carriageway(), self.site_file.is_some())
-        {
-            let crossing = Zone::of_road(Area::Polygon(outline(of_site.crossing)));
+        if let (Some(road), Some(crossing), true) = (own_road, crossing, self.site_file.is_some()) {
+            let crossing = Zone::of_road(crossing);
             if crossing.covered(Some(road)) != crossing.covered(None) {
                 return Err(NoZone::PartialRoad.into());
             }

@@ -255,7 +255,7 @@ impl SiteTables {
     fn check(self, name: &str) -> Result<SiteFile, Misfit> {
         let site = self.site()?;
         let along_m = self.crossing.along_m.as_ref();
-        let along_m = located::within_if_any(along_m, 0.0..=100.0, "m")?;
+        let along_m = located::within_if_any(along_m, 1.0..=100.0, "m")?;
         let lanes = self.lanes.iter().map(LaneTable::check);
         let mut checked = SiteFile {
             name: self.name.unwrap_or_else(|| name.to_owned()),
@@ -410,7 +410,8 @@ width_m = 3.5    | width_m = nan     | s.toml:20: NaN is not possible: 1 to 30 m
 [5.0, 7.0]]      | [5.0, 3.0]]       | s.toml:10: the two kerbs meet, or will within 10 m beside the crossing
 [5.0, 7.0]]]     | [5.0, 7.0]], [[0.0, 9.0], [5.0, 9.0]]] | s.toml:10: 2 kerbs are wanted, not 3: the two edges
 , [[-3.0, 7.0], [5.0, 7.0]]] | ] | s.toml:10: 2 kerbs are wanted, not 1
-# along_m = 10.0 | along_m = -1.0 #  | s.toml:11: -1 is not possible: 0 to 100 m
+# along_m = 10.0 | along_m = -1.0 #  | s.toml:11: -1 is not possible: 1 to 100 m
+# along_m = 10.0 | along_m = 0.0 #   | s.toml:11: 0 is not possible: 1 to 100 m
 for = "wait"     | for = "rest"      | s.toml:30: unknown variant `rest`
 name = "near"    | nam = "near"      | s.toml:17: unknown field `nam`
 # reference = "276:4711"       | reference = "0:0"      | s.toml:12: '0:0' is no crossing

@@ -68,7 +68,7 @@ impl Zone {
     #[must_use]
     pub fn watched(&self, setup: Setup) -> Setup {
         Setup {
-            watches: self.road.is_some(),
+            watches: true,
             calls: true,
             sensors: self.sensors,
             waiting: self.rules,

@@ -99,8 +99,8 @@ pub enum NoZone {
         "people wait more than {PAVEMENT_MAX_M} m from road_m: it is the carriageway that they cross"
     )]
     OtherRoad,
-    /// A robot that leads by itself does not see when people are across.
-    #[error("has no 'road_m': with autopilot one is wanted, to see when everybody is across")]
+    /// The robot would not see who is on the road.
+    #[error("has no 'road_m', the carriageway: one is wanted, to see who is on the road")]
     NoRoad,
     /// People would be escorted to the middle of the road, or along it.
     #[error(
@@ -182,13 +182,10 @@ impl ZoneTable {
         let road = self
             .road_m
             .map(|corners| polygon_on_site("road_m", corners));
-        let road = road.transpose()?;
-        match (&waiting, &road) {
-            (_, None) if is_autopilot => return Err(NoZone::NoRoad),
-            (None, _) if is_autopilot => return Err(NoZone::NobodyWaits),
-            (Some(waiting), Some(road)) if !is_beside(waiting, road) => {
-                return Err(NoZone::OtherRoad);
-            }
+        let road = road.transpose()?.ok_or(NoZone::NoRoad)?;
+        match &waiting {
+            None if is_autopilot => return Err(NoZone::NobodyWaits),
+            Some(waiting) if !is_beside(waiting, &road) => return Err(NoZone::OtherRoad),
             _ => {}
         }
         let kerbs = self.escort_m.map(|Exact([from, to])| {
@@ -228,7 +225,7 @@ impl ZoneTable {
         };
         let zone = Zone {
             waiting,
-            road,
+            road: Some(road),
             crossing: self.crossing_m.map(Area::Polygon),
             rules,
             sensors: Sensors::default(),
@@ -327,9 +324,9 @@ mod tests {
         assert_eq!(round.rules, WaitingRules::default());
         let text = "polygon_m = [[-3, -2.5], [5, -2.5], [5, 9.5], [-3, 9.5]]\nescort_m = [[0, -1], [0, 8]]\n\
                     dwell_s = 2.0\nspeed_max_mps = 0.3\napproach_s = 0\nclear_s = 5";
-        let (corners, kerbs) = zone(text, false).unwrap();
+        let (corners, kerbs) = zone(&format!("{ROAD}{text}"), false).unwrap();
         assert_eq!(kerbs, Some([Place::new(0.0, -1.0), Place::new(0.0, 8.0)]));
-        assert!(corners.waiting.unwrap().contains([4.0, 9.0]) && corners.road.is_none());
+        assert!(corners.waiting.unwrap().contains([4.0, 9.0]));
         let rules = WaitingRules {
             dwell: Millis(2_000),
             speed_max_cmps: 30,
@@ -362,7 +359,7 @@ mod tests {
         assert_eq!(escort, [(1.0, 8.0), (1.0, -1.0)]);
     }
 
-    /// A table `[zone]`, and what is said of it. `CIRCLE` stands for a zone that is one.
+    /// A table `[zone]`, and what is said of it. `CIRCLE` stands for where people wait, `ROAD` for the carriageway.
     const MISFITS: &str = r"
                                                  | wants one of 'pavement_m', 'polygon_m', and 'place_m'
 place_m = [1, 2]                                 | wants one of 'pavement_m'
@@ -376,20 +373,21 @@ polygon_m = [[0, 0], [2, 2], [2, 0], [0, 2]]     | polygon_m: its sides 1 and 3 
 road_m = [[0, 0], [2, 0], [4, 0]]                | road_m: its corners enclose nothing
 place_m = [1, 2]\nradius_m = 0                   | radius_m is 0: 0.1 to 1000 m is wanted
 CIRCLE\nroad_m = [[30, 0], [40, 0], [40, 7], [30, 7]] | people wait more than 20 m from road_m
-CIRCLE\ndwell_s = -1                             | dwell_s is -1: 0 to 60 s is wanted
-CIRCLE\nspeed_max_mps = nan                      | speed_max_mps is NaN: 0.05 to 2 m/s
+CIRCLE                                           | has no 'road_m'
+CIRCLE\nROAD\ndwell_s = -1                       | dwell_s is -1: 0 to 60 s is wanted
+CIRCLE\nROAD\nspeed_max_mps = nan                | speed_max_mps is NaN: 0.05 to 2 m/s
 CIRCLE\ndwel_s = 1                               | unknown field `dwel_s`
 CIRCLE\nescort_m = [[0, 0]]                      | escort_m
 ";
 
     #[test]
     fn what_is_no_zone_is_refused_by_the_name_of_its_field() {
-        let circle = "place_m = [1, -1.5]\nradius_m = 2\n";
         for [text, cause] in rows(MISFITS) {
-            let error = zone(&text.replace("CIRCLE", circle), false).unwrap_err();
+            let circle = "place_m = [1, -1.5]\nradius_m = 2";
+            let full = text.replace("CIRCLE", circle).replace("ROAD", ROAD);
+            let error = zone(&full, false).unwrap_err();
             assert!(error.contains(&cause), "{text}: {error}");
         }
-        assert!(zone(circle, true).unwrap_err().contains("has no 'road_m'"));
         assert!(zone(ROAD, true).unwrap_err().contains("has 'road_m' alone"));
     }
 }
