@@ -7,7 +7,7 @@ link = socket.socket(socket.AF_UNIX)
 link.connect(address.removeprefix("unix:"))
 link.settimeout(0.02)
 say = lambda type, **more: link.sendall((json.dumps({"type": type, **more}) + "\n").encode())
-say("hello", crossguard=2)
+say("hello", crossguard=3)
 target, speed, done, waits, begin, text, heard, last = None, 0.0, None, False, place, b"", time.monotonic(), time.monotonic()
 while True:
     try:
@@ -26,7 +26,7 @@ while True:
         if line["type"] in ("stop", "halt", "refused"): target = None
         if line["type"] == "fall-back":
             ends = [begin, target or place] if line["policy"] == "escort-to-kerb" else [place]
-            target, done = min(ends, key=lambda end: math.dist(end, place)), ("fallen-back", {})
+            target, done = min(ends, key=lambda end: math.dist(end, place)), ("fallen-back", {"id": line["id"]})
     if target and not waits:
         step, way = (time.monotonic() - last) * speed * pace, math.dist(place, target)
         place = target if way <= step else [a + (b - a) * step / way for a, b in zip(place, target)]

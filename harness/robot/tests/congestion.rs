@@ -43,7 +43,7 @@ fn shortest_gap_ms(busy_permyriad: u16, interval_ms: u64, count: usize) -> u16 {
     assert_eq!(file.link, link);
     let body = file.body_or_port(1).unwrap();
     let mut moves = UnixStream::connect(folder.path().join("r.sock")).unwrap();
-    writeln!(moves, "{{\"type\": \"hello\", \"crossguard\": 2}}").unwrap();
+    writeln!(moves, "{{\"type\": \"hello\", \"crossguard\": 3}}").unwrap();
     let boot = boot::take(&file.boot_file).unwrap();
     let halves = link.open().unwrap();
     let mut journal = Journal::new();

@@ -176,9 +176,9 @@ fn a_body_that_is_not_understood_is_counted_and_a_second_one_is_refused() {
     let socket = socket_of(&go2);
     let mut first = connect(&socket);
     let mut said = BufReader::new(first.try_clone().unwrap());
-    assert_eq!(hears(&mut said), json!({"type": "hello", "crossguard": 2}));
+    assert_eq!(hears(&mut said), json!({"type": "hello", "crossguard": 3}));
     for line in [
-        "{\"type\": \"hello\", \"crossguard\": 2}",
+        "{\"type\": \"hello\", \"crossguard\": 3}",
         "{\"type\": \"dance\"}",
         "no json",
         "{\"type\": \"pose\", \"eastM\": 1e30, \"northM\": 0}",

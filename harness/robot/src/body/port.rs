@@ -18,7 +18,7 @@ use std::time::Duration;
 
 use crossguard_codec::RobotState;
 use crossguard_endpoint::cause::Cause;
-use crossguard_protocol::{FallbackPolicy, Maneuver, TaskSet};
+use crossguard_protocol::{FallbackPolicy, Maneuver, ManeuverId, TaskSet};
 
 pub use self::lines::VERSION;
 use self::lines::{At, FromBody, Start, ToBody, policy};
@@ -82,7 +82,8 @@ pub struct Ported {
     pose: Pose,
     known_s: f64,
     maneuver: Option<Maneuver>,
-    fallback: Option<Fallback>,
+    /// The maneuver that it falls back from, and how far it is with that.
+    fallback: Option<(ManeuverId, Fallback)>,
     reports: Vec<Report>,
 }
 
@@ -279,14 +280,19 @@ impl Ported {
             FromBody::InPosition { id } => self.report(&id, Report::InPosition),
             FromBody::Completed { id } => self.report(&id, Report::Completed),
             FromBody::Failed { id } => self.report(&id, Report::Failed),
-            FromBody::FallenBack => self.finish_fallback(),
+            FromBody::FallenBack { id } => match self.fallback {
+                Some((of, _)) if of.to_string() == id => self.finish_fallback(),
+                Some(_) => self.misunderstand(format!("fallback {id} is not the current one")),
+                // The road was clear before its body was at the kerb.
+                None => {}
+            },
             FromBody::Fault { text } => self.reports.push(Report::Fault(in_a_line(&text))),
             FromBody::Beat => {}
         }
     }
 
     /// Takes in what it says of a maneuver, if that is the current one.
-    fn report(&mut self, id: &str, report: fn(crossguard_protocol::ManeuverId) -> Report) {
+    fn report(&mut self, id: &str, report: fn(ManeuverId) -> Report) {
         match self.maneuver.filter(|it| it.id.to_string() == id) {
             Some(maneuver) => {
                 let report = report(maneuver.id);
@@ -347,10 +353,11 @@ impl Body for Ported {
             }
             BodyAct::FallBack(maneuver, how) => {
                 self.maneuver = None;
-                self.fallback = Some(match how {
+                let begun = match how {
                     FallbackPolicy::HoldUntilClear => Fallback::Holding,
                     _ => Fallback::UnderWay,
-                });
+                };
+                self.fallback = Some((maneuver.id, begun));
                 let id = maneuver.id.to_string();
                 let policy = policy(how);
                 ToBody::FallBack { id, policy }
@@ -404,7 +411,7 @@ impl Body for Ported {
     }
 
     fn fallback(&self) -> Option<Fallback> {
-        self.fallback
+        self.fallback.map(|(_, it)| it)
     }
 
     fn release(&mut self) {
@@ -418,13 +425,13 @@ impl Body for Ported {
     }
 
     fn finish_fallback(&mut self) {
-        if self.fallback == Some(Fallback::UnderWay) {
-            self.fallback = Some(Fallback::Finished);
+        if let Some((_, it @ Fallback::UnderWay)) = &mut self.fallback {
+            *it = Fallback::Finished;
         }
     }
 
     fn walks_back(&self) -> bool {
-        self.presence == Presence::Here && self.fallback == Some(Fallback::UnderWay)
+        self.presence == Presence::Here && self.fallback() == Some(Fallback::UnderWay)
     }
 
     fn walk_to(&mut self, place: Place, heading_deg: Option<f64>) {

@@ -28,7 +28,7 @@ from std_msgs.msg import Empty, String
 from crossguard_msgs.action import Maneuver
 from crossguard_msgs.msg import Corridor, Event, Follower, People, Session, Status
 
-BODY_PORT_VERSION, OPERATOR_PORT_VERSION = 2, 1
+BODY_PORT_VERSION, OPERATOR_PORT_VERSION = 3, 1
 TURN_S = 0.02
 SHOWN_S = 0.3  # a corridor is shown no longer than this after its line
 STATUS_S = 1.0
@@ -215,8 +215,8 @@ class Body:
             goal.heading = math.radians(90.0 - (line["headingDeg"] or 0.0))
             self.begin(goal, lambda is_done: self.port.say(report if is_done else "failed", id=maneuver))
         elif kind == "fall-back":
-            goal.policy, policy = line["policy"], line["policy"]
-            self.begin(goal, lambda is_done: self.port.say("fallen-back") if is_done else
+            goal.policy, policy, maneuver = line["policy"], line["policy"], line["id"]
+            self.begin(goal, lambda is_done: self.port.say("fallen-back", id=maneuver) if is_done else
                        self.port.say("fault", text=f"the body did not finish {policy}"))
         elif kind == "go":
             self.begin(goal, lambda is_done: None)

@@ -1,4 +1,4 @@
-//! The lines of the body port, version 2: one JSON object each, with its kind under `type`.
+//! The lines of the body port, version 3: one JSON object each, with its kind under `type`.
 
 use crossguard_codec::TaskParameters;
 use crossguard_protocol::{FallbackPolicy, Maneuver};
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::site::{Place, Site};
 
 /// The version that both sides say in `hello`.
-pub const VERSION: u8 = 2;
+pub const VERSION: u8 = 3;
 
 /// Line of the kit to a body.
 #[derive(Clone, PartialEq, Debug, Serialize)]
@@ -83,7 +83,9 @@ pub(super) enum FromBody {
     Failed {
         id: String,
     },
-    FallenBack,
+    FallenBack {
+        id: String,
+    },
     Fault {
         #[serde(default)]
         text: String,

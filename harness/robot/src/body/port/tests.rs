@@ -8,12 +8,12 @@ use crossguard_codec::geonet::EgoPosition;
 use crossguard_codec::{
     DriveDirection, Heard as Message, Identifiers, Position, TaskParameters, encode, ram_from,
 };
-use crossguard_protocol::{Availability, Robot, StationId, StopReason, TaskType};
+use crossguard_protocol::{Availability, RequestId, Robot, StationId, StopReason, TaskType};
 
 use super::*;
 use crate::table::{maneuver, rows};
 
-const HELLO: &str = r#"{"type": "hello", "crossguard": 2}"#;
+const HELLO: &str = r#"{"type": "hello", "crossguard": 3}"#;
 
 /// A port that was without a body until one said this; its folder lasts as long as the test.
 fn open(hello: &str) -> (Ported, UnixStream, tempfile::TempDir) {
@@ -59,7 +59,7 @@ fn heard(from: &mut impl BufRead) -> serde_json::Value {
 #[test]
 fn acts_go_out_as_lines_and_what_the_body_says_comes_in() {
     let (mut body, mut other, _folder) =
-        open(r#"{"type": "hello", "crossguard": 2, "name": "later"}"#);
+        open(r#"{"type": "hello", "crossguard": 3, "name": "later"}"#);
     let start = BodyAct::Start(
         maneuver(TaskType::BLOCK),
         TaskParameters {
@@ -143,7 +143,7 @@ fn a_body_that_falls_back_is_on_its_way_until_it_says_that_it_is_not_or_is_lost(
         body.act(BodyAct::FallBack(escort, policy)).unwrap();
         assert_eq!(body.walks_back(), end != "holds");
         match end {
-            "fallen-back" => writeln!(other, r#"{{"type": "fallen-back"}}"#).unwrap(),
+            "fallen-back" => writeln!(other, "{}", fallen_back(escort)).unwrap(),
             _ => drop(other),
         }
         let ended = (0..60_000).find(|_| {
@@ -152,6 +152,32 @@ fn a_body_that_falls_back_is_on_its_way_until_it_says_that_it_is_not_or_is_lost(
             !body.walks_back()
         });
         assert!(ended.is_some(), "{end}");
+    }
+}
+
+/// The word of a body that its fallback from a maneuver is finished.
+fn fallen_back(from: Maneuver) -> String {
+    format!(r#"{{"type": "fallen-back", "id": "{}"}}"#, from.id)
+}
+
+/// Hazard: a body says late that an earlier fallback is finished, and the robot ends, or counts the road as clear, while the body
+/// still brings its person to the kerb.
+#[test]
+fn the_end_of_an_earlier_fallback_is_none_of_this_one() {
+    let (mut body, tell, _other) = open_by_hand();
+    let earlier = maneuver(TaskType::MOVE);
+    let id = ManeuverId::of(earlier.id.session, RequestId(1));
+    let escort = Maneuver { id, ..earlier };
+    for it in [earlier, escort] {
+        let start = BodyAct::Start(it, TaskParameters::default());
+        body.act(start).unwrap();
+        body.act(BodyAct::FallBack(it, FallbackPolicy::EscortToKerb))
+            .unwrap();
+    }
+    for (said, walks_back) in [(earlier, true), (escort, false)] {
+        tell.send(Heard::Line(0, fallen_back(said))).unwrap();
+        let dropped = body.advance(0.0).len();
+        assert_eq!((body.walks_back(), dropped == 1), (walks_back, walks_back));
     }
 }
 
@@ -277,14 +303,18 @@ fn what_does_not_count_is_counted_and_texts_of_a_body_stay_in_a_line() {
 }
 
 #[test]
-fn a_body_of_the_version_without_wait_is_refused() {
-    let (mut body, other, _folder) = open(r#"{"type": "hello", "crossguard": 1}"#);
-    is_garbled(&mut body);
-    let mut lines = BufReader::new(other);
-    assert_eq!(heard(&mut lines)["type"], "hello");
-    let refused = heard(&mut lines);
-    let why = refused["why"].as_str().unwrap();
-    assert!(why.starts_with("version 1: 2 is spoken"), "{why}");
+fn a_body_of_the_version_without_wait_or_id_of_a_fallback_is_refused() {
+    for version in 1..3 {
+        let hello = format!(r#"{{"type": "hello", "crossguard": {version}}}"#);
+        let (mut body, other, _folder) = open(&hello);
+        is_garbled(&mut body);
+        let mut lines = BufReader::new(other);
+        assert_eq!(heard(&mut lines)["type"], "hello");
+        let refused = heard(&mut lines);
+        let why = refused["why"].as_str().unwrap();
+        let expected = format!("version {version}: 3 is spoken");
+        assert!(why.starts_with(&expected), "{why}");
+    }
 }
 
 /// Hazard: the sockets of two robots are mixed up in a launch file. One robot is where the other one was sent, and says that it
@@ -292,7 +322,7 @@ fn a_body_of_the_version_without_wait_is_refused() {
 #[test]
 fn the_body_of_another_robot_is_refused() {
     for (robot, is_refused) in [("Go2", false), ("ARI", true)] {
-        let hello = format!(r#"{{"type": "hello", "crossguard": 2, "robot": "{robot}"}}"#);
+        let hello = format!(r#"{{"type": "hello", "crossguard": 3, "robot": "{robot}"}}"#);
         let (mut body, other, _folder) = open(&hello);
         if !is_refused {
             assert_eq!(report(&mut body), Some(Report::Here));
