@@ -60,6 +60,9 @@ const WAITED_US: u64 = 100_000;
 /// How soon a person does not say again what only a person says.
 const AGAIN_US: u64 = 3_000_000;
 
+/// For how long a frame of a sensor source at one connection keeps the number of that source from others.
+const OF_SOURCE_US: u64 = 2_000_000;
+
 /// The place of `available` among the words that only a person says.
 const AVAILABLE: usize = 2;
 
@@ -146,6 +149,8 @@ struct Counter<O> {
     waited_until_us: u64,
     /// When a person said each of these last.
     said_us: [Option<u64>; 3],
+    /// The connection that said the newest frame of each sensor source, and when.
+    sources: BTreeMap<u8, (u64, u64)>,
 }
 
 impl<O: Obeys> Counter<O> {
@@ -160,6 +165,7 @@ impl<O: Obeys> Counter<O> {
             turned_us: 0,
             waited_until_us: 0,
             said_us: [None; 3],
+            sources: BTreeMap::new(),
         }
     }
 
@@ -311,6 +317,15 @@ impl<O: Obeys> Counter<O> {
                     cause = Cause::OperatorRepeats;
                     Err("it was said just now, or a stop has just begun: look first, and say it again after 3 s".to_owned())
                 }
+                Ok(Some(Order::Looked(frame, _)))
+                    if self.is_of_another(frame.source, number, now_us) =>
+                {
+                    cause = Cause::FrameDropped("source of another program");
+                    Err(format!(
+                        "another program says the frames of source {}: give each detector a 'source' of its own",
+                        frame.source
+                    ))
+                }
                 understood => {
                     understood.map(|order| order.into_iter().for_each(|it| self.orders.order(it)))
                 }
@@ -350,6 +365,20 @@ impl<O: Obeys> Counter<O> {
         };
         let last_us = self.said_us[place].replace(now_us);
         last_us.is_some_and(|last_us| now_us.saturating_sub(last_us) < AGAIN_US)
+    }
+
+    /// Whether another connection says the frames of this source now. Frames of two detectors would count as those of one: the
+    /// one whose clock is behind would be dropped, with the people that it has.
+    fn is_of_another(&mut self, source: u8, number: u64, now_us: u64) -> bool {
+        let newest = self.sources.get(&source);
+        let is_taken = newest.is_some_and(|(of, at_us)| {
+            let is_fresh = now_us.saturating_sub(*at_us) < OF_SOURCE_US;
+            *of != number && is_fresh && self.clients.contains_key(of)
+        });
+        if !is_taken {
+            self.sources.insert(source, (number, now_us));
+        }
+        is_taken
     }
 
     /// Order of a line to the robot, or why the line means nothing.

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::io::{BufRead, BufReader};
 use std::os::unix::net::UnixStream;
 use std::rc::Rc;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use crossguard_codec::Battery;
 use crossguard_protocol::{
@@ -351,6 +352,55 @@ fn a_stop_is_not_ended_at_once_by_another_program() {
         let is_event = |it: &Order| matches!(it, Order::Tell(_));
         assert_eq!(told.take().iter().any(is_event), is_taken, "{at_us}");
     }
+}
+
+/// Hazard: two detectors number themselves 0. Frames of the one whose clock is behind are dropped, and the person that it alone
+/// has is nobody.
+#[test]
+fn a_source_is_of_one_program_at_a_time() {
+    let (mut counter, told, _lines) = greeted();
+    let mut second = connect(&mut counter, 1);
+    heard(&mut second);
+    say(&mut counter, 1, HELLO);
+    let now_s = SystemTime::now().duration_since(UNIX_EPOCH).unwrap();
+    let frame = |source| {
+        let now_s = now_s.as_secs_f64();
+        json!({"type": "frame", "source": source, "unix_s": now_s, "people": []}).to_string()
+    };
+    let late_us = OF_SOURCE_US + 300_000;
+    for (number, source, at_us, is_refused) in [
+        (0, 0, 0, false),
+        (1, 0, 100_000, true),
+        (1, 1, 200_000, false),
+        (0, 0, 300_000, false),
+        (1, 0, late_us - 1, true),
+        // The first one hangs.
+        (1, 0, late_us, false),
+        (0, 0, late_us, true),
+        // The second one is started again.
+        (2, 0, late_us, false),
+    ] {
+        if number == 2 {
+            counter.hear(Heard::Closed(1), at_us);
+            connect(&mut counter, 2);
+            say(&mut counter, 2, HELLO);
+        }
+        counter.hear(Heard::Line(number, frame(source)), at_us);
+        let orders = told.take();
+        let found = match orders[..] {
+            [Order::Looked(..)] => false,
+            [
+                Order::Count(Cause::FrameDropped(_), _),
+                Order::LookedInVain(_),
+            ] => true,
+            _ => panic!("{orders:?}"),
+        };
+        assert_eq!(found, is_refused, "{number} {source} {at_us}");
+    }
+    let why =
+        "another program says the frames of source 0: give each detector a 'source' of its own";
+    let refused = json!({"type": "refused", "line": 2, "why": why});
+    has(&heard(&mut second), &refused);
 }
 
 /// Hazard: `ros2 topic pub` without `--once`, or a button that sticks, says on and on that the road is clear. The next guard whose
