@@ -70,6 +70,8 @@ pub struct Application {
     bodily: Bodily,
     /// Whether it is unavailable because its battery was found to be low.
     was_low: bool,
+    /// When its battery was heard of last, or when it was to be from then on, in seconds.
+    battery_heard_s: Option<f64>,
     wishes: VecDeque<Stimulus<'static>>,
     at_s: f64,
     at_ms: u64,
@@ -97,6 +99,7 @@ impl Application {
             availability: Availability::Available,
             bodily: Bodily::default(),
             was_low: false,
+            battery_heard_s: None,
             wishes: VecDeque::new(),
             at_s: 0.0,
             at_ms: 0,

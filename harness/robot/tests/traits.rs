@@ -168,6 +168,40 @@ fn a_low_battery_keeps_a_robot_out_until_it_is_charged() {
     assert_eq!(said.machine.endpoint.robot().station(), StationId(1));
 }
 
+/// Hazard: a charger or driver falls silent, the robot tells of 80 % for hours, and stops on the road.
+#[test]
+fn a_battery_that_falls_silent_counts_as_low_where_the_file_wants_to_hear_of_it() {
+    let full = Battery {
+        state_of_charge: Some(80.0),
+        charging: false,
+    };
+    let low = Availability::Unavailable(Unavailability::LowBattery);
+    for (battery, expected) in [
+        ("silence_s = 5", (low, None)),
+        ("", (Availability::Available, Some(80.0))),
+    ] {
+        let file = read(&format!("build = \"quadruped\"\nbattery = {{ {battery} }}"));
+        let mut said = Said::by(&file.unwrap());
+        // Once at first, which is as good as a word, and once by a word.
+        for _ in 0..2 {
+            for turn in 0..4 {
+                said.next(Stimulus::Time);
+                assert_eq!(said.availability(), Availability::Available, "{turn}");
+            }
+            said.next(Stimulus::Time);
+            let charge = said.next(Stimulus::Time).battery.state_of_charge;
+            assert_eq!((said.availability(), charge), expected);
+            said.machine.application.obey(Order::Battery(full));
+            let charge = said.next(Stimulus::Time).battery.state_of_charge;
+            assert_eq!(
+                (said.availability(), charge),
+                (Availability::Available, Some(80.0))
+            );
+            said.machine.application.obey(Order::Battery(full));
+        }
+    }
+}
+
 #[test]
 fn what_no_robot_is_like_is_refused_by_the_name_of_its_field() {
     for row in [
@@ -176,6 +210,7 @@ fn what_no_robot_is_like_is_refused_by_the_name_of_its_field() {
         "battery = { charge_percent = 120 } => [battery] charge_percent is 120: 0 to 100 is wanted",
         "battery = { charging = true } => [battery] 'charging' wants 'charge_percent', too",
         "battery = { low_percent = -1 } => [battery] low_percent is -1",
+        "battery = { silence_s = 0 } => [battery] silence_s is 0: 1 to 86400 s is wanted",
     ] {
         let (text, cause) = row.split_once(" => ").unwrap();
         let error = read(&format!("build = 'other'\n{text}")).unwrap_err();

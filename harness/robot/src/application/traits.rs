@@ -22,6 +22,8 @@ pub struct Traits {
     pub battery: Option<Battery>,
     /// Below this charge the robot takes no part in coordination, in percent.
     pub low_percent: f64,
+    /// After so long without a word of the battery it counts as low, in seconds; `None` where its last word stands.
+    pub battery_silence_s: Option<f64>,
 }
 
 impl Default for Traits {
@@ -31,6 +33,7 @@ impl Default for Traits {
             dimensions: None,
             battery: None,
             low_percent: 10.0,
+            battery_silence_s: None,
         }
     }
 }
@@ -77,9 +80,18 @@ impl Application {
         RobotState {
             job_role: self.traits.job.unwrap_or(state.job_role),
             dimensions: self.traits.dimensions.unwrap_or(state.dimensions),
-            battery: self.traits.battery.unwrap_or(state.battery),
+            battery: match self.traits.battery.unwrap_or(state.battery) {
+                _ if self.is_battery_silent() => Battery::default(),
+                battery => battery,
+            },
             ..state
         }
+    }
+
+    fn is_battery_silent(&self) -> bool {
+        let heard_s = self.battery_heard_s.unwrap_or(self.at_s);
+        let silence_s = self.traits.battery_silence_s;
+        silence_s.is_some_and(|it| self.at_s - heard_s > it)
     }
 
     /// Carries out an order that is for the application alone; any other one changes nothing. What is shown to
@@ -87,7 +99,10 @@ impl Application {
     pub fn obey(&mut self, order: Order) {
         match order {
             Order::LookedInVain(why) => self.look_in_vain(why),
-            Order::Battery(battery) => self.traits.battery = Some(battery),
+            Order::Battery(battery) => {
+                self.traits.battery = Some(battery);
+                self.battery_heard_s = Some(self.at_s);
+            }
             Order::Show(signals) => self.shown.show(signals),
             Order::Job(job) => self.traits.job = Some(job),
             Order::Serve(place) => {
@@ -104,7 +119,9 @@ impl Application {
     /// Says that the battery is low, or is not any more. Another reason to be unavailable stands.
     pub(super) fn watch_battery(&mut self) {
         let low = Availability::Unavailable(Unavailability::LowBattery);
-        let Some(percent) = self.state().battery.state_of_charge else {
+        self.battery_heard_s.get_or_insert(self.at_s);
+        let charge = self.state().battery.state_of_charge;
+        let Some(percent) = charge.or(self.is_battery_silent().then_some(f64::NEG_INFINITY)) else {
             return;
         };
         let limit = self.traits.low_percent;

@@ -9,6 +9,7 @@
 //! charge_percent = 64.0
 //! charging = false
 //! low_percent = 10.0
+//! silence_s = 600.0
 //! ```
 
 use crossguard_codec::{Battery, Dimensions, JobRole};
@@ -53,14 +54,15 @@ pub(super) struct BatteryTable {
     charge_percent: Option<f64>,
     charging: bool,
     low_percent: Option<f64>,
+    silence_s: Option<f64>,
 }
 
 /// Why no robot is like that.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum NoTraits {
-    /// A number of percent is not possible.
+    /// A number is not possible.
     #[error("[battery] {0}")]
-    Percent(#[from] Impossible),
+    Number(#[from] Impossible),
     /// It charges, and nobody says how full it is.
     #[error("[battery] 'charging' wants 'charge_percent', too")]
     Charge,
@@ -89,6 +91,9 @@ pub(super) fn check(
     if let Some(metres) = dimensions_m.into_iter().flatten().find(impossible) {
         return Err(NoTraits::Dimension(metres));
     }
+    let silence_s = battery
+        .silence_s
+        .map(|value| possible("silence_s", value, 1.0..=86_400.0, "1 to 86400 s"));
     let low = battery.low_percent.unwrap_or(Traits::default().low_percent);
     Ok(Traits {
         job,
@@ -102,5 +107,6 @@ pub(super) fn check(
             charging: battery.charging,
         }),
         low_percent: percent("low_percent", low)?,
+        battery_silence_s: silence_s.transpose()?,
     })
 }
