@@ -7,7 +7,8 @@
 //! ```
 //!
 //! A log with a gap could not be validated from there on, so the reader of a log that is too slow is
-//! cut off. Either way every record that does not get through is counted under the queue's cause.
+//! cut off. Either way every record that does not get through is counted under the queue's cause. The end of a log is told to
+//! the other readers.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -45,6 +46,8 @@ struct Queue {
     when_full: WhenFull,
     /// Whether it has ended because it was full.
     has_ended: Arc<AtomicBool>,
+    /// Whether its reader has gone.
+    is_left: Arc<AtomicBool>,
     lost: Cause,
 }
 
@@ -68,6 +71,7 @@ impl Journal {
             to,
             when_full,
             has_ended: Arc::default(),
+            is_left: Arc::default(),
             lost,
         });
         reader
@@ -78,6 +82,15 @@ impl Journal {
         let record = Arc::new(record);
         let put = move |queue: &Queue| queue.put(&record).err();
         self.queues.iter().filter_map(put)
+    }
+
+    /// How many logs have ended, because their readers were too slow, could not write, or have gone.
+    #[must_use]
+    pub fn ended_logs(&self) -> usize {
+        let is_log = |queue: &&Queue| queue.when_full == WhenFull::End;
+        let logs = self.queues.iter().filter(is_log);
+        logs.filter(|queue| queue.has_ended() || queue.is_left.load(Ordering::Relaxed))
+            .count()
     }
 
     /// Puts a record into every queue, and waits for room for so long at most. For the last record of
@@ -122,12 +135,16 @@ pub fn write_out<T, W>(
 impl Queue {
     /// Puts a record in, if there is room and somebody who reads.
     fn put(&self, record: &Arc<Record>) -> Result<(), Cause> {
-        if self.has_ended.load(Ordering::Relaxed) {
+        if self.has_ended() {
             return Err(self.lost);
         }
         match self.to.try_send(Arc::clone(record)) {
-            // A reader that has gone misses nothing.
-            Ok(()) | Err(TrySendError::Disconnected(_)) => Ok(()),
+            Ok(()) => Ok(()),
+            Err(TrySendError::Disconnected(_)) => {
+                // A reader that has gone misses nothing.
+                self.is_left.store(true, Ordering::Relaxed);
+                Ok(())
+            }
             Err(TrySendError::Full(_)) => {
                 let ends = self.when_full == WhenFull::End;
                 self.has_ended.store(ends, Ordering::Relaxed);
@@ -136,10 +153,13 @@ impl Queue {
         }
     }
 
+    fn has_ended(&self) -> bool {
+        self.has_ended.load(Ordering::Relaxed)
+    }
+
     /// Whether a record does not get in, although it may later.
     fn is_full_with(&self, record: &Arc<Record>) -> bool {
-        let has_ended = self.has_ended.load(Ordering::Relaxed);
-        !has_ended
+        !self.has_ended()
             && matches!(
                 self.to.try_send(Arc::clone(record)),
                 Err(TrySendError::Full(_))
@@ -169,6 +189,7 @@ mod tests {
         assert_eq!(put(3), [Cause::LogFull, Cause::OutputFull]);
         assert_eq!((times(&log), times(&other)), (vec![1, 2], vec![1, 2]));
         assert_eq!(put(4), [Cause::LogFull]);
+        assert_eq!(journal.ended_logs(), 1);
         assert_eq!((times(&log), times(&other)), (vec![], vec![4]));
     }
 
@@ -176,7 +197,10 @@ mod tests {
     fn who_does_not_read_any_more_misses_nothing() {
         let mut journal = Journal::new();
         drop(journal.reader(1, WhenFull::End, Cause::LogFull));
+        drop(journal.reader(1, WhenFull::Skip, Cause::OutputFull));
+        assert_eq!(journal.ended_logs(), 0);
         assert_eq!(journal.put(Record::stopped("R1", 1)).count(), 0);
+        assert_eq!(journal.ended_logs(), 1);
     }
 
     #[test]

@@ -169,6 +169,7 @@ impl Setup {
             name: self.name,
             sender: self.link.sender,
             journal: self.journal,
+            ended_logs: 0,
             clock: self.clock,
             waiting: Arc::clone(&waiting),
             places_taken,
@@ -212,6 +213,8 @@ struct Loop {
     name: String,
     sender: Box<dyn Sender>,
     journal: Journal,
+    /// How many logs have ended.
+    ended_logs: usize,
     clock: Clock,
     waiting: Arc<Waiting>,
     /// One for each order that waits.
@@ -543,6 +546,15 @@ impl Loop {
     fn put(&mut self, record: Record) {
         for lost in self.journal.put(record) {
             self.machine.endpoint.count(lost);
+        }
+        let ended = self.journal.ended_logs();
+        if ended > std::mem::replace(&mut self.ended_logs, ended) {
+            // No counter has it: the records that a log lacks are counted one by one.
+            self.log(Entry::Dropped {
+                cause: Cause::LogFull.into(),
+                detail: "a log has ended, and has no more of this robot".to_owned(),
+                octets: Vec::new(),
+            });
         }
     }
 

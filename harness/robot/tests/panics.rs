@@ -128,6 +128,29 @@ fn a_robot_that_is_told_to_stop_helps_nobody_any_more() {
     assert!(took < Duration::from_secs(5), "{took:?}");
 }
 
+/// Hazard: the disk is full, the robot goes on without a log, and no program at its operator port hears of it.
+#[test]
+fn the_end_of_a_log_is_told_once_to_the_readers_that_are_left() {
+    for reads in [false, true] {
+        let body = Simulated::new(Build::Quadruped, Site::default(), Place::default(), 1.0, 1);
+        let application = Application::new(Box::new(body), None);
+        let link = Link::loopback(0, Vec::new()).open().unwrap();
+        let mut setup = Setup::new("R1", StationId(1), application, link);
+        // It has gone, or reads nothing.
+        let log = setup.journal.reader(1, WhenFull::End, Cause::LogFull);
+        let _log = Some(log).filter(|_| reads);
+        let records = setup
+            .journal
+            .reader(RECORDS, WhenFull::Skip, Cause::OutputFull);
+        let robot = setup.start();
+        robot.order(Order::Wish(Stimulus::Event(Event::LeaveRequested)));
+        robot.stop().unwrap();
+        let told = |record: &Arc<Record>| matches!(&record.entry, Entry::Dropped { cause, .. } if *cause == Cause::LogFull.into());
+        let told = records.iter().filter(told).count();
+        assert_eq!(told, 1, "{reads}");
+    }
+}
+
 #[test]
 fn a_robot_that_stops_in_order_has_not_panicked() {
     let (shows, is_halted) = (Arc::default(), Arc::default());
