@@ -13,7 +13,7 @@
 //! `confidence` 1 and `error_m` 0.2 where they are left out. Places are metres to the east and to the north of the site's
 //! origin, as everywhere in the command.
 //!
-//! A line with one person, `{"at_s": 1.5, "id": 7, "position_m": [3.0, -1.5]}`, adds that person and says nothing of others:
+//! A line with one person, `{"at_s": 1.5, "id": 7, "position_m": [3.0, -1.5]}`, adds that person or vehicle and says nothing of others:
 //! it does not say what was covered, so the road is never clear by such lines. A line that is neither is counted
 //! and dropped, and the road is not clear by what came before it.
 
@@ -155,8 +155,7 @@ struct PersonLine {
     at_s: Option<f64>,
     id: u32,
     position_m: [f64; 2],
-    #[serde(default)]
-    velocity_mps: [f64; 2],
+    velocity_mps: Option<[f64; 2]>,
     #[serde(default = "pedestrian")]
     class: VruClass,
     #[serde(default = "sure")]
@@ -222,11 +221,16 @@ pub fn parse(line: &str) -> Result<Observation, PerceptionError> {
     let vru = PerceivedVru {
         id: text.id,
         position_m: text.position_m,
-        velocity_mps: text.velocity_mps,
+        velocity_mps: text.velocity_mps.unwrap_or_default(),
         class: text.class,
         confidence: text.confidence,
     };
     check(&vru)?;
+    // Of one person alone a velocity that is not said cannot be told from standing.
+    let rides = matches!(vru.class, VruClass::Vehicle | VruClass::Motorcyclist);
+    if rides && text.velocity_mps.is_none() {
+        return Err(PerceptionError::Unhurried);
+    }
     Ok(Observation::Person(vru, text.at_s))
 }
 
@@ -645,6 +649,8 @@ mod tests {
 {"people": [], "at_s": 1, "source": -1}                          | invalid value
 {"people": [{"position_m": [1, 2], "error_m": -1}], "at_s": 1}   | error_m is -1
 {"people": [{"position_m": [1, 2], "class": "vehicle"}], "at_s": 1} | a vehicle wants 'velocity_mps'
+{"id": 1, "position_m": [1, 2], "class": "vehicle"}              | a vehicle wants 'velocity_mps'
+{"id": 1, "position_m": [1, 2], "class": "motorcyclist"}         | a vehicle wants 'velocity_mps'
 {"id": 1, "place": 3}                                            | unknown field `place`
 {"id": 1, "position_m": [1, 2], "class": "car"}                  | unknown variant `car`
 {"id": 1, "position_m": [1, 2], "confidence": 1.5}               | confidence is 1.5: 0 to 1 is wanted

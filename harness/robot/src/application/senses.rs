@@ -102,7 +102,7 @@ pub(super) struct Said {
 
 impl Application {
     /// The sensors of the robot with this station id have somebody, at a place on the site, now: that adds them, and takes away
-    /// nobody but people that they told of before.
+    /// nobody but people that they told of before. Somebody who comes like a vehicle hinders like one.
     pub fn perceive(&mut self, station: StationId, vru: &PerceivedVru) {
         // In a simulation there is nobody else.
         if matches!(self.road, Road::Known(_)) {
@@ -110,6 +110,18 @@ impl Application {
         }
         let seen = sighting(vru, 0.0);
         self.observe_one(ONE_BY_ONE, seen);
+        let velocity = seen.velocity.unwrap_or_default();
+        let is_fast = velocity.length_cm() > self.setup.sensors.speed_max_cmps.into();
+        if is_fast || matches!(seen.what, RoadUser::Vehicle | RoadUser::Motorcyclist) {
+            let vehicle = Vehicle {
+                key: 1 << 59 | u64::from(vru.id),
+                station: None,
+                at: seen.at,
+                error_cm: seen.error_cm,
+                velocity,
+            };
+            self.step(Input::Vehicle(vehicle, Millis::ZERO));
+        }
         self.step(Input::Heard(station, seen, Millis::ZERO));
     }
 

@@ -359,6 +359,28 @@ fn whoever_is_as_fast_as_a_vehicle_hinders_like_one() {
     }
 }
 
+/// Hazard: a detector tells of road users one by one, and go is shown in front of a vehicle that it has.
+#[test]
+fn a_vehicle_that_comes_alone_in_a_line_hinders_like_one_in_a_frame() {
+    for (class, mps, expected) in [
+        (VruClass::Vehicle, 8.0, true),
+        (VruClass::Motorcyclist, 8.0, true),
+        (VruClass::Bicyclist, 8.0, true),
+        (VruClass::Vehicle, 0.0, false),
+        (VruClass::Pedestrian, 1.5, false),
+    ] {
+        let mut application = watching();
+        let vru = PerceivedVru {
+            class,
+            velocity_mps: [mps, 0.0],
+            ..PerceivedVru::pedestrian(7, [-12.0, 2.0])
+        };
+        application.perceive(StationId(1), &vru);
+        let hindered = application.crossing.hindered(&application.setup);
+        assert_eq!(hindered.is_some(), expected, "{vru:?}: {hindered:?}");
+    }
+}
+
 /// A body that says NaN is not at the origin of the site.
 #[test]
 fn a_position_that_is_no_number_is_no_place() {
