@@ -57,9 +57,6 @@ pub(crate) trait TransitionSystem: Sync {
     /// Adds what another thread noted.
     fn add_notes(all: &mut Self::Notes, more: Self::Notes);
 
-    /// The bit of a property among the ones that a state breaks.
-    fn bit(property: PropertyId) -> u32;
-
     /// Whether marks of transitions are kept.
     fn has_marks(&self) -> bool;
 
@@ -88,7 +85,7 @@ pub(crate) struct Label {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Judged {
     /// One bit per property that it breaks.
-    pub(crate) broken: u32,
+    pub(crate) broken: u64,
     /// The classes that are enabled in it, where classes are kept.
     pub(crate) enabled: Classes,
 }
@@ -265,12 +262,12 @@ impl<S: TransitionSystem> Exploration<'_, '_, S> {
     }
 
     /// Notes what the state of this number breaks, one bit per property. States come in their order.
-    fn note_broken(&mut self, number: u32, broken: u32) {
+    fn note_broken(&mut self, number: u32, broken: u64) {
         if broken == 0 {
             return;
         }
         for property in PropertyId::ALL {
-            if broken & S::bit(property) != 0 {
+            if broken & property.bit() != 0 {
                 self.graph.broken[property as usize].get_or_insert(number);
             }
         }

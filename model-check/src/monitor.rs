@@ -25,7 +25,7 @@ pub struct Monitor {
     /// Whether steps come in the order of true time.
     is_timed: bool,
     has_strangers: bool,
-    premises: u32,
+    premises: u64,
     /// The sessions at whose signs those on the road have stepped on it, one entry for each person.
     on_road: Vec<SessionId>,
 }
@@ -34,21 +34,6 @@ pub struct Monitor {
 struct Seats {
     seats: Vec<Seat>,
     liars: Vec<StationId>,
-}
-
-/// Kinds of stations whose steps are not recorded.
-#[derive(Clone, Copy)]
-struct Unrecorded {
-    strangers: bool,
-    liars: bool,
-}
-
-impl Unrecorded {
-    /// Whether that leaves a property open; whether a rule of it compares two robots.
-    fn leaves_open(self, id: PropertyId, is_of_two: bool) -> bool {
-        let can_be_broken = !id.authentication().liars().is_empty();
-        (is_of_two && (self.strangers || self.liars)) || (self.liars && can_be_broken)
-    }
 }
 
 #[derive(Debug)]
@@ -64,11 +49,8 @@ impl Surroundings for Seats {
     }
 
     fn can_progress(&self) -> bool {
-        let mut robots = self
-            .seats
-            .iter()
-            .filter_map(|seat| seat.node.robot.as_ref());
-        robots.any(|robot| robot.timers().iter().any(|(timer, _)| *timer != Timer::Ram))
+        let mut timers = self.seats.iter().map(|seat| seat.node.timers());
+        timers.any(|timers| timers.iter().any(|(timer, _)| *timer != Timer::Ram))
     }
 
     fn place_of(&self, station: StationId) -> Option<usize> {
@@ -148,11 +130,11 @@ impl Monitor {
         self.seats.liars.push(station);
     }
 
-    const fn unrecorded(&self) -> Unrecorded {
-        Unrecorded {
-            strangers: self.has_strangers,
-            liars: !self.seats.liars.is_empty(),
-        }
+    /// Whether stations whose steps are not recorded leave a property open; whether a rule of it compares two robots.
+    fn is_open(&self, id: PropertyId, is_of_two: bool) -> bool {
+        let has_liars = !self.seats.liars.is_empty();
+        let can_be_broken = !id.authentication().liars().is_empty();
+        (is_of_two && (self.has_strangers || has_liars)) || (has_liars && can_be_broken)
     }
 
     /// A robot loses its volatile state; nothing if it was down.
@@ -179,7 +161,6 @@ impl Monitor {
         outputs: &Outputs,
         after: &Robot,
     ) -> Option<PropertyId> {
-        let unrecorded = self.unrecorded();
         let seat = &mut self.seats.seats[place];
         let next = seat.node.observed(input, outputs, after.clone());
         let before = std::mem::replace(&mut seat.node, next);
@@ -197,19 +178,17 @@ impl Monitor {
         };
         let (premises, broken) = judge(&PropertyId::ALL, &view, false);
         self.premises |= premises;
-        let judged = |id: &PropertyId| {
-            let is_of_two = id.step_rule().is_some_and(|rule| rule.of_two);
-            broken & id.bit() != 0 && !unrecorded.leaves_open(*id, is_of_two)
-        };
-        let mut first = PropertyId::ALL.into_iter().find(judged);
         if view.is_historic()
             && let (Some(from), Some(to)) = (&before.robot, &seat.node.robot)
         {
             self.history.record_step(from, to, input, outputs);
         }
-        if first.is_none() {
-            first = self.judge_state();
-        }
+        let is_judged = |id: &PropertyId| {
+            let is_of_two = id.step_rule().is_some_and(|rule| rule.of_two);
+            broken & id.bit() != 0 && !self.is_open(*id, is_of_two)
+        };
+        let first = PropertyId::ALL.into_iter().find(is_judged);
+        let first = first.or_else(|| self.judge_state());
         let late = || {
             let seats = self.seats.seats.iter().filter(|seat| !seat.is_hung);
             self.is_timed && has_lease_on_lost(&seats.filter_map(|seat| seat.node.robot.as_ref()))
@@ -230,8 +209,7 @@ impl Monitor {
         for id in PropertyId::ALL {
             if let Some(holds) = id.keeps_guards(&view, session, required) {
                 self.premises |= id.bit();
-                let is_open = self.has_strangers || self.unrecorded().leaves_open(id, false);
-                if !holds && !is_open {
+                if !holds && !self.has_strangers && !self.is_open(id, false) {
                     broken = broken.or(Some(id));
                 }
             }
@@ -264,9 +242,9 @@ impl Monitor {
             history: &self.history,
             world: &self.seats,
         };
-        let (mut premises, unrecorded) = (self.premises, self.unrecorded());
+        let mut premises = self.premises;
         let broken = PropertyId::ALL.into_iter().find(|id| {
-            let is_judged = |rule: &StateRule| !unrecorded.leaves_open(*id, rule.of_two);
+            let is_judged = |rule: &StateRule| !self.is_open(*id, rule.of_two);
             let rule = id.state_rule().filter(is_judged);
             rule.is_some_and(|rule| {
                 if premises & id.bit() == 0 && (rule.premise)(&view) {

@@ -3,8 +3,8 @@
 use std::fmt;
 
 use crossguard_protocol::{
-    Config, Corridor, Event, Identity, Input, ManeuverId, Millis, Output, Outputs, Phase, Renaming,
-    Robot, StationId, Timer,
+    Config, Corridor, Event, Following, Identity, Input, Leading, List, MAX_TIMERS, ManeuverId,
+    Millis, Output, Outputs, Phase, Renaming, Robot, SessionId, StationId, Timer,
 };
 
 use serde::{Deserialize, Serialize};
@@ -163,35 +163,57 @@ impl Node {
         next
     }
 
-    /// Whether the robot is up and has a part in no session.
+    /// The part of the robot in a session; `None` while it is down.
+    #[must_use]
+    pub fn phase(&self) -> Option<&Phase> {
+        self.robot.as_ref().map(Robot::phase)
+    }
+
+    /// Its part as a leader, if it leads.
+    #[must_use]
+    pub fn leading(&self) -> Option<&Leading> {
+        match self.phase()? {
+            Phase::Leading(leading) => Some(leading),
+            _ => None,
+        }
+    }
+
+    /// Its part as a follower, if it follows.
+    #[must_use]
+    pub fn following(&self) -> Option<&Following> {
+        match self.phase()? {
+            Phase::Following(following) => Some(following),
+            _ => None,
+        }
+    }
+
+    /// The session that it has a part in.
+    #[must_use]
+    pub fn session(&self) -> Option<SessionId> {
+        self.robot.as_ref()?.session()
+    }
+
+    /// The timers that run.
+    pub(crate) fn timers(&self) -> List<(Timer, Millis), MAX_TIMERS> {
+        self.robot.as_ref().map(Robot::timers).unwrap_or_default()
+    }
+
+    /// Whether the robot has a part in no session. One that is down has none.
     #[must_use]
     pub fn is_idle(&self) -> bool {
-        self.robot
-            .as_ref()
-            .is_none_or(|robot| matches!(robot.phase(), Phase::Idle))
+        matches!(self.phase(), None | Some(Phase::Idle))
     }
 
     /// Whether the robot asks for help.
     #[must_use]
     pub fn is_requesting(&self) -> bool {
-        let robot = self.robot.as_ref();
-        robot.is_some_and(|robot| matches!(robot.phase(), Phase::Requesting(_)))
-    }
-
-    /// Whether the robot follows.
-    #[must_use]
-    pub fn is_following(&self) -> bool {
-        let robot = self.robot.as_ref();
-        robot.is_some_and(|robot| matches!(robot.phase(), Phase::Following(_)))
+        matches!(self.phase(), Some(Phase::Requesting(_)))
     }
 
     /// Whether the robot follows and has lost contact with its leader.
     #[must_use]
     pub fn has_lost_contact(&self) -> bool {
-        let robot = self.robot.as_ref();
-        robot.is_some_and(|robot| {
-            matches!(robot.phase(), Phase::Following(following) if following.contact.is_lost())
-        })
+        self.following().is_some_and(|it| it.contact.is_lost())
     }
 
     /// Whether what the body does is what the protocol state says.
@@ -220,7 +242,7 @@ impl Node {
 
     /// The timers that the last step from a node without durations has armed.
     pub(crate) fn restarted_timers(&self) -> SmallVec<[Timer; 4]> {
-        let timers = self.robot.as_ref().map(Robot::timers).unwrap_or_default();
+        let timers = self.timers();
         let restarted = timers.iter().filter(|(_, left)| *left != FORGOTTEN);
         restarted.map(|(timer, _)| *timer).collect()
     }

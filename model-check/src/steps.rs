@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use crossguard_protocol::{Config, Event, Input, Outputs, Timer};
+use crossguard_protocol::{Event, Input, Outputs, Timer};
 use smallvec::SmallVec;
 
 use crate::canonical::Renamings;
@@ -15,6 +15,7 @@ use crate::memo::Memo;
 use crate::node::Rules;
 use crate::properties::{PropertyId, StepView};
 use crate::robots::Robots;
+use crate::scenario::Scenario;
 
 /// Input of a robot, by number where it is a message.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -41,9 +42,9 @@ pub(crate) struct ComputedStep {
     /// Whether it changes no part of a state, whatever the rest of the state is.
     pub(crate) changes_nothing: bool,
     /// One bit for each step property whose premise it meets, as far as it depends on no history.
-    pub(crate) premises: u32,
+    pub(crate) premises: u64,
     /// One bit for each step property that it breaks, as far as it depends on no history.
-    pub(crate) broken: u32,
+    pub(crate) broken: u64,
 }
 
 /// All robots, messages and steps that have occurred.
@@ -65,25 +66,19 @@ impl Steps {
     /// The step that a node takes; `None` when the robot is down.
     pub(crate) fn step(
         &self,
-        config: &Config,
-        properties: &[PropertyId],
+        scenario: &Scenario,
         node: u32,
         cause: Cause,
     ) -> Option<&ComputedStep> {
         if let Some(known) = self.computed.get(&(node, cause)) {
             return Some(known);
         }
-        let step = self.compute(config, properties, node, cause)?;
+        let step = self.compute(scenario, node, cause)?;
         Some(self.computed.keep((node, cause), step))
     }
 
-    fn compute(
-        &self,
-        config: &Config,
-        properties: &[PropertyId],
-        node: u32,
-        cause: Cause,
-    ) -> Option<ComputedStep> {
+    fn compute(&self, scenario: &Scenario, node: u32, cause: Cause) -> Option<ComputedStep> {
+        let config = &scenario.config;
         let input = match cause {
             Cause::Message(number) => self.robots.message(number).input(),
             Cause::Timer(timer) => Input::Expired(timer),
@@ -101,7 +96,7 @@ impl Steps {
             outputs: &outputs,
         };
         let is_historic = view.is_historic();
-        let (premises, broken) = judge(properties, &view, is_historic);
+        let (premises, broken) = judge(&scenario.properties, &view, is_historic);
         let sends = self.robots.sends(&after, &outputs);
         let restarted = after.restarted_timers();
         let after = self.robots.nodes.number(after.untimed());
@@ -127,7 +122,7 @@ impl Steps {
 
 /// Which step rules the step meets the premise of, and which of these it breaks. Rules that look at
 /// the history are left to [`judge_historic`] where the step is historic; otherwise they say nothing.
-pub(crate) fn judge(properties: &[PropertyId], view: &StepView, is_historic: bool) -> (u32, u32) {
+pub(crate) fn judge(properties: &[PropertyId], view: &StepView, is_historic: bool) -> (u64, u64) {
     let (mut premises, mut broken) = (0, 0);
     for &property in properties {
         let Some(rule) = property.step_rule() else {
@@ -147,7 +142,7 @@ pub(crate) fn judge(properties: &[PropertyId], view: &StepView, is_historic: boo
 }
 
 /// The same for the rules that look at the history, in a step that is historic.
-pub(crate) fn judge_historic(properties: &[PropertyId], view: &StepView) -> (u32, u32) {
+pub(crate) fn judge_historic(properties: &[PropertyId], view: &StepView) -> (u64, u64) {
     let looking_back: SmallVec<[PropertyId; 8]> = properties
         .iter()
         .copied()

@@ -204,16 +204,13 @@ impl RobotFrame {
         let robot = node.robot.as_ref();
         let state = robot.map_or(State::Idle, Robot::state);
         let role = robot.map(Robot::role).filter(|role| *role != Role::None);
-        let timers = robot.map(|robot| {
-            let timers = robot.timers();
-            timers.iter().map(|(timer, _)| names.tell(timer)).collect()
-        });
+        let timers = node.timers();
         Self {
             station: node.persisted.station,
             state: state.name(),
             role: role.map_or("", Role::name),
             words: names.tell(node),
-            timers: timers.unwrap_or_default(),
+            timers: timers.iter().map(|(timer, _)| names.tell(timer)).collect(),
             body: match node.actuation.body {
                 Body::Parked => BodyFrame::Parked,
                 Body::UnderWay(_) | Body::OutOfPosition(_) => BodyFrame::UnderWay,

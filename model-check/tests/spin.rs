@@ -310,10 +310,7 @@ impl Sight {
 
     fn add_requester(&mut self, node: &Node) {
         let robot = node.robot.as_ref().unwrap();
-        let leading = match robot.phase() {
-            Phase::Leading(leading) => Some(leading),
-            _ => None,
-        };
+        let leading = node.leading();
         let member = leading.and_then(|leading| leading.members.iter().next());
         let (phase, is_answered) = match robot.phase() {
             Phase::Requesting(requesting) => (1, !requesting.offers.is_empty()),
@@ -349,10 +346,7 @@ impl Sight {
 
     fn add_helper(&mut self, node: &Node) {
         let robot = node.robot.as_ref().unwrap();
-        let following = match robot.phase() {
-            Phase::Following(following) => Some(following),
-            _ => None,
-        };
+        let following = node.following();
         let phase = match robot.phase() {
             Phase::Offering(_) => 1,
             Phase::Following(_) => 2,

@@ -131,8 +131,7 @@ impl Model {
 
     /// Whether the robot at this place is down or hangs.
     pub(super) fn is_deaf(&self, state: &ModelState, place: usize) -> bool {
-        let node = self.0.steps.robots.nodes.value(state.nodes[place]);
-        node.robot.is_none() || state.hangs(place)
+        self.node(state.nodes[place]).robot.is_none() || state.hangs(place)
     }
 
     /// Whether each robot that guards the pedestrian on the road has seen them itself.
@@ -189,7 +188,7 @@ impl Model {
         if (has_duty || sees_people(node)) && is_road_free {
             push(Event::RoadClear);
         }
-        if left.sightings > 0 && !is_road_free && matches!(robot.phase(), Phase::Following(_)) {
+        if left.sightings > 0 && !is_road_free && node.following().is_some() {
             push(Event::PersonOnRoad);
         }
         let is_seen = pedestrian != Pedestrian::Across;
@@ -239,8 +238,7 @@ impl Model {
                 }
             }
             Phase::Requesting(_) | Phase::Offering(_) | Phase::Following(_) => {
-                let requests = matches!(robot.phase(), Phase::Requesting(_));
-                if requests && is_road_free && !scenario.cooperative {
+                if node.is_requesting() && is_road_free && !scenario.cooperative {
                     push(Event::TaskCompleted);
                 }
                 if left.disturbances > 0 {
@@ -253,10 +251,8 @@ impl Model {
 
 /// Whether the robot has been told that somebody is on the road, as a follower.
 fn sees_people(node: &Node) -> bool {
-    let robot = node.robot.as_ref();
-    robot.is_some_and(
-        |robot| matches!(robot.phase(), Phase::Following(following) if following.sees_people),
-    )
+    node.following()
+        .is_some_and(|following| following.sees_people)
 }
 
 /// Whether a timer does not run out when messages arrive and every application does its part. The

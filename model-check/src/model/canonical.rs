@@ -3,9 +3,9 @@
 
 use smallvec::SmallVec;
 
-use super::{Action, Draft, Model, ModelState, Shared};
+use super::{Action, Draft, Model, ModelState};
 use crate::canonical::Renamable;
-use crate::network::Network;
+use crate::network::{Network, Transmission};
 use crate::scenario::MAX_ROBOTS;
 use crate::symmetry::{Exchange, Images, Symmetry};
 
@@ -18,10 +18,10 @@ impl Model {
         } = draft;
         let robots = self.0.scenario.robots.len();
         let nodes = &state.nodes[..robots];
-        let mut sets = self.0.steps.robots.name_sets(nodes, network.messages());
+        let mut sets = self.robots().name_sets(nodes, network.messages());
         sets.add(self.0.sets.names(network.sent));
         sets.add(self.0.histories.names(state.history));
-        if let Some(renaming) = self.0.steps.robots.renamings.of(sets) {
+        if let Some(renaming) = self.robots().renamings.of(sets) {
             self.rename(&mut state, &mut network, renaming);
         }
         if !self.0.symmetry.is_trivial() {
@@ -31,22 +31,17 @@ impl Model {
     }
 
     fn rename(&self, state: &mut ModelState, network: &mut Network, renaming: u32) {
-        let Shared {
-            scenario,
-            steps,
-            histories,
-            sets,
-            ..
-        } = &*self.0;
-        let nodes = &mut state.nodes[..scenario.robots.len()];
-        steps.robots.rename_nodes(nodes, renaming);
-        *network = network.map(|mut transmission| {
-            transmission.message = steps.robots.message_renamed(transmission.message, renaming);
-            transmission
+        let robots = self.robots();
+        let nodes = &mut state.nodes[..self.0.scenario.robots.len()];
+        robots.rename_nodes(nodes, renaming);
+        let renamed = |message| robots.message_renamed(message, renaming);
+        *network = network.map(|sent| Transmission {
+            message: renamed(sent.message),
+            ..sent
         });
-        let renamed = |message| steps.robots.message_renamed(message, renaming);
-        network.sent = sets.renamed(network.sent, renaming, renamed, &steps.robots);
-        state.history = histories.renamed(state.history, renaming);
+        let sets = &self.0.sets;
+        network.sent = sets.renamed(network.sent, renaming, renamed, robots);
+        state.history = self.0.histories.renamed(state.history, renaming);
     }
 
     pub(super) fn interned(&self, Draft { mut state, network }: Draft) -> ModelState {
@@ -87,17 +82,12 @@ impl Model {
 
     /// The images of the nodes of all robots.
     pub(super) fn node_images(&self, state: &ModelState) -> NodeImages<'_> {
-        let Shared {
-            scenario,
-            steps,
-            symmetry,
-            ..
-        } = &*self.0;
-        let nodes = state.nodes[..scenario.robots.len()].iter();
+        let symmetry = &self.0.symmetry;
+        let nodes = state.nodes[..self.0.scenario.robots.len()].iter();
         let images = nodes.map(|&node| {
             symmetry.images(&symmetry.nodes, node, |mut exchange| {
-                let image = steps.robots.nodes.value(node).renamed(&mut exchange);
-                steps.robots.nodes.number(image)
+                let image = self.node(node).renamed(&mut exchange);
+                self.robots().nodes.number(image)
             })
         });
         images.collect()
@@ -105,33 +95,25 @@ impl Model {
 
     /// Image of a state under an exchange, after which its nodes are these.
     pub(super) fn image(&self, draft: &Draft, nodes: [u32; MAX_ROBOTS], exchange: usize) -> Draft {
-        let Shared {
-            steps,
-            histories,
-            sets,
-            symmetry,
-            ..
-        } = &*self.0;
+        let (robots, symmetry) = (self.robots(), &self.0.symmetry);
         let history = symmetry.images(&symmetry.histories, draft.state.history, |mut exchange| {
-            let history = histories.value(draft.state.history);
-            histories.number(history.renamed(&mut exchange))
+            let histories = &self.0.histories;
+            histories.number(histories.value(draft.state.history).renamed(&mut exchange))
         });
         let message = |number: u16| {
             let images = symmetry.images(&symmetry.messages, number.into(), |mut exchange| {
                 let message = self.message(number).renamed(&mut exchange);
-                steps.robots.message_number(message).into()
+                robots.message_number(message).into()
             });
             u16::try_from(images[exchange]).expect("numbers of messages are small")
         };
         let sent = symmetry.images(&symmetry.sets, draft.network.sent, |exchange| {
             let image = |number: u16| {
                 let mut exchange = exchange;
-                steps
-                    .robots
-                    .message_number(self.message(number).renamed(&mut exchange))
+                robots.message_number(self.message(number).renamed(&mut exchange))
             };
             let moved = |sent| exchange.transmission(sent, image);
-            sets.map(draft.network.sent, &steps.robots, moved)
+            self.0.sets.map(draft.network.sent, robots, moved)
         });
         let exchanged = &symmetry.exchanges[exchange];
         let mut network = exchanged.network(&draft.network, message);

@@ -36,7 +36,6 @@ use super::{Draft, Model};
 use crate::history::CommandRecord;
 use crate::network::Message;
 use crate::node::Node;
-use crate::properties::{following_of, leading_of};
 use crate::road::Body;
 
 impl Model {
@@ -53,7 +52,7 @@ impl Model {
 
     fn node_of(&self, draft: &Draft, station: StationId) -> Option<&Node> {
         let place = self.0.scenario.place_of(station)?;
-        Some(self.0.steps.robots.nodes.value(draft.state.nodes[place]))
+        Some(self.node(draft.state.nodes[place]))
     }
 
     /// Whether such a message may arrive.
@@ -70,13 +69,12 @@ impl Model {
         follower: Confirmation,
     ) -> bool {
         let Confirmation { station, offer } = follower;
-        let node = self.node_of(draft, station);
-        let robot = node.and_then(|node| node.robot.as_ref());
-        let holds = robot.is_some_and(|robot| match robot.phase() {
-            Phase::Offering(it) => (it.session, it.number) == (session, offer),
-            Phase::Following(it) => (it.session, it.offer) == (session, offer),
+        let phase = self.node_of(draft, station).and_then(Node::phase);
+        let holds = match phase {
+            Some(Phase::Offering(it)) => (it.session, it.number) == (session, offer),
+            Some(Phase::Following(it)) => (it.session, it.offer) == (session, offer),
             _ => false,
-        });
+        };
         let is_listed = |message: &Message| match message {
             Message::Ram(Ram {
                 station,
@@ -100,7 +98,7 @@ impl Model {
     }
 
     fn member_of(&self, draft: &Draft, session: SessionId, station: StationId) -> Option<&Member> {
-        let leading = leading_of(self.node_of(draft, session.leader)?)?;
+        let leading = self.node_of(draft, session.leader)?.leading()?;
         (leading.number == session.number)
             .then(|| leading.member(station))
             .flatten()
@@ -115,7 +113,7 @@ impl Model {
         let is_outstanding = outstanding.is_some_and(|it| it.request == request);
         let order = member.and_then(|member| member.order);
         let order = order.filter(|order| order.request == request);
-        let following = follower.and_then(following_of);
+        let following = follower.and_then(Node::following);
         let following = following.filter(|following| following.session == session);
         let job = following.and_then(|following| following.job);
         let job = job.filter(|job| job.request == request);

@@ -14,7 +14,6 @@ use super::{Action, Model, ModelState};
 use crate::canonical::GivenOut;
 use crate::history::History;
 use crate::network::{Transmission, concerns};
-use crate::node::Node;
 use crate::properties::StepView;
 use crate::scenario::{LyingPart, Scenario};
 use crate::steps::judge;
@@ -78,15 +77,13 @@ impl Model {
 
     /// The numbers that an insider has given out, as far as anybody knows of them.
     fn given_out(&self, state: &ModelState, liar: StationId) -> GivenOut {
-        let steps = &self.0.steps;
+        let (robots, network) = (self.robots(), self.network(state));
         let nodes = state.nodes[..self.0.scenario.robots.len()].iter();
-        let of_nodes = nodes.map(|&node| steps.robots.nodes.names(node));
-        let network = self.network(state);
-        let messages = network.messages();
-        let of_messages = messages.map(|message| steps.robots.message_names(message));
+        let of_nodes = nodes.map(|&node| robots.nodes.names(node));
+        let of_messages = network.messages().map(|it| robots.message_names(it));
         let of_history = self.0.histories.names(state.history);
         let sets = of_nodes.chain(of_messages).chain([of_history]);
-        self.0.steps.robots.renamings.given_out_by(liar, sets)
+        robots.renamings.given_out_by(liar, sets)
     }
 
     fn effective(
@@ -108,8 +105,7 @@ impl Model {
         node: u32,
         given_out: &GivenOut,
     ) -> Vec<u16> {
-        let (scenario, steps) = (&self.0.scenario, &self.0.steps);
-        let hearer: &Node = steps.robots.nodes.value(node);
+        let (scenario, robots, hearer) = (self.scenario(), self.robots(), self.node(node));
         let Some(robot) = &hearer.robot else {
             return Vec::new();
         };
@@ -119,7 +115,7 @@ impl Model {
         let heard = all.filter(|message| part.says(message) && concerns(message, station));
         let effective = heard.filter(|message| {
             let (input, config) = (message.input(), &scenario.config);
-            let Some((after, outputs)) = hearer.step(&*steps.robots.rules, config, input) else {
+            let Some((after, outputs)) = hearer.step(&*robots.rules, config, input) else {
                 return false;
             };
             let view = StepView {
@@ -135,21 +131,17 @@ impl Model {
             self.note_premises(premises);
             broken != 0 || outputs.ignored().is_none() || after.untimed() != *hearer
         });
-        effective
-            .map(|it| steps.robots.message_number(it))
-            .collect()
+        effective.map(|it| robots.message_number(it)).collect()
     }
 
     /// Whether a step led to a leader with an insider that is to stay a stranger.
     pub(super) fn confirms_a_stranger(&self, node: u32) -> bool {
+        let Some(leading) = self.node(node).leading() else {
+            return false;
+        };
         let strangers = self.0.scenario.liars();
         let mut strangers = strangers.filter(|(_, _, lies)| *lies == LyingPart::Helper);
-        strangers.any(|(_, station, _)| {
-            let robot = self.0.steps.robots.nodes.value(node).robot.as_ref();
-            robot.is_some_and(|robot| {
-                matches!(robot.phase(), Phase::Leading(leading) if leading.member(station).is_some())
-            })
-        })
+        strangers.any(|(_, station, _)| leading.member(station).is_some())
     }
 }
 

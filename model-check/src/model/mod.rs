@@ -16,7 +16,7 @@ mod system;
 mod world;
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use crossguard_protocol::{Event, Input, Outputs, Timer};
 use serde::{Deserialize, Serialize};
@@ -33,8 +33,9 @@ use crate::names::Names;
 use crate::network::{Message, Network, PackedNetwork, Transmission};
 use crate::node::{Node, Protocol, Rules};
 use crate::properties::{PropertyId, StateRule, View};
+use crate::robots::Robots;
 use crate::scenario::{Bounds, MAX_ROBOTS, Scenario};
-use crate::steps::{ComputedStep, Steps};
+use crate::steps::{Cause, ComputedStep, Steps};
 use crate::symmetry::Symmetry;
 
 /// A global state: numbers of interned parts, and what may still happen. It means something to the model that made it
@@ -44,7 +45,7 @@ pub struct ModelState {
     nodes: [u32; MAX_ROBOTS],
     history: u32,
     /// One bit per step property that the step into this state broke.
-    broken: u32,
+    broken: u64,
     left: Bounds,
     /// One bit per robot that hangs.
     hung: u8,
@@ -143,7 +144,7 @@ struct Shared {
     /// given out.
     lies: Memo<(u8, u32, GivenOut), Box<[u16]>>,
     /// One bit per property whose premise has been met.
-    premises_met: AtomicU32,
+    premises_met: AtomicU64,
 }
 
 /// A step of one robot.
@@ -193,7 +194,7 @@ impl Model {
             networks: Interner::new(&renamings),
             sets: Sets::new(&renamings),
             lies: Memo::default(),
-            premises_met: AtomicU32::new(0),
+            premises_met: AtomicU64::new(0),
         };
         Self(Arc::new(shared), Stop::default())
     }
@@ -228,7 +229,7 @@ impl Model {
                 Some(_) => Node::down(setup.station),
                 None => Node::first_boot(setup.station),
             };
-            *node = self.0.steps.robots.nodes.number(first);
+            *node = self.robots().nodes.number(first);
         }
         ModelState {
             nodes,
@@ -238,6 +239,20 @@ impl Model {
             hung: 0,
             network: self.number_of(&Network::EMPTY),
         }
+    }
+
+    fn robots(&self) -> &Robots {
+        &self.0.steps.robots
+    }
+
+    /// The robot with a number.
+    fn node(&self, number: u32) -> &Node {
+        self.robots().nodes.value(number)
+    }
+
+    /// The step that a robot takes; `None` where it is down.
+    fn step(&self, node: u32, cause: Cause) -> Option<&ComputedStep> {
+        self.0.steps.step(self.scenario(), node, cause)
     }
 
     fn network(&self, state: &ModelState) -> Network {
@@ -250,10 +265,8 @@ impl Model {
 
     /// The robots of a state.
     pub fn nodes<'a>(&'a self, state: &'a ModelState) -> impl Iterator<Item = &'a Node> + Clone {
-        let robots = self.0.scenario.robots.len();
-        state.nodes[..robots]
-            .iter()
-            .map(|&number| self.0.steps.robots.nodes.value(number))
+        let nodes = state.nodes[..self.0.scenario.robots.len()].iter();
+        nodes.map(|&number| self.node(number))
     }
 
     /// The history of a state.
@@ -265,7 +278,7 @@ impl Model {
     /// An interned message.
     #[must_use]
     pub fn message(&self, number: u16) -> &Message {
-        self.0.steps.robots.message(number)
+        self.robots().message(number)
     }
 
     /// The properties of states or steps that a state breaks. Notes the premises that it meets.
@@ -282,7 +295,7 @@ impl Model {
     }
 
     /// The broken properties of states or steps, as a bit for each. Notes the premises that the state meets.
-    pub(crate) fn broken_in(&self, state: &ModelState) -> u32 {
+    pub(crate) fn broken_in(&self, state: &ModelState) -> u64 {
         let rules = self.scenario().properties.iter();
         let rules = rules.filter_map(|&id| Some((id, id.state_rule()?)));
         self.look(state, |view| {
@@ -327,7 +340,7 @@ impl Model {
     }
 
     /// Notes that the premises of properties have been met, one bit each.
-    pub(crate) fn note_premises(&self, met: u32) {
+    pub(crate) fn note_premises(&self, met: u64) {
         if met & !self.0.premises_met.load(Ordering::Relaxed) != 0 {
             self.0.premises_met.fetch_or(met, Ordering::Relaxed);
         }

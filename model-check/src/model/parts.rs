@@ -4,7 +4,7 @@ use super::ModelState;
 use crate::scenario::{Bounds, MAX_ROBOTS};
 
 /// Parts of a state besides its robots, in the order of its fields.
-pub(crate) type Backdrop = (u32, u32, Bounds, u8, u32);
+pub(crate) type Backdrop = (u32, u64, Bounds, u8, u32);
 
 impl ModelState {
     /// The numbers of its robots, and the rest.

@@ -12,13 +12,14 @@ use std::collections::{HashMap, HashSet};
 use std::hash::Hash;
 
 use rustc_hash::FxBuildHasher;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use siphasher::sip128::{Hasher128, SipHasher13};
 use smallvec::SmallVec;
 
 use super::{Action, Draft, Model, ModelState};
 use crate::chart::chart;
-use crate::network::{Message, Network, Transmission};
+use crate::network::{Network, Transmission};
 use crate::scenario::MAX_ROBOTS;
 use crate::sequence::ChartStep;
 use crate::symmetry::Symmetry;
@@ -76,7 +77,7 @@ impl Packer {
         let (robots, network) = (model.0.scenario.robots.len(), model.network(state));
         for &node in &state.nodes[..robots] {
             self.tell(PartKind::Node, node, news, || {
-                serde_json::to_string(model.0.steps.robots.nodes.value(node))
+                serde_json::to_string(model.node(node))
             });
         }
         self.tell(PartKind::History, state.history, news, || {
@@ -133,25 +134,14 @@ impl Unpacker {
     /// # Errors
     /// It is not what it says that it is.
     pub fn learn(&mut self, model: &Model, part: &Part) -> Result<(), UnknownPart> {
-        let cannot = |cause: serde_json::Error| UnknownPart(cause.to_string());
-        let shared = &model.0;
+        let robots = model.robots();
         let own = match part.kind {
-            PartKind::Node => shared
-                .steps
-                .robots
-                .nodes
-                .number(serde_json::from_str(&part.text).map_err(cannot)?),
-            PartKind::History => shared
-                .histories
-                .number(serde_json::from_str(&part.text).map_err(cannot)?),
-            PartKind::Message => {
-                let message: Message = serde_json::from_str(&part.text).map_err(cannot)?;
-                shared.steps.robots.message_number(message).into()
-            }
+            PartKind::Node => robots.nodes.number(read(&part.text)?),
+            PartKind::History => model.0.histories.number(read(&part.text)?),
+            PartKind::Message => robots.message_number(read(&part.text)?).into(),
             PartKind::Sent => {
-                let sent: Vec<Transmission> = serde_json::from_str(&part.text).map_err(cannot)?;
-                let sent = self.own(sent)?;
-                shared.sets.of(&sent, &shared.steps.robots)
+                let sent = self.own(read(&part.text)?)?;
+                model.0.sets.of(&sent, robots)
             }
         };
         self.0.insert((part.kind, part.number), own);
@@ -191,6 +181,10 @@ impl Unpacker {
         let own = self.0.get(&(kind, number)).copied();
         own.ok_or_else(|| UnknownPart(format!("{kind:?} {number}")))
     }
+}
+
+fn read<T: DeserializeOwned>(text: &str) -> Result<T, UnknownPart> {
+    serde_json::from_str(text).map_err(|cause| UnknownPart(cause.to_string()))
 }
 
 /// Hashes of 128 bits of a process's parts of one kind, by number.
@@ -299,9 +293,7 @@ impl Fingerprints {
         let mut hashes = [0; MAX_ROBOTS];
         let robots = model.0.scenario.robots.len();
         for (hash, &node) in hashes.iter_mut().zip(&nodes[..robots]) {
-            *hash = self
-                .nodes
-                .of(node, || hashed(model.0.steps.robots.nodes.value(node)));
+            *hash = self.nodes.of(node, || hashed(model.node(node)));
         }
         hashes
     }

@@ -1,8 +1,8 @@
 //! The effect of an action: the next state, and the step of the robot that takes one.
 
-use crossguard_protocol::{Phase, Robot, SessionId, Timer};
+use crossguard_protocol::{Phase, SessionId, Timer};
 
-use super::{Action, Delivery, Draft, Model, ModelState, RobotStep, Shared};
+use super::{Action, Delivery, Draft, Model, ModelState, RobotStep};
 use crate::network::{Network, Transmission, concerns};
 use crate::node::Node;
 use crate::properties::StepView;
@@ -92,14 +92,8 @@ impl Model {
             }
             Action::Restart(i) => {
                 next.state.left.restarts -= 1;
-                let node = self
-                    .0
-                    .steps
-                    .robots
-                    .nodes
-                    .value(next.state.nodes[usize::from(i)])
-                    .restarted();
-                next.state.nodes[usize::from(i)] = self.0.steps.robots.nodes.number(node);
+                let node = &mut next.state.nodes[usize::from(i)];
+                *node = self.robots().nodes.number(self.node(*node).restarted());
                 self.forget_the_dead(&mut next);
                 None
             }
@@ -161,12 +155,8 @@ impl Model {
     /// Whether a robot that hears this message stays as it is and sends nothing. On a monotone channel most are heard
     /// again and again.
     fn changes_nothing(&self, state: &ModelState, heard: Transmission) -> bool {
-        let Shared {
-            scenario, steps, ..
-        } = &*self.0;
-        let cause = Cause::Message(heard.message);
         let node = state.nodes[usize::from(heard.to)];
-        let step = steps.step(&scenario.config, &scenario.properties, node, cause);
+        let step = self.step(node, Cause::Message(heard.message));
         step.is_some_and(|step| {
             if step.changes_nothing && !state.hangs(heard.to.into()) {
                 self.note_premises(step.premises);
@@ -177,8 +167,7 @@ impl Model {
 
     /// The session at whose sign a pedestrian steps on the road. Judges whether the guards are in place.
     fn step_on_road(&self, next: &mut ModelState, i: usize) -> Option<SessionId> {
-        let node = self.0.steps.robots.nodes.value(next.nodes[i]);
-        let session = node.robot.as_ref()?.session()?;
+        let session = self.node(next.nodes[i]).session()?;
         let required = usize::from(self.0.scenario.request.followers);
         for &property in &self.0.scenario.properties {
             let keeps_guards =
@@ -202,60 +191,52 @@ impl Model {
     /// Forgets what a body has done last once no robot leads that session any more.
     fn forget_bodies(&self, next: &mut ModelState) {
         for i in 0..self.0.scenario.robots.len() {
-            let node = self.0.steps.robots.nodes.value(next.nodes[i]);
+            let node = self.node(next.nodes[i]);
             let Body::Ended(id, _) = node.actuation.body else {
                 continue;
             };
             let leads = |node: &Node| {
-                node.robot.as_ref().and_then(Robot::session) == Some(id.session)
-                    && node.persisted.station == id.session.leader
+                node.session() == Some(id.session) && node.persisted.station == id.session.leader
             };
             if !self.nodes(next).any(leads) {
                 let mut forgetful = node.clone();
                 forgetful.actuation.body = Body::Parked;
-                next.nodes[i] = self.0.steps.robots.nodes.number(forgetful);
+                next.nodes[i] = self.robots().nodes.number(forgetful);
             }
         }
     }
 
     fn crash(&self, next: &mut ModelState, i: usize) {
-        let node = self.0.steps.robots.nodes.value(next.nodes[i]);
+        let node = self.node(next.nodes[i]);
         if let Some(robot) = &node.robot {
             let mut history = self.history(next).clone();
             history.record_crash(robot);
             next.history = self.0.histories.number(history);
         }
-        next.nodes[i] = self.0.steps.robots.nodes.number(node.crashed());
+        next.nodes[i] = self.robots().nodes.number(node.crashed());
         next.hung &= !(1 << i);
     }
 
     /// Drops from a monotone channel what robots would hear that are down for good.
     fn forget_the_dead(&self, next: &mut Draft) {
-        let Shared {
-            scenario,
-            steps,
-            sets,
-            ..
-        } = &*self.0;
+        let scenario = &self.0.scenario;
         if !scenario.channel.monotone || next.state.left.restarts > 0 {
             return;
         }
         for (i, &node) in next.state.nodes[..scenario.robots.len()].iter().enumerate() {
-            if steps.robots.nodes.value(node).robot.is_none() {
-                next.network.sent = sets.without(next.network.sent, i, &steps.robots);
+            if self.node(node).robot.is_none() {
+                let sets = &self.0.sets;
+                next.network.sent = sets.without(next.network.sent, i, self.robots());
             }
         }
     }
 
     fn robot_step(&self, next: &mut Draft, i: usize, cause: Cause) -> Option<RobotStep<'_>> {
-        let Shared {
-            scenario, steps, ..
-        } = &*self.0;
-        let before = next.state.nodes[i];
+        let (scenario, before) = (self.scenario(), next.state.nodes[i]);
         if next.state.hangs(i) {
             return None;
         }
-        let step = steps.step(&scenario.config, &scenario.properties, before, cause)?;
+        let step = self.step(before, cause)?;
         self.spend_growth(&mut next.state.left, before, cause, step)?;
         if self.confirms_a_stranger(step.after) {
             return None;
@@ -265,8 +246,8 @@ impl Model {
             let view = StepView {
                 config: &scenario.config,
                 history: self.0.histories.value(next.state.history),
-                before: steps.robots.nodes.value(before),
-                after: steps.robots.nodes.value(step.after),
+                before: self.node(before),
+                after: self.node(step.after),
                 input: step.input,
                 outputs: &step.outputs,
             };
@@ -292,17 +273,13 @@ impl Model {
         cause: Cause,
         step: &ComputedStep,
     ) -> Option<()> {
-        let offers = |node: u32| {
-            let robot = self.0.steps.robots.nodes.value(node).robot.as_ref();
-            robot.filter(|robot| matches!(robot.phase(), Phase::Offering(_)))
+        let offer = |node| match self.node(node).phase() {
+            Some(Phase::Offering(offering)) => Some(offering.session),
+            _ => None,
         };
         let bound = match cause {
             Cause::Timer(Timer::Ram) if step.after != before => &mut left.heartbeats,
-            Cause::Message(_)
-                if offers(step.after).is_some_and(|after| {
-                    offers(before).is_none_or(|before| before.session() != after.session())
-                }) =>
-            {
+            Cause::Message(_) if offer(step.after).is_some_and(|it| offer(before) != Some(it)) => {
                 &mut left.offers
             }
             _ => return Some(()),
@@ -314,19 +291,13 @@ impl Model {
     }
 
     fn transmit(&self, next: &mut Draft, from: usize, step: &ComputedStep) {
-        let Shared {
-            scenario,
-            steps,
-            sets,
-            ..
-        } = &*self.0;
-        let channel = scenario.channel;
+        let scenario = &self.0.scenario;
         for &number in &step.sends {
             let message = self.message(number);
             // An insider that lies needs to hear nothing: it may say all that it could have heard of.
             let hears = |&to: &usize| to != from && scenario.robots[to].lies.is_none();
             for to in (0..scenario.robots.len()).filter(hears) {
-                let receiver = steps.robots.nodes.value(next.state.nodes[to]);
+                let receiver = self.node(next.state.nodes[to]);
                 if !concerns(message, receiver.persisted.station) || !self.may_hear(next, to) {
                     continue;
                 }
@@ -336,8 +307,9 @@ impl Model {
                     to: place(to),
                     message: number,
                 };
-                if channel.monotone {
-                    next.network.sent = sets.with(next.network.sent, transmission, &steps.robots);
+                if scenario.channel.monotone {
+                    let (sets, sent) = (&self.0.sets, next.network.sent);
+                    next.network.sent = sets.with(sent, transmission, self.robots());
                 } else {
                     next.network.send(transmission);
                 }
@@ -349,8 +321,7 @@ impl Model {
     fn may_hear(&self, next: &Draft, place: usize) -> bool {
         let channel = self.0.scenario.channel;
         let keeps = channel.monotone || channel.delayed > 0;
-        let node = self.0.steps.robots.nodes.value(next.state.nodes[place]);
-        match node.robot {
+        match self.node(next.state.nodes[place]).robot {
             None => keeps && next.state.left.restarts > 0,
             Some(_) => keeps || !next.state.hangs(place),
         }

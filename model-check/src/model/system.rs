@@ -4,7 +4,6 @@ use super::{Action, Delivery, Model, ModelState};
 use crate::explore::{Judged, Keep, Label, TransitionSystem};
 use crate::fair::Classes;
 use crate::fairness::Classifier;
-use crate::properties::PropertyId;
 use crate::store::States;
 
 impl TransitionSystem for Model {
@@ -57,10 +56,6 @@ impl TransitionSystem for Model {
     fn no_notes(&self) {}
 
     fn add_notes((): &mut (), (): ()) {}
-
-    fn bit(property: PropertyId) -> u32 {
-        property.bit()
-    }
 
     fn has_marks(&self) -> bool {
         self.scenario().channel.monotone

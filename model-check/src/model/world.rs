@@ -1,9 +1,9 @@
 //! The states of a model as the rules see them.
 
-use crossguard_protocol::{Config, Robot, StationId, Timer};
+use crossguard_protocol::{Config, StationId, Timer};
 use smallvec::SmallVec;
 
-use super::{Model, ModelState, Shared};
+use super::{Model, ModelState};
 use crate::node::Node;
 use crate::properties::{Surroundings, View};
 use crate::scenario::MAX_ROBOTS;
@@ -36,16 +36,12 @@ impl Surroundings for InModel<'_> {
     /// message of a monotone channel arrives at all is not sure, so it does not.
     fn can_progress(&self) -> bool {
         let Self { model, state } = self;
-        let Shared {
-            scenario, steps, ..
-        } = &*model.0;
-        let (config, properties) = (&scenario.config, &scenario.properties);
         let effective = |i: usize, cause| {
-            let step = steps.step(config, properties, state.nodes[i], cause);
+            let step = model.step(state.nodes[i], cause);
             step.is_some_and(|step| step.after != state.nodes[i] || !step.sends.is_empty())
         };
         let by_timer = model.nodes(state).enumerate().any(|(i, node)| {
-            let timers = node.robot.as_ref().map(Robot::timers).unwrap_or_default();
+            let timers = node.timers();
             let mut others = timers.iter().filter(|(timer, _)| *timer != Timer::Ram);
             others.any(|(timer, _)| effective(i, Cause::Timer(*timer)))
         });

@@ -145,16 +145,10 @@ impl Stage {
     }
 }
 
-fn phase(node: &Node) -> &Phase {
-    node.robot
-        .as_ref()
-        .map_or(&Phase::Idle, |robot| robot.phase())
-}
-
 fn gathered(before: Marks, nodes: &[&Node]) -> Marks {
-    match phase(nodes[0]) {
-        Phase::Requesting(_) => before,
-        Phase::Leading(leading) if leading.members.len() == nodes.len() - 1 => {
+    match nodes[0].phase() {
+        Some(Phase::Requesting(_)) => before,
+        Some(Phase::Leading(leading)) if leading.members.len() == nodes.len() - 1 => {
             let all_joined = leading.members.iter().all(Member::has_joined);
             before.with(Milestone::Team, all_joined)
         }
@@ -163,9 +157,9 @@ fn gathered(before: Marks, nodes: &[&Node]) -> Marks {
 }
 
 fn commanded(before: Marks, nodes: &[&Node], fell_back: bool) -> Marks {
-    let has_job = |node: &&Node| matches!(phase(node), Phase::Following(it) if it.job.is_some());
+    let has_job = |node: &&Node| node.following().is_some_and(|it| it.job.is_some());
     let marks = before.with(Milestone::Received, nodes[1..].iter().all(has_job));
-    let Phase::Leading(leading) = phase(nodes[0]) else {
+    let Some(leading) = nodes[0].leading() else {
         return marks.failed();
     };
     let runs = |progress: Option<Progress>| progress.is_none_or(Progress::is_running);

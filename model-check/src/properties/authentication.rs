@@ -29,49 +29,40 @@ impl Insider {
     }
 }
 
-/// A property's assumptions on senders.
+/// A property's assumptions on senders. Where there are any, each message is of the station that it names, and these insiders do
+/// not lie about themselves.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Authentication {
-    /// Whether each message has to be of the station that it names.
-    names: bool,
-    liars: &'static [Insider],
-}
+pub struct Authentication(Option<&'static [Insider]>);
 
 impl Authentication {
     /// It holds whatever anybody says in any name.
-    pub(super) const NONE: Self = Self {
-        names: false,
-        liars: &[],
-    };
+    pub(super) const NONE: Self = Self(None);
 
     /// Each message is of the station that it names, and stations may lie about themselves.
-    pub(super) const NAMES: Self = Self {
-        names: true,
-        liars: &[],
-    };
+    pub(super) const NAMES: Self = Self(Some(&[]));
 
     /// Each message is of the station that it names, and these do not lie about themselves.
     pub(super) const fn truth_of(liars: &'static [Insider]) -> Self {
-        Self { names: true, liars }
+        Self(Some(liars))
     }
 
     /// The insiders that can break the property by what they say in their own name.
     #[must_use]
-    pub const fn liars(self) -> &'static [Insider] {
-        self.liars
+    pub fn liars(self) -> &'static [Insider] {
+        self.0.unwrap_or_default()
     }
 }
 
 impl fmt::Display for Authentication {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if !self.names {
+        let Some(liars) = self.0 else {
             return f.write_str("none: whatever anybody says in any name");
-        }
+        };
         f.write_str("each message is of the station that it names")?;
-        if self.liars.is_empty() {
+        if liars.is_empty() {
             return f.write_str("; stations may lie about themselves");
         }
-        for (i, liar) in self.liars.iter().enumerate() {
+        for (i, liar) in liars.iter().enumerate() {
             let before = if i == 0 { "; no lie of " } else { ", of " };
             write!(f, "{before}{}", liar.name())?;
         }

@@ -15,7 +15,9 @@ property! {
 }
 
 fn follows(step: &StepView, sender: StationId) -> bool {
-    following_of(step.before).is_some_and(|following| following.session.leader == sender)
+    step.before
+        .following()
+        .is_some_and(|following| following.session.leader == sender)
 }
 
 fn holds(step: &StepView) -> bool {
@@ -28,7 +30,7 @@ fn holds(step: &StepView) -> bool {
             Output::StartManeuver(_) | Output::StopManeuver(..) | Output::FallBack(..)
         )
     };
-    let session = |node| following_of(node).map(|following| following.session);
+    let session = |node: &Node| node.following().map(|following| following.session);
     let was = session(step.before);
     follows(step, sender)
         || (!step.outputs.iter().any(moves) && (was.is_none() || session(step.after) == was))

@@ -28,7 +28,7 @@ property! {
 
 fn rests_on_the_confirmed(view: &View) -> bool {
     view.nodes().all(|node| {
-        let (Some(leading), Some(robot)) = (leading_of(node), &node.robot) else {
+        let (Some(leading), Some(robot)) = (node.leading(), &node.robot) else {
             return true;
         };
         let members = leading.members.iter();
@@ -45,10 +45,10 @@ fn rests_on_the_confirmed(view: &View) -> bool {
 }
 
 fn speaks_for_itself(step: &StepView) -> bool {
-    let (Some(sender), Some(before)) = (step.sender(), leading_of(step.before)) else {
+    let (Some(sender), Some(before)) = (step.sender(), step.before.leading()) else {
         return true;
     };
-    let Some(after) = leading_of(step.after) else {
+    let Some(after) = step.after.leading() else {
         return true;
     };
     let joins = after.member(sender).is_some() && before.member(sender).is_none();
@@ -61,7 +61,7 @@ fn others(leading: &Leading, sender: StationId) -> impl Iterator<Item = &Member>
 }
 
 fn premise(step: &StepView) -> bool {
-    let (Some(sender), Some(leading)) = (step.sender(), leading_of(step.before)) else {
+    let (Some(sender), Some(leading)) = (step.sender(), step.before.leading()) else {
         return false;
     };
     others(leading, sender).next().is_some()

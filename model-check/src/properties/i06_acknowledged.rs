@@ -1,7 +1,7 @@
 //! I6: the leader counts `(s,q)` as acknowledged only if the follower accepted it; a follower acknowledges before
 //! it starts, which is rule R7 of the protocol.
 
-use crossguard_protocol::{Answer, ManeuverId, Output, Rmcm, StationId, Verdict};
+use crossguard_protocol::{Answer, ManeuverId, Output, Rmcm, Verdict};
 
 use super::prelude::*;
 
@@ -50,25 +50,13 @@ fn acknowledges_before_it_starts(step: &StepView) -> bool {
     })
 }
 
-fn acknowledged<'a>(view: &View<'a>) -> impl Iterator<Item = (StationId, ManeuverId)> + use<'a> {
-    view.leaders().flat_map(|(session, leading)| {
-        leading.members.iter().filter_map(move |member| {
-            let id = ManeuverId {
-                session,
-                request: member.order?.request,
-            };
-            Some((member.station, id))
-        })
-    })
-}
-
 fn holds(view: &View) -> bool {
     let accepted = |station, id| {
         view.history()
             .command(station, id)
             .is_some_and(|command| command.accepted)
     };
-    acknowledged(view).all(|(station, id)| accepted(station, id))
+    view.orders().all(|(station, id, _)| accepted(station, id))
         && view.nodes().all(|node| {
             node.actuation
                 .running()
@@ -77,5 +65,5 @@ fn holds(view: &View) -> bool {
 }
 
 fn premise(view: &View) -> bool {
-    acknowledged(view).next().is_some()
+    view.orders().next().is_some()
 }

@@ -24,7 +24,7 @@ fn premise(step: &StepView) -> bool {
 }
 
 fn is_outstanding(step: &StepView, answer: Answer) -> bool {
-    leading_of(step.before).is_some_and(|leading| {
+    step.before.leading().is_some_and(|leading| {
         let outstanding = leading
             .member(answer.from)
             .and_then(|member| member.outstanding);

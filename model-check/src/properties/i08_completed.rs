@@ -1,6 +1,6 @@
 //! I8: the leader counts `(s,q)` as completed or in position only if the follower's body has done that.
 
-use crossguard_protocol::{ManeuverId, Progress, StationId};
+use crossguard_protocol::Progress;
 
 use super::prelude::*;
 
@@ -12,34 +12,19 @@ property! {
         "TakesAnyProgress";
 }
 
-fn counted<'a>(
-    view: &View<'a>,
-) -> impl Iterator<Item = (StationId, ManeuverId, Progress)> + use<'a> {
-    view.leaders().flat_map(|(session, leading)| {
-        leading.members.iter().filter_map(move |member| {
-            let order = member.order?;
-            let request = order.request;
-            Some((
-                member.station,
-                ManeuverId { session, request },
-                order.progress?,
-            ))
-        })
-    })
-}
-
 fn holds(view: &View) -> bool {
-    counted(view).all(|(station, id, progress)| {
+    view.orders().all(|(station, id, progress)| {
         let command = view.history().command(station, id);
         match progress {
-            Progress::Completed => command.is_some_and(|command| command.finished),
-            Progress::InPosition => command.is_some_and(|command| command.in_position),
+            Some(Progress::Completed) => command.is_some_and(|command| command.finished),
+            Some(Progress::InPosition) => command.is_some_and(|command| command.in_position),
             _ => true,
         }
     })
 }
 
 fn premise(view: &View) -> bool {
-    let counts = |progress| matches!(progress, Progress::Completed | Progress::InPosition);
-    counted(view).any(|(_, _, progress)| counts(progress))
+    let done = [Some(Progress::Completed), Some(Progress::InPosition)];
+    view.orders()
+        .any(|(_, _, progress)| done.contains(&progress))
 }

@@ -37,7 +37,7 @@ fn lease_theorem(leaders: &TimedView, followers: &TimedView) -> bool {
             following.session == session && matches!(following.contact, Contact::Fresh(_))
         };
         follower
-            .is_none_or(|node| node.robot.is_none() || following_of(node).is_some_and(has_contact))
+            .is_none_or(|node| node.robot.is_none() || node.following().is_some_and(has_contact))
     })
 }
 
@@ -67,11 +67,10 @@ pub fn leases(robot: &Robot) -> impl Iterator<Item = (SessionId, StationId)> {
 
 /// Whether a leader's lease stands on a follower that has lost contact in that very session.
 pub fn has_lease_on_lost<'a>(robots: &(impl Iterator<Item = &'a Robot> + Clone)) -> bool {
-    let has_lost_contact = |robot: &Robot| matches!(robot.phase(), Phase::Following(following) if following.contact.is_lost());
     robots.clone().flat_map(leases).any(|(session, station)| {
         robots.clone().any(|robot| {
             let is_meant = robot.station() == station && robot.session() == Some(session);
-            is_meant && has_lost_contact(robot)
+            is_meant && matches!(robot.phase(), Phase::Following(it) if it.contact.is_lost())
         })
     })
 }

@@ -21,7 +21,7 @@ property! {
 
 fn holds(view: &View) -> bool {
     view.configured().all(|(node, config)| {
-        let leading = leading_of(node);
+        let leading = node.leading();
         let believed = leading.is_some_and(|leading| leading.corridor == Corridor::Open);
         let engaged = leading.is_some_and(|leading| is_engaged(leading, config));
         node.actuation.corridor_open == believed && (!believed || engaged)

@@ -29,9 +29,8 @@ fn premise(view: &View) -> bool {
 /// A robot with a part in a session waits for a time, and not in vain for a message. That time does not
 /// stand still over several steps is found by the exploration, which sees them all.
 fn time_can_pass(step: &TimedStepView) -> bool {
-    let waits_for_time = |node: &Node| {
-        let robot = node.robot.as_ref();
-        node.is_idle() || robot.is_none_or(|robot| robot.next_due().is_some())
-    };
-    step.after.nodes().all(waits_for_time)
+    let due = |node: &Node| node.robot.as_ref()?.next_due();
+    step.after
+        .nodes()
+        .all(|node| node.is_idle() || due(node).is_some())
 }

@@ -16,7 +16,7 @@ property! {
 
 fn holds(view: &View) -> bool {
     view.nodes().all(|node| {
-        let executing = following_of(node).and_then(Following::executing);
+        let executing = node.following().and_then(Following::executing);
         node.actuation.running() == executing.map(|maneuver| maneuver.id)
     })
 }

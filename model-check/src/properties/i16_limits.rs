@@ -19,7 +19,7 @@ property! {
 /// How often each outstanding command was repeated, and how often it may be.
 fn repeats<'a>(view: &View<'a>) -> impl Iterator<Item = (u8, u8)> + use<'a> {
     view.configured().flat_map(|(node, config)| {
-        let members = leading_of(node).into_iter().flat_map(|l| l.members.iter());
+        let members = node.leading().into_iter().flat_map(|l| l.members.iter());
         members.filter_map(|member| Some((member.outstanding?.repeats, config.settings().n_ack)))
     })
 }

@@ -39,7 +39,7 @@ fn holds(step: &StepView) -> bool {
     if withdraws(step) {
         return true;
     }
-    let (Some(dropped), Some(before)) = (dropped(step), leading_of(step.before)) else {
+    let (Some(dropped), Some(before)) = (dropped(step), step.before.leading()) else {
         return true;
     };
     let elapsed = match step.input {
@@ -49,7 +49,10 @@ fn holds(step: &StepView) -> bool {
     let members = before.members.iter();
     let mut others = members.filter(|member| member.station != dropped);
     others.all(|member| {
-        let after = leading_of(step.after).and_then(|after| after.member(member.station));
+        let after = step
+            .after
+            .leading()
+            .and_then(|after| after.member(member.station));
         aged(member, elapsed).is_none_or(|expected| after == Some(&expected))
     })
 }
@@ -80,5 +83,5 @@ fn aged(member: &Member, elapsed: Millis) -> Option<Member> {
 fn premise(step: &StepView) -> bool {
     dropped(step).is_some()
         && !withdraws(step)
-        && leading_of(step.before).is_some_and(|l| l.members.len() > 1)
+        && step.before.leading().is_some_and(|l| l.members.len() > 1)
 }

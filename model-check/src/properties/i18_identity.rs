@@ -4,8 +4,6 @@
 //! of a session never to carry the same station id: the robots of a scenario differ, and a locked id does not
 //! change. A robot that takes its leader's id breaks I1.
 
-use crossguard_protocol::Robot;
-
 use super::prelude::*;
 
 property! {
@@ -17,8 +15,6 @@ property! {
 }
 
 fn holds(view: &View) -> bool {
-    view.nodes().all(|node| {
-        let session = node.robot.as_ref().and_then(Robot::session);
-        session.is_none() || node.actuation.identity_locked
-    })
+    view.nodes()
+        .all(|node| node.session().is_none() || node.actuation.identity_locked)
 }

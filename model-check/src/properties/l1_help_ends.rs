@@ -30,7 +30,7 @@ fn in_help_requested(view: &View, LivenessSubject { robot, .. }: LivenessSubject
 
 fn ends_in_time(step: &TimedStepView) -> bool {
     let after = step.after;
-    !matches!(after.watch, StopWatch::Request(ticks) if after.is_over(ticks, after.setup.limits.roles))
+    !matches!(after.watch, StopWatch::Request(ticks) if after.is_over(ticks, after.limits.roles))
 }
 
 fn request_ends(step: &TimedStepView) -> bool {

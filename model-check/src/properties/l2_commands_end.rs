@@ -11,7 +11,7 @@ property! {
 }
 
 fn is_outstanding(view: &View, LivenessSubject { robot, other }: LivenessSubject) -> bool {
-    leading_of(view.node(robot)).is_some_and(|leading| {
+    view.node(robot).leading().is_some_and(|leading| {
         let mut members = leading.members.iter();
         members.any(|member| {
             view.world.place_of(member.station) == Some(other) && member.outstanding.is_some()

@@ -23,6 +23,7 @@ pub(super) fn asks(view: &View, LivenessSubject { robot, .. }: LivenessSubject) 
 }
 
 fn has_completed(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
-    leading_of(view.node(robot))
+    view.node(robot)
+        .leading()
         .is_some_and(|leading| leading.members.iter().any(Member::has_completed))
 }

@@ -13,7 +13,7 @@ property! {
 }
 
 fn is_orphaned(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
-    following_of(view.node(robot)).is_some_and(|following| {
+    view.node(robot).following().is_some_and(|following| {
         view.leaders()
             .all(|(session, _)| session != following.session)
     })

@@ -22,7 +22,7 @@ property! {
 }
 
 fn has_lost_its_leader(view: &View, LivenessSubject { robot, .. }: LivenessSubject) -> bool {
-    following_of(view.node(robot)).is_some_and(|following| {
+    view.node(robot).following().is_some_and(|following| {
         let leader = view.world.place_of(following.session.leader);
         leader.is_some_and(|leader| view.node(leader).robot.is_none())
             && view.world.restarts_are_over()
@@ -34,9 +34,9 @@ fn is_survived_in_time(step: &TimedStepView) -> bool {
     let StopWatch::LeaderDown(ticks) = after.watch else {
         return true;
     };
-    let limits = after.setup.limits;
+    let limits = after.limits;
     let runs = after.nodes().any(|node| node.actuation.running().is_some());
-    let follows = after.nodes().any(Node::is_following);
+    let follows = after.nodes().any(|node| node.following().is_some());
     let goes_on = runs && after.is_over(ticks, limits.stopped);
     let stays = follows && after.is_over(ticks, limits.left);
     !goes_on && !stays

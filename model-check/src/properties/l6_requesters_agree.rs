@@ -20,8 +20,8 @@ property! {
 
 fn both_claim(view: &View, LivenessSubject { robot, other }: LivenessSubject) -> bool {
     let claims = |place: usize| {
-        let robot = view.node(place).robot.as_ref();
-        robot.is_some_and(|r| matches!(r.phase(), Phase::Requesting(_) | Phase::Leading(_)))
+        let phase = view.node(place).phase();
+        matches!(phase, Some(Phase::Requesting(_) | Phase::Leading(_)))
     };
     claims(robot) && claims(other)
 }

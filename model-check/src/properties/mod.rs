@@ -82,8 +82,7 @@ mod prelude {
     };
     pub(super) use super::property::{TimedPremise, TimedRule};
     pub(super) use super::timed_view::{TimedStepView, TimedView, has_fallback};
-    pub(super) use super::view::{LivenessSubject, LivenessSubjects, StepView, View};
-    pub(super) use super::view::{following_of, is_team, leading_of};
+    pub(super) use super::view::{LivenessSubject, LivenessSubjects, StepView, View, is_team};
     pub(super) use crate::node::Node;
     pub(super) use crate::road::{Body, Heard, Pedestrian};
     pub(super) use crate::timed::watch::StopWatch;
@@ -98,7 +97,7 @@ use serde::Serialize;
 pub use authentication::{Authentication, Insider};
 pub use property::{Claim, Kind, Property};
 pub(crate) use property::{LivenessRule, Rule, StateRule, StepRule, TimedPremise, TimedRule};
-pub(crate) use view::{StepView, Surroundings, View, following_of, leading_of};
+pub(crate) use view::{StepView, Surroundings, View};
 
 /// Declares the ids from the list of properties, and what needs all of them at compile time.
 macro_rules! properties {
@@ -168,25 +167,6 @@ properties! {
     C2: c2_honest_guards_in_place,
     C3: c3_each_for_itself,
 }
-
-/// The bit of each property among the properties that are claimed of one of the models, or 0.
-macro_rules! bits {
-    ($model:ident) => {{
-        let mut bits = [0; PROPERTIES.len()];
-        let (mut at, mut claims) = (0, 0);
-        while at < bits.len() {
-            if PROPERTIES[at].$model.is_some() {
-                bits[at] = 1 << claims;
-                claims += 1;
-            }
-            at += 1;
-        }
-        bits
-    }};
-}
-
-const UNTIMED_BITS: [u32; PROPERTIES.len()] = bits!(untimed);
-const TIMED_BITS: [u32; PROPERTIES.len()] = bits!(timed);
 
 impl PropertyId {
     /// The property.
@@ -292,14 +272,9 @@ impl PropertyId {
         }
     }
 
-    /// One bit for each property that is claimed of the model without time; 0 for the others.
-    pub(crate) const fn bit(self) -> u32 {
-        UNTIMED_BITS[self as usize]
-    }
-
-    /// One bit for each property that is claimed of the timed model; 0 for the others.
-    pub(crate) const fn timed_bit(self) -> u32 {
-        TIMED_BITS[self as usize]
+    /// One bit for each property.
+    pub(crate) const fn bit(self) -> u64 {
+        1 << self as u64
     }
 }
 

@@ -3,25 +3,18 @@
 use crossguard_protocol::Millis;
 
 use crate::node::Node;
-use crate::timed::clock::Clock;
 use crate::timed::limits::Limits;
-use crate::timed::teams::{MAX_TEAMS, Teams};
+use crate::timed::section::Timed;
+use crate::timed::teams::MAX_TEAMS;
 use crate::timed::told::Told;
 use crate::timed::watch::StopWatch;
-
-/// The parts of a timed model that all its states share.
-#[derive(Clone, Copy)]
-pub(crate) struct TimedSetup<'a> {
-    pub(crate) teams: &'a Teams,
-    pub(crate) clock: &'a Clock,
-    pub(crate) limits: &'a Limits,
-}
 
 #[derive(Clone, Copy)]
 pub(crate) struct TimedView<'a> {
     /// The robots, in the order of their places.
     pub(crate) nodes: &'a [&'a Node],
-    pub(crate) setup: TimedSetup<'a>,
+    pub(crate) timed: &'a Timed,
+    pub(crate) limits: &'a Limits,
     pub(crate) watch: StopWatch,
     pub(crate) shows_go: [bool; MAX_TEAMS],
     /// Whether a sign shows go although a follower of its team fell back for lack of contact.
@@ -62,25 +55,25 @@ impl<'a> TimedView<'a> {
 
     /// The robot of the first team that detects the pedestrian.
     pub(crate) fn leader(&self) -> &'a Node {
-        self.nodes[usize::from(self.setup.teams.leaders()[0])]
+        self.nodes[usize::from(self.timed.teams.leaders()[0])]
     }
 
     pub(crate) const fn shows_go_at(&self, place: u8) -> bool {
-        self.shows_go[self.setup.teams.team_of(place)]
+        self.shows_go[self.timed.teams.team_of(place)]
     }
 
     pub(crate) fn leader_hangs(&self) -> bool {
-        matches!(self.watch, StopWatch::Hung(place, _) if self.setup.teams.leads(place))
+        matches!(self.watch, StopWatch::Hung(place, _) if self.timed.teams.leads(place))
     }
 
     /// Whether the sign at this robot still shows go when it should have ended, so many ticks after its guard or leader was lost.
     pub(crate) fn shows_go_too_long(&self, place: u8, ticks: u8) -> bool {
-        self.shows_go_at(place) && self.is_over(ticks, self.setup.limits.corridor_closed)
+        self.shows_go_at(place) && self.is_over(ticks, self.limits.corridor_closed)
     }
 
     /// Whether this number of ticks is longer than a limit.
     pub(crate) fn is_over(&self, ticks: u8, limit: Millis) -> bool {
-        self.setup.clock.millis(ticks) > limit
+        self.timed.clock.millis(ticks) > limit
     }
 }
 

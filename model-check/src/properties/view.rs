@@ -1,8 +1,8 @@
 //! View of rules without time: a state, a robot's step, and the robots that a liveness property is about.
 
 use crossguard_protocol::{
-    Config, Event, Following, Input, Leading, Maneuver, Notice, Output, Outputs, Phase, Rmcm,
-    Robot, SessionId, StationId,
+    Config, Event, Following, Input, Leading, Maneuver, ManeuverId, Notice, Output, Outputs,
+    Progress, Rmcm, Robot, SessionId, StationId,
 };
 
 use crate::history::{History, told_end, told_on_its_way};
@@ -86,18 +86,27 @@ impl<'a> View<'a> {
     pub(crate) fn leaders(
         &self,
     ) -> impl Iterator<Item = (SessionId, &'a Leading)> + Clone + use<'a> {
-        self.robots().filter_map(|robot| match robot.phase() {
-            Phase::Leading(leading) => Some((robot.session()?, leading)),
-            _ => None,
-        })
+        self.nodes()
+            .filter_map(|node| Some((node.session()?, node.leading()?)))
     }
 
     pub(crate) fn followers(
         &self,
     ) -> impl Iterator<Item = (&'a Robot, &'a Following)> + Clone + use<'a> {
-        self.robots().filter_map(|robot| match robot.phase() {
-            Phase::Following(following) => Some((robot, following)),
-            _ => None,
+        self.nodes()
+            .filter_map(|node| Some((node.robot.as_ref()?, node.following()?)))
+    }
+
+    /// The acknowledged command of each follower that has one, with its progress, as the leader knows it.
+    pub(crate) fn orders(
+        &self,
+    ) -> impl Iterator<Item = (StationId, ManeuverId, Option<Progress>)> + use<'a> {
+        self.leaders().flat_map(|(session, leading)| {
+            leading.members.iter().filter_map(move |member| {
+                let order = member.order?;
+                let id = ManeuverId::of(session, order.request);
+                Some((member.station, id, order.progress))
+            })
         })
     }
 
@@ -175,18 +184,4 @@ impl<'a> StepView<'a> {
 /// Whether one robot leads and another follows.
 pub(crate) fn is_team(view: &View) -> bool {
     view.leaders().next().is_some() && view.followers().next().is_some()
-}
-
-pub(crate) fn leading_of(node: &Node) -> Option<&Leading> {
-    match node.robot.as_ref()?.phase() {
-        Phase::Leading(leading) => Some(leading),
-        _ => None,
-    }
-}
-
-pub(crate) fn following_of(node: &Node) -> Option<&Following> {
-    match node.robot.as_ref()?.phase() {
-        Phase::Following(following) => Some(following),
-        _ => None,
-    }
 }

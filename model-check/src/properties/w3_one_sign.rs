@@ -30,5 +30,5 @@ fn premise(view: &View) -> bool {
 
 fn one_stops_in_time(step: &TimedStepView) -> bool {
     let after = step.after;
-    !matches!(after.watch, StopWatch::BothGo(ticks) if after.is_over(ticks, after.setup.limits.both_go))
+    !matches!(after.watch, StopWatch::BothGo(ticks) if after.is_over(ticks, after.limits.both_go))
 }

@@ -27,5 +27,5 @@ fn holds(step: &TimedStepView) -> bool {
 /// Whether a robot has just begun to hang, while the sign shows go.
 fn hangs(view: &TimedView, leads: bool) -> bool {
     matches!(view.watch, StopWatch::Hung(place, 0)
-        if view.shows_go_at(place) && view.setup.teams.leads(place) == leads)
+        if view.shows_go_at(place) && view.timed.teams.leads(place) == leads)
 }

@@ -23,7 +23,7 @@ fn holds(step: &TimedStepView) -> bool {
     let after = step.after;
     let in_time = match after.watch {
         StopWatch::FollowerFailed(place, ticks) | StopWatch::Hung(place, ticks) => {
-            let limit = after.setup.limits.unaware;
+            let limit = after.limits.unaware;
             !(after.told.counts_on(place) && after.is_over(ticks, limit))
         }
         _ => true,

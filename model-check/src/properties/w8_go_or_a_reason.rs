@@ -12,7 +12,7 @@ property! {
 
 fn holds(step: &TimedStepView) -> bool {
     let after = step.after;
-    !matches!(after.waiting, Some(ticks) if after.is_over(ticks, after.setup.limits.waiting))
+    !matches!(after.waiting, Some(ticks) if after.is_over(ticks, after.limits.waiting))
 }
 
 fn wait_ends(step: &TimedStepView) -> bool {

@@ -62,18 +62,6 @@ impl Limits {
             waiting: waiting(config),
         }
     }
-
-    /// The limit of each road property that has one, under its id.
-    #[must_use]
-    pub const fn road(&self) -> [(&'static str, Millis); 5] {
-        [
-            ("W1", self.corridor_closed),
-            ("W3", self.both_go),
-            ("W5", self.corridor_closed),
-            ("W6", self.unaware),
-            ("W8", self.waiting),
-        ]
-    }
 }
 
 /// The longest wait for go. Its parts come one after the other, each as late as it may without being given as a
@@ -110,14 +98,10 @@ mod tests {
         assert_eq!(limits.left, Millis(30 + 2_050 + 5_050));
         // One command and three repetitions.
         assert_eq!(limits.commands, Millis(4 * 650));
+        assert_eq!(limits.corridor_closed, Millis(1_950));
+        assert_eq!(limits.both_go, Millis(250 + 30));
+        assert_eq!(limits.unaware, Millis(1_950));
         let waiting = 10_050 + 7_050 + 1_950 + 4 * 650;
-        let road = [
-            ("W1", Millis(1_950)),
-            ("W3", Millis(250 + 30)),
-            ("W5", Millis(1_950)),
-            ("W6", Millis(1_950)),
-            ("W8", Millis(waiting)),
-        ];
-        assert_eq!(limits.road(), road);
+        assert_eq!(limits.waiting, Millis(waiting));
     }
 }

@@ -70,7 +70,7 @@ mod measure;
 mod model;
 mod premises;
 mod quiet;
-mod section;
+pub(crate) mod section;
 mod sign;
 mod state;
 mod successor;

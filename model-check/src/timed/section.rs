@@ -66,7 +66,7 @@ pub struct Timed {
     /// The properties to check.
     pub properties: Vec<PropertyId>,
     /// The robots that detect, each with its helpers.
-    pub(super) teams: Teams,
+    pub(crate) teams: Teams,
     pub(super) delay_ticks: u8,
 }
 

@@ -33,7 +33,7 @@ pub struct TimedState {
     /// For how long each robot has heard no news of its leader.
     pub(super) quiet: [Option<Quiet>; MAX_ROBOTS],
     /// Properties that the step into this state broke, one bit each.
-    pub(super) broken: u32,
+    pub(super) broken: u64,
 }
 
 impl TimedState {

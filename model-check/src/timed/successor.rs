@@ -89,9 +89,13 @@ impl TimedModel {
         state: &TimedState,
         action: TimedAction,
     ) -> SmallVec<[(u8, TimedCause); MAX_ROBOTS]> {
-        let time_of = |i: u8| {
+        let after_the_time = |i: u8, cause: Option<TimedCause>| {
             let untold = state.untold[usize::from(i)];
-            (untold > Millis::ZERO).then_some((i, TimedCause::Elapsed(untold)))
+            let time = (untold > Millis::ZERO).then_some(TimedCause::Elapsed(untold));
+            time.into_iter()
+                .chain(cause)
+                .map(|cause| (i, cause))
+                .collect()
         };
         match action {
             TimedAction::Tick(fast) => {
@@ -109,18 +113,12 @@ impl TimedModel {
                     .filter_map(told)
                     .collect()
             }
-            TimedAction::Look(i) | TimedAction::GoOn(i) => time_of(i).into_iter().collect(),
+            TimedAction::Look(i) | TimedAction::GoOn(i) => after_the_time(i, None),
             TimedAction::Deliver(flight) => {
                 let Transmission { to, message, .. } = flight.transmission;
-                time_of(to)
-                    .into_iter()
-                    .chain([(to, TimedCause::Message(message))])
-                    .collect()
+                after_the_time(to, Some(TimedCause::Message(message)))
             }
-            TimedAction::Local(i, event) => time_of(i)
-                .into_iter()
-                .chain([(i, TimedCause::Event(event))])
-                .collect(),
+            TimedAction::Local(i, event) => after_the_time(i, Some(TimedCause::Event(event))),
             TimedAction::Crash(_) | TimedAction::Hang(_) | TimedAction::Meet => SmallVec::new(),
         }
     }
@@ -185,7 +183,7 @@ impl TimedModel {
                 }) {
                     longest.note(Measure::Stopped, ticks);
                 }
-                if robots().any(|(b, n)| b.is_following() && !n.is_following()) {
+                if robots().any(|(b, n)| b.following().is_some() && n.following().is_none()) {
                     longest.note(Measure::Left, ticks);
                 }
             }

@@ -64,11 +64,7 @@ impl TransitionSystem for TimedModel {
             lead_to(next, label);
             is_stuck = false;
         }
-        let stuck = if is_stuck {
-            Self::bit(PropertyId::I12)
-        } else {
-            0
-        };
+        let stuck = if is_stuck { PropertyId::I12.bit() } else { 0 };
         Judged {
             broken: state.broken | stuck,
             enabled: Classes::NONE,
@@ -85,10 +81,6 @@ impl TransitionSystem for TimedModel {
     fn add_notes(all: &mut Shown, more: Shown) {
         all.longest.add(more.longest);
         all.premises.add(&more.premises);
-    }
-
-    fn bit(property: PropertyId) -> u32 {
-        property.timed_bit()
     }
 
     fn has_marks(&self) -> bool {

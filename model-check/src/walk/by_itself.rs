@@ -1,8 +1,6 @@
 //! The next step where nobody chooses: a crossing goes on by its plan, and now and then something else happens.
 
-use crossguard_protocol::{
-    Availability, Event, Member, Order, Phase, Progress, Robot, State, Timer,
-};
+use crossguard_protocol::{Availability, Event, Member, Order, Phase, Progress, Timer};
 use serde::Deserialize;
 
 use crate::chart::{ACROSS, chart_step};
@@ -67,7 +65,8 @@ pub fn next_step(scenario: Scenario, steps: &[ChartStep], chances: Chances) -> O
         return actions.iter().find_map(made);
     }
     let has_crossed = steps.iter().any(|step| step.action == ACROSS);
-    if has_crossed && model.nodes(&state).all(is_idle) {
+    let is_over = |node: &Node| node.is_idle() && !node.actuation.road_unsure;
+    if has_crossed && model.nodes(&state).all(is_over) {
         return None;
     }
     let of = |part: Part| -> Vec<ChartStep> {
@@ -90,15 +89,9 @@ pub fn next_step(scenario: Scenario, steps: &[ChartStep], chances: Chances) -> O
     ways.into_iter().nth(usize::try_from(which).ok()?)
 }
 
-fn is_idle(node: &Node) -> bool {
-    let robot = node.robot.as_ref();
-    robot.is_none_or(|robot| robot.state() == State::Idle) && !node.actuation.road_unsure
-}
-
 /// The part in a session of the robot at a place; `None` while it is down.
 fn phase_of<'a>(model: &'a Model, state: &'a ModelState, place: u8) -> Option<&'a Phase> {
-    let node = model.nodes(state).nth(place.into())?;
-    node.robot.as_ref().map(Robot::phase)
+    model.nodes(state).nth(place.into())?.phase()
 }
 
 /// Part of an action in a crossing of one person.
@@ -135,11 +128,7 @@ fn part_of_event(
 ) -> Part {
     let settings = model.scenario().config.settings();
     let is_next = match event {
-        Event::PedestrianDetected(_) => {
-            let idle = |phase: &Phase| matches!(phase, Phase::Idle);
-            let robots = model.nodes(state).filter_map(|node| node.robot.as_ref());
-            !has_crossed && robots.map(Robot::phase).all(idle)
-        }
+        Event::PedestrianDetected(_) => !has_crossed && model.nodes(state).all(Node::is_idle),
         // One command for each follower; another where it came to nothing.
         Event::CommandManeuver { follower, .. } => {
             let Some(Phase::Leading(leading)) = phase_of(model, state, robot) else {
