@@ -39,7 +39,7 @@ pub struct OddsProgress {
 }
 
 /// Why nothing can be said of a team.
-#[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum OddsError {
     /// There is no such channel.
     #[error(transparent)]
@@ -51,12 +51,9 @@ pub enum OddsError {
 
 /// Results so far at one loss rate, between two stages.
 struct Interim {
-    loss: f64,
+    odds: LossOdds,
     /// The states in which the stage before was completed.
     completed: Vec<(TeamState, f64)>,
-    unknown: f64,
-    milestones: Vec<MilestoneOdds>,
-    crossing: Enclosure,
 }
 
 impl OddsModel {
@@ -89,17 +86,23 @@ impl OddsModel {
         let stages = Stage::ALL;
         // One link at a time begins anew, so that its states are its own.
         let again = usize::from(!joint);
-        let mut counted = Counted {
-            done: 0,
-            of: (stages.len() + again) * losses.len(),
-            watch,
+        let of = (stages.len() + again) * losses.len();
+        let mut done = 0;
+        let mut tell = |stage, loss| {
+            watch(OddsProgress {
+                stage,
+                loss,
+                done,
+                of,
+            });
+            done += 1;
         };
         let of_all = if joint { &stages[..] } else { &stages[..1] };
-        let mut odds = self.go_through(losses, of_all, 1, stop, &mut counted)?;
+        let mut odds = self.go_through(losses, of_all, 1, stop, &mut tell)?;
         if again > 0 {
             let links = self.setup().followers;
             self.0.look_at_one_link(true);
-            let one = self.go_through(losses, &stages, links, stop, &mut counted);
+            let one = self.go_through(losses, &stages, links, stop, &mut tell);
             self.0.look_at_one_link(false);
             odds.add_link_by_link(one?);
         }
@@ -113,7 +116,7 @@ impl OddsModel {
         stages: &[Stage],
         links: u8,
         stop: &Stop,
-        counted: &mut Counted<'_>,
+        tell: &mut dyn FnMut(Stage, f64),
     ) -> Result<TeamOdds, FlowCut> {
         let mut interim: Vec<Interim> = losses.iter().map(|&loss| Interim::at(loss)).collect();
         let mut sizes = Vec::new();
@@ -122,7 +125,7 @@ impl OddsModel {
             let frame = self.frame(links);
             let mut space = StageSpace::new(&mut self.0, stage);
             for interim in &mut interim {
-                counted.tell(stage, interim.loss);
+                tell(stage, interim.odds.loss);
                 interim.go_through(&mut space, limits, frame, stop)?;
             }
             sizes.push(StageSize {
@@ -131,7 +134,7 @@ impl OddsModel {
                 transitions: space.transitions(),
             });
         }
-        let losses = interim.into_iter().map(LossOdds::from).collect();
+        let losses = interim.into_iter().map(|it| it.odds).collect();
         Ok(TeamOdds { sizes, losses })
     }
 
@@ -183,24 +186,17 @@ impl OddsModel {
 
 impl Interim {
     const fn at(loss: f64) -> Self {
-        Self {
+        let odds = LossOdds {
             loss,
-            completed: Vec::new(),
-            unknown: 0.0,
-            milestones: Vec::new(),
             crossing: Enclosure {
                 lower: 0.0,
                 upper: 1.0,
             },
-        }
-    }
-
-    fn start(&self, space: &mut StageSpace<'_>) -> Vec<(u32, f64)> {
-        if space.stage == Stage::Gathering {
-            space.start(self.loss)
-        } else {
-            space.enter(&self.completed)
-        }
+            milestones: Vec::new(),
+            not_followed: 0.0,
+        };
+        let completed = Vec::new();
+        Self { odds, completed }
     }
 
     fn go_through(
@@ -210,24 +206,29 @@ impl Interim {
         frame: Frame,
         stop: &Stop,
     ) -> Result<(), FlowCut> {
-        let start = self.start(space);
+        let odds = &mut self.odds;
+        let start = if space.stage == Stage::Gathering {
+            space.start(odds.loss)
+        } else {
+            space.enter(&self.completed)
+        };
         let beginning = Beginning {
             mass: start.iter().map(|(_, mass)| mass).sum(),
-            unknown: self.unknown,
+            unknown: odds.not_followed,
         };
-        let flow = flow(space, self.loss, &start, limits, stop)?;
+        let flow = flow(space, odds.loss, &start, limits, stop)?;
         let unknown = flow.unknown.last().copied().unwrap_or(0.0);
         if beginning.mass > 0.0 {
             for (milestone, curve) in &flow.reached {
-                let odds = MilestoneOdds::of(*milestone, curve, &flow, beginning, frame);
-                self.milestones.push(odds);
+                let reached = MilestoneOdds::of(*milestone, curve, &flow, beginning, frame);
+                odds.milestones.push(reached);
             }
         }
         if space.stage == Stage::Holding {
-            self.crossing = uninterrupted(&flow, beginning, unknown);
+            odds.crossing = uninterrupted(&flow, beginning, unknown);
         }
+        odds.not_followed += unknown;
         self.completed = flow.completed;
-        self.unknown += unknown;
         Ok(())
     }
 }
@@ -242,17 +243,6 @@ fn uninterrupted(flow: &Flow, beginning: Beginning, unknown: f64) -> Enclosure {
         .unwrap_or(0.0);
     let goes_on = beginning.mass - interrupted;
     Enclosure::probability(goes_on - unknown, goes_on + beginning.unknown)
-}
-
-impl From<Interim> for LossOdds {
-    fn from(interim: Interim) -> Self {
-        Self {
-            loss: interim.loss,
-            crossing: interim.crossing,
-            milestones: interim.milestones,
-            not_followed: interim.unknown,
-        }
-    }
 }
 
 impl TeamOdds {
@@ -290,24 +280,5 @@ impl LossOdds {
             product.upper *= factor.upper;
         }
         product
-    }
-}
-
-struct Counted<'a> {
-    done: usize,
-    of: usize,
-    watch: &'a mut dyn FnMut(OddsProgress),
-}
-
-impl Counted<'_> {
-    fn tell(&mut self, stage: Stage, loss: f64) {
-        let (done, of) = (self.done, self.of);
-        (self.watch)(OddsProgress {
-            stage,
-            loss,
-            done,
-            of,
-        });
-        self.done += 1;
     }
 }

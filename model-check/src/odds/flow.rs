@@ -94,19 +94,13 @@ pub enum FlowCut {
 }
 
 /// The probability of each state, by its number.
+#[derive(Default)]
 struct Mass {
     of: Vec<f64>,
     states: Vec<u32>,
 }
 
 impl Mass {
-    const fn none() -> Self {
-        Self {
-            of: Vec::new(),
-            states: Vec::new(),
-        }
-    }
-
     fn add(&mut self, state: u32, mass: f64) {
         let at = state as usize;
         if self.of.len() <= at {
@@ -145,11 +139,11 @@ pub(super) fn flow(
         unknown: Vec::new(),
         completed: Vec::new(),
     };
-    let mut here = Mass::none();
+    let mut here = Mass::default();
     for &(state, mass) in start {
         here.add(state, mass);
     }
-    let (mut over, mut completed) = (vec![0.0; milestones.len()], Mass::none());
+    let (mut over, mut completed) = (vec![0.0; milestones.len()], Mass::default());
     let (mut unknown, mut products) = (0.0, space.probabilities(loss));
     for tick in 0.. {
         let mut going = Vec::new();

@@ -47,72 +47,10 @@ pub struct TimeGrid {
     pub delay: Millis,
 }
 
-/// Why there can be no such model.
-#[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
-pub enum OddsImpossibility {
-    /// The number of followers.
-    #[error("{0} followers: a number from 1 to {FOLLOWERS_MAX} is wanted")]
-    Followers(u8),
-    /// The grid is too coarse or does not fit.
-    #[error(
-        "a grid of {tick} ms: it must divide ram_period ({ram_period} ms) and the delay ({delay} ms), and be no \
-         longer than delay_max ({delay_max} ms), by which an endpoint may look at its clock late"
-    )]
-    Grid {
-        /// The grid, in ms.
-        tick: u32,
-        /// The interval of RAM, in ms.
-        ram_period: u32,
-        /// The time that a message takes, in ms.
-        delay: u32,
-        /// By how much an endpoint may be late, in ms.
-        delay_max: u32,
-    },
-    /// The delay is no time, or too many ticks.
-    #[error("a delay of {delay} ms: from 1 to 200 ticks of the grid, {tick} ms, are wanted")]
-    Delay {
-        /// The time that a message takes, in ms.
-        delay: u32,
-        /// The grid, in ms.
-        tick: u32,
-    },
-    /// Bursts shorter than the grid.
-    #[error("bursts of {burst} ms on average: at least a tick of the grid, {tick} ms, is wanted")]
-    Burst {
-        /// Their mean length, in ms.
-        burst: u32,
-        /// The grid, in ms.
-        tick: u32,
-    },
-    /// The time that the maneuver takes.
-    #[error(
-        "a maneuver of {hold} ms: from a tick, {tick} ms, to its t_exec, {longest} ms, is wanted"
-    )]
-    Hold {
-        /// How long it takes, in ms.
-        hold: u32,
-        /// The grid, in ms.
-        tick: u32,
-        /// The longest that `move` may take, in ms.
-        longest: u32,
-    },
-    /// The loss rate.
-    #[error("a loss rate of {0}: a number from 0 to less than 1 is wanted")]
-    Loss(f64),
-    /// There are no such bursts at this loss rate.
-    #[error(
-        "bursts of {burst} ms on average at a loss rate of {loss}: two of them would be less than a tick, {tick} ms, \
-         apart; longer bursts or a lower rate are possible"
-    )]
-    Between {
-        /// The mean length of bursts, in ms.
-        burst: u32,
-        /// The loss rate.
-        loss: f64,
-        /// The grid, in ms.
-        tick: u32,
-    },
-}
+/// Why there can be no such model: what was asked for, and what is wanted instead.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct OddsImpossibility(String);
 
 impl TimeGrid {
     /// The coarsest grid on which the RAM period and this delay are whole and endpoints are not late by more than
@@ -159,8 +97,11 @@ impl OddsSetup {
         burst: Option<Millis>,
         hold: Millis,
     ) -> Result<Self, OddsImpossibility> {
+        let wrong = |why| Err(OddsImpossibility(why));
         if !(1..=FOLLOWERS_MAX).contains(&followers) {
-            return Err(OddsImpossibility::Followers(followers));
+            return wrong(format!(
+                "{followers} followers: a number from 1 to {FOLLOWERS_MAX} is wanted"
+            ));
         }
         let TimeGrid {
             tick: Millis(tick),
@@ -173,29 +114,28 @@ impl OddsSetup {
         // With a tick of a millisecond every timer ends on the grid, and nobody is late.
         let is_late = tick > 1 && tick > delay_max;
         if tick == 0 || is_late || !ram_period.is_multiple_of(tick) || !delay.is_multiple_of(tick) {
-            return Err(OddsImpossibility::Grid {
-                tick,
-                ram_period,
-                delay,
-                delay_max,
-            });
+            return wrong(format!(
+                "a grid of {tick} ms: it must divide ram_period ({ram_period} ms) and the delay ({delay} ms), and be no \
+                 longer than delay_max ({delay_max} ms), by which an endpoint may look at its clock late"
+            ));
         }
         if !(1..=200).contains(&(delay / tick)) {
-            return Err(OddsImpossibility::Delay { delay, tick });
+            return wrong(format!(
+                "a delay of {delay} ms: from 1 to 200 ticks of the grid, {tick} ms, are wanted"
+            ));
         }
         if let Some(Millis(burst)) = burst
             && burst < tick
         {
-            return Err(OddsImpossibility::Burst { burst, tick });
+            return wrong(format!(
+                "bursts of {burst} ms on average: at least a tick of the grid, {tick} ms, is wanted"
+            ));
         }
         let longest = config.t_exec(TaskType::MOVE).0;
         if !(tick..=longest).contains(&hold.0) {
-            let hold = hold.0;
-            return Err(OddsImpossibility::Hold {
-                hold,
-                tick,
-                longest,
-            });
+            return wrong(format!(
+                "a maneuver of {hold}: from a tick, {tick} ms, to its t_exec, {longest} ms, is wanted"
+            ));
         }
         Ok(Self {
             config,
@@ -241,13 +181,19 @@ impl OddsSetup {
     /// # Errors
     /// Why there is none.
     pub fn check_loss(&self, loss: f64) -> Result<(), OddsImpossibility> {
+        let wrong = |why| Err(OddsImpossibility(why));
         if !(0.0..1.0).contains(&loss) {
-            return Err(OddsImpossibility::Loss(loss));
+            return wrong(format!(
+                "a loss rate of {loss}: a number from 0 to less than 1 is wanted"
+            ));
         }
         let tick = self.grid.tick.0;
         match self.burst {
             Some(Millis(burst)) if f64::from(tick) * loss > f64::from(burst) * (1.0 - loss) => {
-                Err(OddsImpossibility::Between { burst, loss, tick })
+                wrong(format!(
+                    "bursts of {burst} ms on average at a loss rate of {loss}: two of them would be less than a tick, \
+                     {tick} ms, apart; longer bursts or a lower rate are possible"
+                ))
             }
             _ => Ok(()),
         }
@@ -317,11 +263,13 @@ mod tests {
         let setup = setup((50, 50), Some(100), 100).unwrap();
         // Two ticks in a burst and one outside of it is the most.
         assert_eq!(setup.check_loss(0.66), Ok(()));
-        assert!(matches!(
-            setup.check_loss(0.67),
-            Err(OddsImpossibility::Between { .. })
-        ));
-        assert_eq!(setup.check_loss(1.0), Err(OddsImpossibility::Loss(1.0)));
-        assert!(setup.check_loss(f64::NAN).is_err());
+        for (loss, cause) in [
+            (0.67, "bursts of 100 ms on average"),
+            (1.0, "a loss rate of 1:"),
+            (f64::NAN, "a loss rate of NaN"),
+        ] {
+            let refused = setup.check_loss(loss).unwrap_err().to_string();
+            assert!(refused.starts_with(cause), "{cause}: {refused}");
+        }
     }
 }

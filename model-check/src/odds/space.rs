@@ -18,9 +18,8 @@ pub(super) struct StageSpace<'a> {
     pub(super) stage: Stage,
     pub(super) model: &'a mut TeamModel,
     states: Numbered<TeamState>,
-    /// Where the ways from each state are in `arcs`, once they are worked out.
-    rows: Vec<Option<(u32, u32)>>,
-    arcs: Vec<Arc>,
+    /// The ways from each state, once they are worked out.
+    arcs: Vec<Option<Box<[Arc]>>>,
     pub(super) chances: ChanceTable,
 }
 
@@ -30,7 +29,6 @@ impl<'a> StageSpace<'a> {
             stage,
             model,
             states: Numbered::default(),
-            rows: Vec::new(),
             arcs: Vec::new(),
             chances: ChanceTable::default(),
         }
@@ -40,8 +38,8 @@ impl<'a> StageSpace<'a> {
         self.states.len()
     }
 
-    pub(super) const fn transitions(&self) -> usize {
-        self.arcs.len()
+    pub(super) fn transitions(&self) -> usize {
+        self.arcs.iter().flatten().map(|arcs| arcs.len()).sum()
     }
 
     pub(super) fn state(&self, number: u32) -> &TeamState {
@@ -59,27 +57,16 @@ impl<'a> StageSpace<'a> {
     /// The number of a state, a new one if it was not seen before. Panics beyond 2^32 states, which fit in no memory.
     pub(super) fn number(&mut self, state: TeamState) -> u32 {
         let number = self.states.add(state);
-        self.rows.resize(self.states.len(), None);
+        self.arcs.resize(self.states.len(), None);
         number
     }
 
     pub(super) fn arcs(&mut self, number: u32) -> &[Arc] {
-        let (start, end) = match self.rows[number as usize] {
-            Some(row) => row,
-            None => self.work_out(number),
-        };
-        &self.arcs[start as usize..end as usize]
-    }
-
-    fn work_out(&mut self, number: u32) -> (u32, u32) {
-        let state = self.state(number).clone();
-        let ways = self.model.ways(self.stage, &state);
-        let mut row = self.arcs_of(ways);
-        let start = u32::try_from(self.arcs.len()).expect("fewer than 2^32 transitions");
-        self.arcs.append(&mut row);
-        let end = u32::try_from(self.arcs.len()).expect("fewer than 2^32 transitions");
-        self.rows[number as usize] = Some((start, end));
-        (start, end)
+        if self.arcs[number as usize].is_none() {
+            let ways = self.model.ways(self.stage, self.states.get(number));
+            self.arcs[number as usize] = Some(self.arcs_of(ways).into());
+        }
+        self.arcs[number as usize].as_deref().unwrap_or_default()
     }
 
     fn arcs_of(&mut self, ways: Ways) -> Vec<Arc> {
