@@ -5,12 +5,12 @@ use crossguard_protocol::{
     TaskNames, TaskSet, TaskType, Urgency,
 };
 use serde::Deserialize;
+use toml::Spanned;
 
 use super::location::{Location, Wrong};
-use super::symmetric::SymmetryClaim;
 use super::{
     Bounds, ChannelSetup, MAX_COOPERATIVE_ROBOTS, MAX_ROBOTS, PSEUDONYM_STEP, RobotSetup, Scenario,
-    ScenarioError, Size, lies, monotone,
+    ScenarioError, Size, lies, monotone, symmetric,
 };
 use crate::network::MAX_DELAYED;
 use crate::properties::{PropertyId, listed};
@@ -19,33 +19,33 @@ use crate::timed::{Section, no_place_for};
 /// The file's form of a scenario.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+pub(super) struct File {
     name: String,
     summary: String,
-    robots: Vec<RobotSetup>,
+    pub(super) robots: Vec<RobotSetup>,
     #[serde(default)]
-    symmetric: Vec<toml::Spanned<StationId>>,
-    request: Request,
-    bounds: Bounds,
+    pub(super) symmetric: Vec<Spanned<StationId>>,
+    pub(super) request: Request,
+    pub(super) bounds: Bounds,
     #[serde(default)]
     corridor: bool,
     #[serde(default)]
-    cooperative: bool,
-    channel: ChannelSetup,
+    pub(super) cooperative: bool,
+    pub(super) channel: ChannelSetup,
     #[serde(default, with = "SettingsInFiles")]
     protocol: Settings,
-    timed: Option<Section>,
-    properties: Vec<toml::Spanned<String>>,
+    pub(super) timed: Option<Section>,
+    properties: Vec<Spanned<String>>,
     expected: Option<Size>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Request {
+pub(super) struct Request {
     #[serde(default)]
     urgency: Urgency,
-    followers: toml::Spanned<u8>,
-    tasks: Vec<toml::Spanned<String>>,
+    pub(super) followers: Spanned<u8>,
+    tasks: Vec<Spanned<String>>,
     #[serde(default)]
     place: crossguard_protocol::Place,
 }
@@ -78,7 +78,7 @@ impl File {
             return Err(Wrong::key("robots", cause));
         }
         self.check_robots()?;
-        let of_runs = |name: &toml::Spanned<String>| {
+        let of_runs = |name: &Spanned<String>| {
             let id = name.get_ref().parse::<PropertyId>();
             id.is_ok_and(|id| id.liveness_rule().is_some())
         };
@@ -95,19 +95,9 @@ impl File {
                 format!("{delayed} messages delayed at a time: at most {MAX_DELAYED} are possible");
             return Err(Wrong::key("delayed", cause));
         }
-        monotone::check(
-            self.channel,
-            self.bounds,
-            self.cooperative,
-            &self.properties,
-        )?;
-        let others = [
-            ("monotone", self.channel.monotone),
-            ("symmetric", !self.symmetric.is_empty()),
-            ("timed", self.timed.is_some()),
-            ("cooperative", self.cooperative),
-        ];
-        lies::check(&self.robots, others)?;
+        monotone::check(&self)?;
+        lies::check(&self)?;
+        symmetric::check(&self)?;
         let request = self.request.check()?;
         let mut settings = self.protocol;
         if self.timed.is_none() {
@@ -117,14 +107,6 @@ impl File {
         }
         let config = Config::new(settings)
             .map_err(|broken| Wrong::key(key_of(broken.0), broken.to_string()))?;
-        let claim = SymmetryClaim {
-            robots: &self.robots,
-            followers: request.followers,
-            bounds: self.bounds,
-            is_timed: self.timed.is_some(),
-            properties: &self.properties,
-        };
-        let symmetric = claim.check(&self.symmetric)?;
         let mut timed = None;
         if let Some(section) = self.timed {
             let checked = section.check(config.settings(), &self.robots, self.bounds, self.channel);
@@ -145,7 +127,11 @@ impl File {
             name: self.name,
             summary: self.summary,
             robots: self.robots,
-            symmetric,
+            symmetric: self
+                .symmetric
+                .into_iter()
+                .map(Spanned::into_inner)
+                .collect(),
             request,
             bounds: self.bounds,
             corridor: self.corridor,
@@ -156,6 +142,15 @@ impl File {
             properties,
             expected: self.expected,
         })
+    }
+
+    /// Refuses the first of its properties that there is a cause against.
+    pub(super) fn refuse(&self, cause: impl Fn(PropertyId) -> Option<String>) -> Result<(), Wrong> {
+        let wrong = |name: &Spanned<String>| {
+            let cause = cause(name.get_ref().parse().ok()?)?;
+            Some(Wrong::new(Location::Offset(name.span().start), cause))
+        };
+        self.properties.iter().find_map(wrong).map_or(Ok(()), Err)
     }
 
     /// Whether the robots can be told apart, and one of them starts a run.
@@ -220,10 +215,10 @@ fn timed_property(name: &str) -> Result<PropertyId, String> {
 }
 
 fn all_named(
-    names: &[toml::Spanned<String>],
+    names: &[Spanned<String>],
     parse: impl Fn(&str) -> Result<PropertyId, String>,
 ) -> Result<Vec<PropertyId>, Wrong> {
-    let property = |name: &toml::Spanned<String>| {
+    let property = |name: &Spanned<String>| {
         let at = Location::Offset(name.span().start);
         parse(name.get_ref()).map_err(|cause| Wrong::new(at, cause))
     };

@@ -3,8 +3,8 @@
 use crossguard_protocol::{Coordination, Farewell, Rmcm};
 use serde::{Deserialize, Serialize};
 
+use super::file::File;
 use super::location::Wrong;
-use super::setup::RobotSetup;
 use crate::network::Message;
 
 /// Part of a liar in a session.
@@ -45,14 +45,15 @@ impl LyingPart {
     }
 }
 
-pub(super) fn check(robots: &[RobotSetup], others: [(&'static str, bool); 4]) -> Result<(), Wrong> {
-    const WHY: [&str; 4] = [
-        "an insider says again whatever it has said, so its own messages need no such channel",
-        "it is not modelled who is who among robots to which a liar says different things",
-        "the timed model has no insiders",
-        "nothing is assumed of an insider, so nothing comes of cooperation",
+pub(super) fn check(file: &File) -> Result<(), Wrong> {
+    #[rustfmt::skip]
+    let others = [
+        ("monotone", file.channel.monotone, "an insider says again whatever it has said, so its own messages need no such channel"),
+        ("symmetric", !file.symmetric.is_empty(), "it is not modelled who is who among robots to which a liar says different things"),
+        ("timed", file.timed.is_some(), "the timed model has no insiders"),
+        ("cooperative", file.cooperative, "nothing is assumed of an insider, so nothing comes of cooperation"),
     ];
-    let mut liars = robots.iter().filter(|robot| robot.lies.is_some());
+    let mut liars = file.robots.iter().filter(|robot| robot.lies.is_some());
     if let Some(detects) = liars.clone().find(|robot| robot.detects) {
         let station = detects.station;
         let cause = format!(
@@ -60,13 +61,12 @@ pub(super) fn check(robots: &[RobotSetup], others: [(&'static str, bool); 4]) ->
         );
         return Err(Wrong::key("detects", cause));
     }
-    if liars.clone().count() == robots.len() {
+    if liars.clone().count() == file.robots.len() {
         return Err(Wrong::key("lies", "all robots lie: at least one must not"));
     }
     if liars.next().is_some()
-        && let Some(at) = others.iter().position(|(_, is_set)| *is_set)
+        && let Some((key, _, why)) = others.into_iter().find(|(_, is_set, _)| *is_set)
     {
-        let (key, why) = (others[at].0, WHY[at]);
         let cause = format!("'{key}' and robots that lie exclude each other: {why}");
         return Err(Wrong::key(key, cause));
     }

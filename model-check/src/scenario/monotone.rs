@@ -1,17 +1,10 @@
 //! Whether a scenario fits a monotone channel; [`monotone`](crate::monotone) says what that is.
 
-use toml::Spanned;
+use super::file::File;
+use super::location::Wrong;
 
-use super::location::{Location, Wrong};
-use super::setup::{Bounds, ChannelSetup};
-use crate::properties::PropertyId;
-
-pub(super) fn check(
-    channel: ChannelSetup,
-    bounds: Bounds,
-    cooperative: bool,
-    properties: &[Spanned<String>],
-) -> Result<(), Wrong> {
+pub(super) fn check(file: &File) -> Result<(), Wrong> {
+    let (channel, bounds) = (file.channel, file.bounds);
     let for_monotone = [("heartbeats", bounds.heartbeats), ("offers", bounds.offers)];
     if !channel.monotone {
         let set = for_monotone.into_iter().find(|(_, bound)| bound.is_some());
@@ -49,21 +42,17 @@ pub(super) fn check(
         );
         return Err(Wrong::key("monotone", cause));
     }
-    if cooperative {
+    if file.cooperative {
         let cause = "'cooperative = true' assumes that messages arrive; on a monotone channel any may never arrive";
         return Err(Wrong::key("cooperative", cause));
     }
-    for name in properties {
-        if let Ok(id) = name.get_ref().parse::<PropertyId>()
-            && let Some(rule) = id.liveness_rule()
-            && rule.broken_by_old_requests
-        {
-            let cause = format!(
+    file.refuse(|id| {
+        let rule = id.liveness_rule()?;
+        rule.broken_by_old_requests.then(|| {
+            format!(
                 "{id} does not hold of a monotone channel: old requests that arrive again and again make robots \
                  offer for ever; leave it out"
-            );
-            return Err(Wrong::new(Location::Offset(name.span().start), cause));
-        }
-    }
-    Ok(())
+            )
+        })
+    })
 }
