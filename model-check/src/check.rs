@@ -307,7 +307,14 @@ pub fn assumptions(scenario: &Scenario, compared: String) -> Vec<String> {
         },
         format!("commands are repeated at most {} times", scenario.config.settings().n_ack),
         "all robots are equally far apart, and know all tasks that are asked for".to_owned(),
-        receivers(scenario),
+        format!(
+            "of the receivers of one message that is not delayed, {}",
+            if scenario.symmetric.is_empty() {
+                "the ones listed first hear it first"
+            } else {
+                "any may hear it first"
+            }
+        ),
         "a crash stops the robot's body; station ids and boot counters survive it".to_owned(),
         "applications are truthful: a body is where they say that it is, a guard finishes, the road is \
          clear and the task is done only when no pedestrian is on the road"
@@ -360,16 +367,6 @@ pub fn assumptions(scenario: &Scenario, compared: String) -> Vec<String> {
         );
     }
     assumptions
-}
-
-/// Which receiver hears a message first.
-fn receivers(scenario: &Scenario) -> String {
-    let order = if scenario.symmetric.is_empty() {
-        "the ones listed first hear it first"
-    } else {
-        "any may hear it first"
-    };
-    format!("of the receivers of one message that is not delayed, {order}")
 }
 
 /// Whether a state keeps the property of this number. stateright wants a plain function for each.

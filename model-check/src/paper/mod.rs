@@ -130,12 +130,10 @@ struct Transition {
 
 /// Result of stateright's full exploration of one cast.
 struct Exploration {
-    unique_states: usize,
+    size: Size,
     transitions: usize,
-    depth: usize,
-    is_p0_broken: bool,
-    is_wait_endless: bool,
-    is_crossing_found: bool,
+    /// The ids of the broken properties, and of the premises that are met.
+    found: Vec<&'static str>,
 }
 
 /// Explores the model of the paper's wording.
@@ -146,50 +144,38 @@ pub fn check() -> ScenarioReport {
     let start = Instant::now();
     let explored = [explore(PAIR), explore(CURRENT), explore(TRIO)];
     let found = counterexamples();
-    let is_found = |what: fn(&Exploration) -> bool| explored.iter().any(what);
-    let is_p0_broken = is_found(|e| e.is_p0_broken);
-    let is_wait_endless = is_found(|e| e.is_wait_endless);
+    let is_found = |id: &str| explored.iter().any(|it| it.found.contains(&id));
     let sum = |count: fn(&Exploration) -> usize| explored.iter().map(count).sum();
-    let holds = |id, kind, is_broken, statement| {
-        let verdict = CheckVerdict::of_property(is_broken, None);
-        PropertyReport::plain(id, kind, verdict, statement)
-    };
-    let is_crossed = CheckVerdict::of_premise(is_found(|e| e.is_crossing_found), None);
     // P0 and its premise, since the model is not one in which anything can happen, or nothing; and P10.
-    let mut properties = vec![
-        holds(
-            model::HOLDS,
-            "S",
-            is_p0_broken,
-            "a follower starts only what its leader commanded it",
-        ),
-        PropertyReport::plain(
-            model::PREMISE,
-            "premise",
-            is_crossed,
-            "a crossing of two maneuvers goes well, and all robots are idle again",
-        ),
-        holds(
-            model::CLOSED,
-            "L",
-            is_wait_endless,
-            "no leader waits for ever for a follower that is there and follows it",
-        ),
+    #[rustfmt::skip]
+    let holds = [
+        (model::HOLDS, "S", "a follower starts only what its leader commanded it"),
+        (model::PREMISE, "premise", "a crossing of two maneuvers goes well, and all robots are idle again"),
+        (model::CLOSED, "L", "no leader waits for ever for a follower that is there and follows it"),
     ];
-    properties.extend(Hazard::ALL.map(|hazard| must_fail_report(hazard, &found)));
+    let holds = holds.map(|(id, kind, statement)| {
+        let verdict = if id == model::PREMISE {
+            CheckVerdict::of_premise(is_found(id), None)
+        } else {
+            CheckVerdict::of_property(is_found(id), None)
+        };
+        PropertyReport::plain(id, kind, verdict, statement)
+    });
+    let must_fail = Hazard::ALL.map(|hazard| must_fail_report(hazard, &found));
     // Every cast is a beginning of this one.
     let robots = TEAMS.names.iter().map(|&name| name.to_owned()).collect();
     let size = Size {
-        unique_states: sum(|e| e.unique_states),
-        depth: explored.iter().map(|e| e.depth).max().unwrap_or(0),
+        unique_states: sum(|it| it.size.unique_states),
+        depth: explored.iter().map(|it| it.size.depth).max().unwrap_or(0),
     };
     // stateright stops when it has found all there is to be found.
-    let cut_off = (is_p0_broken || is_wait_endless).then_some(CutOff::FoundBroken);
+    let is_broken = is_found(model::HOLDS) || is_found(model::CLOSED);
+    let cut_off = is_broken.then_some(CutOff::FoundBroken);
     ScenarioReport {
-        transitions: sum(|e| e.transitions),
+        transitions: sum(|it| it.transitions),
         seconds: start.elapsed().as_secs_f64(),
         engines: vec![crate::report::STATERIGHT],
-        properties,
+        properties: holds.into_iter().chain(must_fail).collect(),
         assumptions: assumptions(),
         ..ScenarioReport::of(NAME, SUMMARY, robots, size, cut_off)
     }
@@ -263,13 +249,13 @@ fn explore(cast: Cast) -> Exploration {
     };
     let checker = question.checker().spawn_bfs().join();
     Exploration {
-        unique_states: checker.unique_state_count(),
+        size: Size {
+            unique_states: checker.unique_state_count(),
+            depth: steps(&checker),
+        },
         // stateright counts the initial state.
         transitions: checker.state_count() - 1,
-        depth: steps(&checker),
-        is_p0_broken: checker.discovery(model::HOLDS).is_some(),
-        is_wait_endless: checker.discovery(model::CLOSED).is_some(),
-        is_crossing_found: checker.discovery(model::PREMISE).is_some(),
+        found: checker.discoveries().into_keys().collect(),
     }
 }
 
