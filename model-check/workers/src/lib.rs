@@ -51,7 +51,7 @@ use crossguard_model_check::scenario::Scenario;
 
 pub use connect::ConnectError;
 use explorer::{Common, Counters};
-pub use hosts::{Cluster, Hosts, HostsError};
+pub use hosts::{Cluster, HostsError};
 pub use report::{Progress, WorkersReport};
 pub use table::FINGERPRINT_BITS;
 
@@ -88,25 +88,9 @@ impl Default for Options {
 /// Why there is no report.
 #[derive(Debug, thiserror::Error)]
 pub enum WorkersError {
-    /// The scenario is a timed one.
-    #[error(
-        "'{name}' is a timed scenario, which workers cannot explore: leave --workers and --hosts out"
-    )]
-    Timed {
-        /// Its name.
-        name: String,
-    },
-    /// The scenario asks for nothing that states and steps show.
-    #[error(
-        "'{name}' asks for {properties} alone, which need the graph of all states and are not judged with workers: leave \
-         --workers and --hosts out"
-    )]
-    NothingToJudge {
-        /// Its name.
-        name: String,
-        /// The properties.
-        properties: String,
-    },
+    /// The scenario is a timed one, or asks for nothing that states and steps show.
+    #[error("{0}: leave --workers and --hosts out")]
+    NotForWorkers(String),
     /// The processes did not come together.
     #[error(transparent)]
     Connect(#[from] ConnectError),
@@ -159,16 +143,20 @@ pub fn check(
 
 /// The properties of the scenario that states and steps show.
 fn judged(scenario: &Scenario) -> Result<Vec<PropertyId>, WorkersError> {
-    let name = scenario.name.clone();
+    let name = &scenario.name;
     if scenario.timed.is_some() {
-        return Err(WorkersError::Timed { name });
+        return Err(WorkersError::NotForWorkers(format!(
+            "'{name}' is a timed scenario, which workers cannot explore"
+        )));
     }
     let properties = scenario.properties.iter().copied();
     let judged: Vec<_> = properties.filter(|id| id.is_of_states_or_steps()).collect();
     if judged.is_empty() {
         let properties: Vec<_> = scenario.properties.iter().map(|id| id.name()).collect();
-        let properties = properties.join(", ");
-        return Err(WorkersError::NothingToJudge { name, properties });
+        return Err(WorkersError::NotForWorkers(format!(
+            "'{name}' asks for {} alone, which need the graph of all states and are not judged with workers",
+            properties.join(", ")
+        )));
     }
     Ok(judged)
 }

@@ -22,12 +22,6 @@ use crate::hosts::Cluster;
 use crate::report::Progress;
 use crate::{Options, WorkersError};
 
-struct Setup {
-    builders: Vec<AllocatorBuilder>,
-    others: Box<dyn Any + Send>,
-    streams: Vec<TcpStream>,
-}
-
 /// How long the others may take to say what they have found, once the time is over or somebody asked to stop. One that
 /// is held up keeps its connections.
 const GRACE: Duration = Duration::from_secs(20);
@@ -45,11 +39,7 @@ pub(crate) fn run(
     watch: &mut dyn FnMut(Progress),
 ) -> Result<Outcome, WorkersError> {
     keep_last_words();
-    let Setup {
-        builders,
-        others,
-        streams,
-    } = set_up(common, options)?;
+    let (builders, others, streams) = set_up(common, options)?;
     let ended = Arc::new(AtomicUsize::new(0));
     let (tell, told) = channel();
     let (working, ends) = (Arc::clone(common), Arc::clone(&ended));
@@ -108,6 +98,9 @@ fn lost_because() -> WorkersError {
     WorkersError::Lost(words.unwrap_or_else(|| "a worker ended early".to_owned()))
 }
 
+/// How the workers speak with each other, what else lives as long as they do, and the streams to other processes.
+type Setup = (Vec<AllocatorBuilder>, Box<dyn Any + Send>, Vec<TcpStream>);
+
 fn set_up(common: &Common, options: &Options) -> Result<Setup, WorkersError> {
     let threads = options.workers.get();
     let Some(cluster) = &options.cluster else {
@@ -116,11 +109,7 @@ fn set_up(common: &Common, options: &Options) -> Result<Setup, WorkersError> {
             _ => Config::Process(threads),
         };
         let (builders, others) = config.try_build().map_err(WorkersError::Start)?;
-        return Ok(Setup {
-            builders,
-            others,
-            streams: Vec::new(),
-        });
+        return Ok((builders, others, Vec::new()));
     };
     let cannot = |cause: std::io::Error| WorkersError::Start(cause.to_string());
     let sockets = connect(cluster, digest(common, options), options.patience)?;
@@ -131,11 +120,8 @@ fn set_up(common: &Common, options: &Options) -> Result<Setup, WorkersError> {
     let (builders, guard) =
         initialize_networking_from_sockets(of_threads, sockets, cluster.process, threads, hooks)
             .map_err(cannot)?;
-    Ok(Setup {
-        builders: builders.into_iter().map(AllocatorBuilder::Tcp).collect(),
-        others: Box::new(guard),
-        streams,
-    })
+    let builders = builders.into_iter().map(AllocatorBuilder::Tcp).collect();
+    Ok((builders, Box::new(guard), streams))
 }
 
 /// Digest of the data that must be the same in all processes: scenario, program, numbers of workers, and limits.

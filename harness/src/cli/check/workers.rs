@@ -8,7 +8,7 @@ use crossguard_model_check::model::Model;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::subject::Subject;
 use crossguard_robot::files;
-use crossguard_workers::{Cluster, Hosts, Options, Progress, WorkersError, WorkersReport, check};
+use crossguard_workers::{Cluster, Options, Progress, WorkersError, WorkersReport, check};
 use indicatif::{HumanBytes, HumanCount, HumanFloatCount};
 
 use super::super::interrupts::stop_when_told;
@@ -21,7 +21,7 @@ impl WorkersArguments {
             return Ok(None);
         };
         let text = files::text(hosts, files::TEXT_MAX).map_err(Failure::at(hosts))?;
-        let cluster = Hosts::parse(&text).and_then(|hosts| hosts.process(process));
+        let cluster = Cluster::parse(&text, process);
         cluster.map(Some).map_err(Failure::input)
     }
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use crossguard_model_check::model::Model;
 use crossguard_testkit::ports::free_ports;
-use crossguard_workers::{Hosts, Options, WorkersError, WorkersReport, check};
+use crossguard_workers::{Cluster, Options, WorkersError, WorkersReport, check};
 
 /// Options for this number of workers.
 pub(crate) fn workers(number: usize) -> Options {
@@ -18,13 +18,11 @@ pub(crate) fn workers(number: usize) -> Options {
 }
 
 /// Hosts on this machine that are free just now.
-pub(crate) fn hosts(number: usize) -> Hosts {
+pub(crate) fn hosts(number: usize) -> String {
     let ports = u16::try_from(number).unwrap();
     let first = free_ports(ports);
-    let lines: Vec<_> = (first..first + ports)
-        .map(|port| format!("127.0.0.1:{port}"))
-        .collect();
-    Hosts::parse(&lines.join("\n")).unwrap()
+    let lines = (first..first + ports).map(|port| format!("127.0.0.1:{port}"));
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// Reports of some processes, with this number of workers each.
@@ -38,7 +36,7 @@ pub(crate) fn by_processes(
         let running: Vec<_> = (0..processes)
             .map(|process| {
                 let options = Options {
-                    cluster: Some(hosts.clone().process(process).unwrap()),
+                    cluster: Some(Cluster::parse(&hosts, process).unwrap()),
                     ..workers(number)
                 };
                 scope.spawn(move || check(&model(), &options, &mut |_| ()))
