@@ -1,22 +1,23 @@
 //! An insider: a station with a certificate, if robots have one, that says anything in its own name.
 //!
-//! It knows the state of each robot that it speaks to, and mostly says what that robot does not ignore. Its messages are
-//! made by an endpoint as real robots have it, around a robot that is whatever the insider wants to be.
+//! It knows the state of each robot that it speaks to, and mostly says what that robot does not ignore. Its packets are those of
+//! a robot: the same codec, stack and signature.
 
-use std::cell::Cell;
 use std::rc::Rc;
 
-use crossguard_codec::{Identifiers, RobotState};
+use crossguard_codec::geonet::{EgoPosition, Stack};
+use crossguard_codec::si::generation_delta_time;
+use crossguard_codec::{
+    ExecutionStatus, Identifiers, Message as Pdu, RobotState, Service, TaskParameters, ram_from,
+    rmcm_from_answer, rmcm_from_commands,
+};
 use crossguard_endpoint::station::Security;
-use crossguard_endpoint::{Effect, Endpoint, Moment, Stimulus};
 use crossguard_model_check::network::{Message, concerns};
 use crossguard_model_check::scenario::LyingPart;
 use crossguard_model_check::utterances::Utterances;
 use crossguard_protocol::{
-    Config, Confirmation, Contact, Coordination, Corridor, Countdown, Event, Following, Heartbeat,
-    HelpRequest, Identity, Input, Job, Leading, Lease, List, Member, OfferNumber, Offering, Output,
-    Outputs, Phase, Ram, RequestId, Requesting, Robot, SessionNumber, StandingFarewell,
-    StateMachine, StationId, TaskSet, TaskType, UniqueNumber,
+    Availability, Config, Coordination, Following, Heartbeat, HelpRequest, Leading, OfferNumber,
+    Phase, RequestId, Rmcm, Robot, SessionNumber, StationId, UniqueNumber,
 };
 use crossguard_robot::site::{Place, Site};
 use rand::seq::IndexedRandom;
@@ -65,139 +66,10 @@ impl Swarm {
     }
 }
 
-/// A robot that is whatever it says.
-#[derive(Debug)]
-struct Mask {
-    robot: Robot,
-    next: Rc<Cell<Option<Message>>>,
-}
-
-impl StateMachine for Mask {
-    fn robot(&self) -> &Robot {
-        &self.robot
-    }
-
-    fn step(&mut self, _: &Config, _: Input) -> Outputs {
-        let said = self.next.take().map(|message| match message {
-            Message::Ram(ram) => {
-                self.robot = wearing(&ram);
-                Output::SendRam
-            }
-            Message::Rmcm(rmcm) => Output::SendRmcm(rmcm),
-        });
-        said.into_iter().collect()
-    }
-}
-
-/// A robot whose RAM says this. It keeps its pseudonym.
-fn wearing(ram: &Ram) -> Robot {
-    let phase = phase_of(ram);
-    let left = Countdown::OFF;
-    let farewell = ram
-        .farewell
-        .map(|farewell| StandingFarewell { farewell, left });
-    let known = || -> serde_json::Result<Robot> {
-        let mut state = serde_json::to_value(Robot::new(ram.station, BOOT))?;
-        state["phase"] = serde_json::to_value(&phase)?;
-        state["farewell"] = serde_json::to_value(farewell)?;
-        state["identity"] = serde_json::to_value(Identity::Locked(left))?;
-        serde_json::from_value(state)
-    };
-    known().expect("a robot is its own values")
-}
-
-fn phase_of(ram: &Ram) -> Phase {
-    let off = Countdown::OFF;
-    match ram.coordination {
-        Coordination::None => Phase::Idle,
-        Coordination::NeedHelp {
-            number,
-            heartbeat,
-            request,
-        } => Phase::Requesting(Requesting {
-            number,
-            request,
-            heartbeat,
-            rival: None,
-            offers: List::EMPTY,
-            help: off,
-            selection: off,
-        }),
-        Coordination::OfferHelp {
-            session,
-            offer,
-            capabilities,
-            echo,
-            t_safety,
-        } => Phase::Offering(Offering {
-            session,
-            number: offer,
-            capabilities,
-            heard: echo,
-            t_safety,
-            reservation: off,
-        }),
-        Coordination::Leader {
-            number,
-            heartbeat,
-            followers,
-            urgency,
-            place,
-            yields,
-        } => Phase::Leading(Leading {
-            number,
-            request: HelpRequest {
-                urgency,
-                followers: 1,
-                tasks: TaskSet::default(),
-                place,
-            },
-            heartbeat,
-            members: followers.iter().copied().map(member).collect(),
-            corridor: Corridor::Clear,
-            rival: None,
-            yields_to: yields.then_some(ram.station),
-        }),
-        Coordination::Follower {
-            session,
-            echo,
-            last,
-        } => Phase::Following(Following {
-            session,
-            offer: OfferNumber(UniqueNumber {
-                boot: BOOT,
-                count: 0,
-            }),
-            heard: echo,
-            contact: Contact::Fresh(off),
-            job: last.map(|report| Job {
-                request: report.request,
-                task: TaskType::BLOCK,
-                progress: report.progress,
-            }),
-            refused: None,
-            sees_people: false,
-        }),
-    }
-}
-
-const fn member(confirmed: Confirmation) -> Member {
-    Member {
-        station: confirmed.station,
-        offer: confirmed.offer,
-        echoed: None,
-        lease: Lease::Expired(Countdown::OFF),
-        next_request: RequestId(0),
-        outstanding: None,
-        order: None,
-    }
-}
-
 /// The insider of a run.
 pub(super) struct Insider {
     draw: InsiderDraw,
-    next: Rc<Cell<Option<Message>>>,
-    endpoint: Endpoint<Mask>,
+    stack: Stack,
     state: RobotState,
     /// Its newest session or offer.
     count: u16,
@@ -213,21 +85,10 @@ impl Insider {
     pub(super) fn new(draw: &InsiderDraw, seed: u64, site: &Site, security: Security) -> Self {
         let identifiers = Identifiers::default();
         let station = security.station_id(&identifiers, draw.station);
-        let next = Rc::new(Cell::new(None));
-        let robot = wearing(&Ram {
-            station,
-            coordination: Coordination::None,
-            farewell: None,
-            on_duty: false,
-        });
-        let mask = Mask {
-            robot,
-            next: Rc::clone(&next),
-        };
-        let endpoint = Endpoint::new(mask, Config::default(), identifiers, 0);
+        let mut stack = Stack::of_robot(identifiers, station);
+        *stack.envelope_mut() = security.envelope;
         Self {
-            next,
-            endpoint: endpoint.with_security(security),
+            stack,
             state: RobotState {
                 position: site.position(draw.place),
                 ..RobotState::default()
@@ -256,23 +117,40 @@ impl Insider {
         self.draws.random_range(0..robots)
     }
 
-    /// Says something that is meant for this robot; the packets.
+    /// The packet of something that is meant for this robot.
     pub(super) fn lie(
         &mut self,
-        moment: Moment,
+        timestamp_its: u64,
         hearer: &Robot,
         config: &Config,
         request: HelpRequest,
-    ) -> Vec<Rc<[u8]>> {
-        let chosen = self.choose(hearer, config, request);
-        self.next.set(chosen);
-        let said = Stimulus::Event(Event::AllAnswered);
-        let effects = self.endpoint.handle(moment, &self.state, said);
-        let packets = effects.into_iter().filter_map(|effect| match effect {
-            Effect::Transmit { packet, .. } => Some(Rc::from(packet.as_slice())),
-            _ => None,
-        });
-        packets.collect()
+    ) -> Option<Rc<[u8]>> {
+        let said = self.choose(hearer, config, request)?;
+        let (ids, state) = (Identifiers::default(), &self.state);
+        let time = generation_delta_time(timestamp_its);
+        let (service, pdu) = match said {
+            Message::Ram(ram) => {
+                let ram = ram_from(&ids, state, &ram, Availability::Available, time, true);
+                (Service::Ram, ram.map(Pdu::Ram))
+            }
+            Message::Rmcm(Rmcm::Command(command)) => {
+                let commands = [(command, TaskParameters::default())];
+                let rmcm = rmcm_from_commands(&ids, &state.position, &commands, time);
+                (Service::Rmcm, rmcm.map(Pdu::Rmcm))
+            }
+            Message::Rmcm(Rmcm::Answer(answer)) => {
+                let status = ExecutionStatus {
+                    progression: state.task_progression,
+                    time_to_completion: None,
+                };
+                let rmcm = rmcm_from_answer(&ids, &state.position, &answer, status, time);
+                (Service::Rmcm, rmcm.map(Pdu::Rmcm))
+            }
+        };
+        let octets = pdu.ok()?.encode(&ids).ok()?;
+        let ego = EgoPosition::of(state, timestamp_its);
+        let packet = self.stack.packet(&ego, service, &octets).ok()?;
+        Some(Rc::from(packet))
     }
 
     /// Something of its part that the robot does not ignore, or now and then anything.

@@ -2,9 +2,8 @@
 
 use std::rc::Rc;
 
-use crossguard_endpoint::Moment;
 use crossguard_endpoint::station::Security;
-use crossguard_protocol::{Phase, StationId};
+use crossguard_protocol::StationId;
 
 use super::{Next, World, timestamp_at};
 use crate::sim::insider::Insider;
@@ -43,13 +42,9 @@ impl World<'_> {
     fn say(&mut self, insider: &mut Insider) {
         let seat = &self.seats[insider.hearer(self.seats.len())];
         let Some(machine) = &seat.machine else { return };
-        let moment = Moment {
-            now_ms: self.now_us / 1_000,
-            timestamp_its: timestamp_at(self.now_us / 1_000),
-        };
+        let time = timestamp_at(self.now_us / 1_000);
         let (hearer, request) = (machine.endpoint.robot(), seat.draw.plan.request());
-        let packets = insider.lie(moment, hearer, &seat.draw.config, request);
-        for packet in packets {
+        if let Some(packet) = insider.lie(time, hearer, &seat.draw.config, request) {
             self.spread(&packet);
         }
     }
@@ -65,12 +60,9 @@ impl World<'_> {
     /// How many followers of the leader of a session are the insider: 1 or none.
     pub(super) fn liars_among(&self, leader: usize) -> usize {
         let insider = self.insider.as_ref().map(Insider::station);
-        let leads = self.monitor.node(leader).robot.as_ref();
-        let is_member = leads.is_some_and(|robot| match robot.phase() {
-            Phase::Leading(leading) => insider.is_some_and(|it| leading.member(it).is_some()),
-            _ => false,
-        });
-        usize::from(is_member)
+        let leading = self.monitor.node(leader).leading();
+        let is_member = |it| leading.is_some_and(|leading| leading.member(it).is_some());
+        usize::from(insider.is_some_and(is_member))
     }
 
     /// Whether this station is the insider.
