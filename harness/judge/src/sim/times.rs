@@ -312,12 +312,9 @@ impl Times {
 
 /// Matters that a robot has opened itself: a request without roles, and commands that are not acknowledged.
 fn opened_by(node: &Node) -> Vec<Open> {
-    let Some(robot) = &node.robot else {
-        return Vec::new();
-    };
-    match (robot.phase(), robot.session()) {
-        (Phase::Requesting(requesting), _) => vec![Open::Request(requesting.number)],
-        (Phase::Leading(leading), Some(session)) => {
+    match (node.phase(), node.session()) {
+        (Some(Phase::Requesting(requesting)), _) => vec![Open::Request(requesting.number)],
+        (Some(Phase::Leading(leading)), Some(session)) => {
             let members = leading.members.iter();
             let of = |station, request| Open::Command(session, station, request);
             members
@@ -329,13 +326,10 @@ fn opened_by(node: &Node) -> Vec<Open> {
 }
 
 fn led_by(node: &Node) -> Option<SessionId> {
-    let robot = node.robot.as_ref()?;
-    matches!(robot.phase(), Phase::Leading(_)).then(|| robot.session())?
+    node.leading().and(node.session())
 }
 
 fn is_following(node: &Node, session: SessionId) -> bool {
-    let robot = node.robot.as_ref();
-    robot.is_some_and(|robot| {
-        matches!(robot.phase(), Phase::Following(following) if following.session == session)
-    })
+    node.following()
+        .is_some_and(|following| following.session == session)
 }

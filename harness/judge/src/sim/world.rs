@@ -416,50 +416,34 @@ impl<'a> World<'a> {
 
     fn take(&mut self, next: Next) -> Result<(), Finding> {
         match next {
-            Next::Happens(i) => self.happen(self.swarm.script[i]),
-            Next::Heals => {
-                self.heal();
-                Ok(())
-            }
-            Next::Arrives(arrival) => self.arrive(arrival),
-            Next::Replays(i) => {
-                self.replay(self.swarm.replays[i]);
-                Ok(())
-            }
-            Next::Lies => {
-                self.lie();
-                Ok(())
-            }
-            Next::Looks(_) if self.swarm.sensing.is_some() => self.walkers_look(),
-            Next::Looks(corner) => self.look(corner),
-            Next::Senses(sensor) => {
-                self.sense(sensor);
-                Ok(())
-            }
-            Next::Sees(place, frame) => self.see_frame(place, frame),
-            Next::Drives(car) => self.drive(car),
-            Next::Flows => self.flows(),
-            Next::Strikes(place) => self.strike(place),
-            Next::Boots(place) => self.boot(place),
-            Next::Notices => self.notice_again(),
-            Next::Wakes(place) => {
+            Next::Happens(i) => self.happen(self.swarm.script[i])?,
+            Next::Heals => self.heal(),
+            Next::Arrives(arrival) => self.arrive(arrival)?,
+            Next::Replays(i) => self.replay(self.swarm.replays[i]),
+            Next::Lies => self.lie(),
+            Next::Looks(_) if self.swarm.sensing.is_some() => self.walkers_look()?,
+            Next::Looks(corner) => self.look(corner)?,
+            Next::Senses(sensor) => self.sense(sensor),
+            Next::Sees(place, frame) => self.see_frame(place, frame)?,
+            Next::Drives(car) => self.drive(car)?,
+            Next::Flows => self.flows()?,
+            Next::Strikes(place) => self.strike(place)?,
+            Next::Boots(place) => self.boot(place)?,
+            Next::Notices => self.notice_again()?,
+            Next::Wakes(place) if self.seats[place].wakes_us == Some(self.now_us) => {
                 let seat = &mut self.seats[place];
-                if seat.wakes_us != Some(self.now_us) {
-                    return Ok(());
-                }
                 seat.wakes_us = None;
-                if seat.hangs_until_us.is_some() {
-                    return Ok(());
+                if seat.hangs_until_us.is_none() {
+                    self.handle(place, Stimulus::Time)?;
                 }
-                self.handle(place, Stimulus::Time)
             }
-            Next::GoesOn(place) => {
-                if self.seats[place].hangs_until_us != Some(self.now_us) {
-                    return Ok(());
-                }
-                self.go_on_after_hanging(place)
+            Next::GoesOn(place) if self.seats[place].hangs_until_us == Some(self.now_us) => {
+                self.go_on_after_hanging(place)?;
             }
+            // Another time was planned since.
+            Next::Wakes(_) | Next::GoesOn(_) => {}
         }
+        Ok(())
     }
 
     /// Whether the sign of a robot shows go.
@@ -563,15 +547,15 @@ impl<'a> World<'a> {
     }
 
     fn too_late(&self, (measure, place): Overdue) -> Finding {
-        self.broken(measure.property(), measure.statement(), place)
+        self.broken((measure.property(), measure.statement()), place)
     }
 
     fn finding(&self, broken: PropertyId, place: usize) -> Finding {
-        self.broken(broken.name(), broken.statement(), place)
+        self.broken((broken.name(), broken.statement()), place)
     }
 
     /// A robot breaks a property now.
-    fn broken(&self, property: &str, statement: &str, place: usize) -> Finding {
+    fn broken(&self, (property, statement): (&str, &str), place: usize) -> Finding {
         Finding {
             property: property.to_owned(),
             statement: statement.to_owned(),

@@ -66,11 +66,8 @@ pub(super) struct Crossing {
     /// The guard that left last by an application's word, and until when a person who saw go may be seen to step on the
     /// road.
     freed: Option<(Left, u64)>,
-    left: usize,
-    held: usize,
-    begun: usize,
-    escorted: usize,
-    stepped: usize,
+    /// How often each property was judged.
+    judged: BTreeMap<&'static str, usize>,
     has_guards: bool,
     may_be_away_ms: u64,
 }
@@ -217,7 +214,7 @@ impl Crossing {
         if !steps || at_us < self.occupied_until_us {
             return Ok(());
         }
-        self.stepped += 1;
+        *self.judged.entry("P9").or_default() += 1;
         before.map_or(Ok(()), |coming| {
             Err(Fault::StepsBeforeVehicle(robot.to_owned(), coming))
         })
@@ -235,7 +232,7 @@ impl Crossing {
         let (Some(vehicles), Some(crossing)) = (vehicles, self.ground.crossing(robot)) else {
             return Ok(());
         };
-        self.begun += 1;
+        *self.judged.entry("P3").or_default() += 1;
         let coming = vehicles.iter().find_map(|it| it.comes(crossing));
         coming.map_or(Ok(()), |coming| {
             Err(Fault::GoBeforeVehicle(robot.to_owned(), coming))
@@ -321,7 +318,9 @@ impl Crossing {
         let (Some(_), None, Some(word)) = (before, guards, word) else {
             return Ok(());
         };
-        self.left += usize::from(self.ground.has_sights);
+        if self.ground.has_sights {
+            *self.judged.entry("P1").or_default() += 1;
+        }
         let left = Left {
             robot: robot.to_owned(),
             word,
@@ -358,7 +357,7 @@ impl Crossing {
             if !guard.holds || !has_place {
                 continue;
             }
-            self.held += 1;
+            *self.judged.entry("P2").or_default() += 1;
             let away_us = at_us.saturating_sub(guard.there_us);
             if away_us > go.may_be_away_us {
                 return Err(Fault::GuardAway {
@@ -423,7 +422,7 @@ impl Crossing {
         let Some(person) = nearest.filter(|_| way > MOVES_MPS * passed_s && passed_s > 0.0) else {
             return Ok(());
         };
-        self.escorted += 1;
+        *self.judged.entry("P4").or_default() += 1;
         let along =
             |axis: usize| (here[axis] - person.at[axis]) * (here[axis] - before[axis]) / way;
         let (ahead_m, may_m) = (
@@ -448,61 +447,52 @@ impl Crossing {
             (true, true) => None,
         };
         let guards = (!self.has_guards).then_some("nobody guarded");
-        let verdict = |id: &str, why: Option<&str>, kept: String| match why {
-            Some(why) => format!("{id} not judged: {why}"),
-            None => format!("{id} kept {kept}"),
-        };
-        let left = (self.left == 0).then_some("no guard left by an application's word");
-        let held =
-            (self.held == 0).then_some("no position of a guard at a place while go was shown");
-        let begun = (self.begun == 0).then_some("go never began with a vehicle in sight");
-        let stepped = (self.stepped == 0)
-            .then_some("no robot with vehicles in sight stepped on an empty road");
-        let escorted =
-            (self.escorted == 0).then_some("no escort moved while it saw somebody on the road");
-        vec![
-            verdict(
+        let rows = [
+            (
                 "P1",
-                people.or(guards).or(left),
-                format!(
-                    "{} times: nobody on the road when a guard left by an application's word",
-                    self.left
-                ),
+                people.or(guards),
+                "no guard left by an application's word",
+                "nobody on the road when a guard left by an application's word".to_owned(),
             ),
-            verdict(
+            (
                 "P2",
-                guards.or(held),
+                guards,
+                "no position of a guard at a place while go was shown",
                 format!(
-                    "{} times: under go, each guard within {TOLERANCE_M} m and its error of its place, or away for less \
-                     than {} ms",
-                    self.held, self.may_be_away_ms
+                    "under go, each guard within {TOLERANCE_M} m and its error of its place, or away for less than {} ms",
+                    self.may_be_away_ms
                 ),
             ),
-            verdict(
+            (
                 "P3",
-                begun,
-                format!(
-                    "{} times: go began with vehicles in sight, and each could stop",
-                    self.begun
-                ),
+                None,
+                "go never began with a vehicle in sight",
+                "go began with vehicles in sight, and each could stop".to_owned(),
             ),
-            verdict(
+            (
                 "P4",
-                people.or(guards).or(escorted),
+                people.or(guards),
+                "no escort moved while it saw somebody on the road",
                 format!(
-                    "{} times: no escort further ahead than {AHEAD_M} m, its error and {STOPS_S} s of its way",
-                    self.escorted
+                    "no escort further ahead than {AHEAD_M} m, its error and {STOPS_S} s of its way"
                 ),
             ),
-            verdict(
+            (
                 "P9",
-                stepped,
-                format!(
-                    "{} times: a robot stepped on the road, and no vehicle in its sight came that could not stop",
-                    self.stepped
-                ),
+                None,
+                "no robot with vehicles in sight stepped on an empty road",
+                "a robot stepped on the road, and no vehicle in its sight came that could not stop"
+                    .to_owned(),
             ),
-        ]
+        ];
+        let verdict = |(id, why, never, kept): (&str, Option<&str>, _, _)| {
+            let times = self.judged.get(id).copied().unwrap_or_default();
+            match why.or((times == 0).then_some(never)) {
+                Some(why) => format!("{id} not judged: {why}"),
+                None => format!("{id} kept {times} times: {kept}"),
+            }
+        };
+        rows.map(verdict).into()
     }
 }
 

@@ -82,10 +82,6 @@ pub(super) struct ObservedBody {
 }
 
 impl World<'_> {
-    fn breaks(&self, (property, statement): Judged, place: usize) -> Finding {
-        self.broken(property, statement, place)
-    }
-
     /// P1, before a step of a robot is taken into account.
     pub(super) fn judge_word(
         &mut self,
@@ -109,14 +105,15 @@ impl World<'_> {
             return Ok(());
         };
         let session = maneuver.id.session;
-        if self.walkers.iter().any(|it| it.session_is(session)) {
+        let walkers = self.walkers.iter();
+        let mut people = walkers.filter(|it| it.session == Some(session)).peekable();
+        if people.peek().is_some() {
             self.met.insert(P1.0);
         }
         // A person who has stepped on the road since the sensors' last chance to show them is not known.
         let seen_us = self.now_us.saturating_sub(self.shows_within_us(place));
-        let mut people = self.walkers.iter().filter(|it| it.session_is(session));
         if people.any(|it| it.is_on_road(self.now_us) && it.is_on_road(seen_us)) {
-            return Err(self.breaks(P1, place));
+            return Err(self.broken(P1, place));
         }
         Ok(())
     }
@@ -140,7 +137,7 @@ impl World<'_> {
         }
         let mut vehicles = self.vehicles_heard(place);
         if vehicles.any(|it| cannot_stop(it, COMFORT)) {
-            return Err(self.breaks(P3, place));
+            return Err(self.broken(P3, place));
         }
         drop(vehicles);
         let asked: Vec<_> = self.vehicles_asked(place).collect();
@@ -148,7 +145,7 @@ impl World<'_> {
             self.met.insert(P10.0);
         }
         if asked.contains(&false) {
-            return Err(self.breaks(P10, place));
+            return Err(self.broken(P10, place));
         }
         Ok(())
     }
@@ -213,7 +210,7 @@ impl World<'_> {
             self.met.insert(P9.0);
         }
         if is_on_road {
-            return Err(self.breaks(P9, place));
+            return Err(self.broken(P9, place));
         }
         Ok(())
     }
@@ -259,7 +256,7 @@ impl World<'_> {
                     for leader in self.road.signs_of(maneuver.id.session) {
                         self.met.insert(P2.0);
                         if now_us - since_us > self.road.leaves_within_us(leader) {
-                            return Err(self.breaks(P2, leader));
+                            return Err(self.broken(P2, leader));
                         }
                     }
                 }
@@ -284,7 +281,7 @@ impl World<'_> {
                     let began_at = *observed.apart_at.get_or_insert(at);
                     let goes_m = 1.0 + 1.5 * self.seats[place].draw.time_scale;
                     if began_at.distance(at) > goes_m {
-                        return Err(self.breaks(P4, place));
+                        return Err(self.broken(P4, place));
                     }
                 }
                 _ => self.seats[place].observed.off_since_us = None,

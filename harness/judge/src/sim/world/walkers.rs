@@ -97,11 +97,6 @@ impl Walker {
         north > KERBS[0] && north < KERBS[1]
     }
 
-    /// Whether they stepped on the road at the sign of this session.
-    pub(super) fn session_is(&self, session: SessionId) -> bool {
-        self.session == Some(session)
-    }
-
     pub(super) fn is_gone(&self, now_us: u64) -> bool {
         !self.waits && self.way.last().is_none_or(|(at_us, _)| *at_us <= now_us)
     }
