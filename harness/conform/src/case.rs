@@ -5,7 +5,6 @@ use crossguard_protocol::StationId;
 
 use crate::bench::{Bench, Terms};
 use crate::exchange::Exchange;
-use crate::perform::Performed;
 use crate::play::Play;
 use crate::subject::{Gone, NotTold, Subject};
 
@@ -108,18 +107,18 @@ pub fn play<S: Subject>(subject: &mut S, table: &Table, plays: &[Play]) -> Resul
     }
     let (mut done, mut stopped) = (0, None);
     for (i, play) in plays.iter().enumerate() {
-        let performed = match bench.perform(*play, i + 1 == plays.len()) {
+        let fits = match bench.perform(*play, i + 1 == plays.len()) {
             Err(Gone::Ended) => {
                 stopped = Some(Stopped::Ended);
                 break;
             }
-            performed => performed?,
+            fits => fits?,
         };
         if let Some(why) = bench.not_told.take() {
             stopped = Some(why.into());
             break;
         }
-        if performed == Performed::OutOfPlace {
+        if !fits {
             let now_ms = bench.subject.now_ms();
             stopped = Some(Stopped::OutOfPlace {
                 situation: bench.exchange.situation_at(now_ms),

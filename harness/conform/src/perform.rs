@@ -14,27 +14,17 @@ use crate::play::{Play, Side};
 use crate::subject::{Gone, Subject};
 use crate::words;
 
-/// Outcome of a play.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Performed {
-    /// It was done.
-    Yes,
-    /// The robot's situation is not one for it.
-    OutOfPlace,
-}
-
 /// How long a robot that does things by itself is waited for, in ms.
 const AWAITED_MS: u64 = 6_000;
 
 impl<S: Subject> Bench<'_, S> {
-    /// Does it, and listens to what comes of it.
-    pub(crate) fn perform(&mut self, play: Play, is_last: bool) -> Result<Performed, Gone> {
+    /// Does it, and listens to what comes of it. Returns `false` where the robot's situation is not one for it.
+    pub(crate) fn perform(&mut self, play: Play, is_last: bool) -> Result<bool, Gone> {
         let begun = self.exchange.seen.len();
         self.note(Happening::Play(play.words()));
-        let performed = self.begin(play)?;
-        if performed == Performed::OutOfPlace {
+        if !self.begin(play)? {
             self.exchange.seen.truncate(begun);
-            return Ok(performed);
+            return Ok(false);
         }
         let soon_ms = self.terms.soon_ms();
         if let Some(span_ms) = play.span_ms(&self.terms) {
@@ -52,7 +42,7 @@ impl<S: Subject> Bench<'_, S> {
                 self.pass(self.terms.ms(|s| s.ram_period) + 50)?;
             }
         }
-        Ok(performed)
+        Ok(true)
     }
 
     /// The robot's newest RAM in words, without the parts that change with every RAM.
@@ -68,22 +58,25 @@ impl<S: Subject> Bench<'_, S> {
         ))
     }
 
-    fn begin(&mut self, play: Play) -> Result<Performed, Gone> {
+    fn begin(&mut self, play: Play) -> Result<bool, Gone> {
         if let Some(local) = play.local(self.terms.players[0]) {
             if !self.can_be_told(play) {
-                return Ok(Performed::OutOfPlace);
+                return Ok(false);
             }
             let before = self.essence();
             if self.tell(local) {
                 let has_changed = |bench: &Self| bench.essence() != before;
                 self.pass_until(AWAITED_MS, has_changed)?;
             }
-            return Ok(Performed::Yes);
+            return Ok(true);
         }
-        let fits = match play {
+        Ok(match play {
             Play::Wait(_) => true,
-            Play::Noise => return self.make_noise(),
-            Play::OwnName => return self.speak_as_the_robot(),
+            Play::Noise => {
+                self.make_noise()?;
+                true
+            }
+            Play::OwnName => self.speak_as_the_robot()?,
             Play::Restart => {
                 self.restart();
                 true
@@ -99,11 +92,6 @@ impl<S: Subject> Bench<'_, S> {
                 Side::Leads | Side::Commands => self.begin_as_leader(play)?,
                 _ => self.begin_as_helper(play)?,
             },
-        };
-        Ok(if fits {
-            Performed::Yes
-        } else {
-            Performed::OutOfPlace
         })
     }
 
@@ -142,20 +130,19 @@ impl<S: Subject> Bench<'_, S> {
     }
 
     /// Octets that are no packet, a packet that is cut off, and one whose message is none.
-    fn make_noise(&mut self) -> Result<Performed, Gone> {
+    fn make_noise(&mut self) -> Result<(), Gone> {
         let packet = self.packet_of(&[0xFF; 40])?;
         self.send_noise("octets that are no packet", &[0x5A; 64])?;
         self.send_noise("a packet that is cut off", &packet[..packet.len() / 2])?;
         self.send_noise("a packet without a message", &packet)?;
-        self.send_noise("an empty datagram", &[])?;
-        Ok(Performed::Yes)
+        self.send_noise("an empty datagram", &[])
     }
 
     /// A RAM under the robot's own name, which ends and leads.
-    fn speak_as_the_robot(&mut self) -> Result<Performed, Gone> {
+    fn speak_as_the_robot(&mut self) -> Result<bool, Gone> {
         let robot = self.exchange.robot;
         let Some(said) = self.said() else {
-            return Ok(Performed::OutOfPlace);
+            return Ok(false);
         };
         let number = said.session().map_or(
             SessionNumber(UniqueNumber { boot: 1, count: 0 }),
@@ -171,6 +158,6 @@ impl<S: Subject> Bench<'_, S> {
             self.send(Player::Ada, RamSeen::of(ram).into())?;
             self.pass(APART_MS)?;
         }
-        Ok(Performed::Yes)
+        Ok(true)
     }
 }
