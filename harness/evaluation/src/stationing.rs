@@ -59,22 +59,30 @@ impl Stationing {
             Some(robots) => robots.len(),
             None => streets.nodes().len() * self.robots_per_intersection,
         };
+        let wrong = |why| Err(StationingError(why));
         let patrols = self.patrol_mps.is_some() && self.dispatch_interval_s.is_none();
         if !(1..=CLOCKWISE.len()).contains(&self.robots_per_intersection) {
-            return Err(StationingError::PerIntersection(
-                self.robots_per_intersection,
+            return wrong(format!(
+                "an intersection takes 1 to 4 robots, one at each corner, not {}",
+                self.robots_per_intersection
             ));
         }
         if let Some(patrol_mps) = self.patrol_mps
             && !(0.1..=5.0).contains(&patrol_mps)
         {
-            return Err(StationingError::Patrol(patrol_mps));
+            return wrong(format!(
+                "a robot walks at 0.1 to 5 m/s, not {patrol_mps} m/s"
+            ));
         }
         if self.robot_site == Site::Center && (self.robots_per_intersection > 1 || patrols) {
-            return Err(StationingError::NoCorner);
+            let why = "several robots at an intersection and robots that walk are at its corners: choose one with --site, like \
+                       south-west";
+            return wrong(why.to_owned());
         }
         if most > room {
-            return Err(StationingError::Room { most, room });
+            return wrong(format!(
+                "there are places for {room} robots, not for {most}"
+            ));
         }
         Ok(())
     }
@@ -157,30 +165,10 @@ impl Stationing {
     }
 }
 
-/// Why robots cannot be so.
-#[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
-pub enum StationingError {
-    /// An intersection has four corners.
-    #[error("an intersection takes 1 to 4 robots, one at each corner, not {0}")]
-    PerIntersection(usize),
-    /// Too slow to be a walk, or too fast.
-    #[error("a robot walks at 0.1 to 5 m/s, not {0} m/s")]
-    Patrol(f64),
-    /// There is one middle, and no way around it.
-    #[error(
-        "several robots at an intersection and robots that walk are at its corners: choose one \
-         with --site, like south-west"
-    )]
-    NoCorner,
-    /// There are more robots than places.
-    #[error("there are places for {room} robots, not for {most}")]
-    Room {
-        /// How many robots there are.
-        most: usize,
-        /// For how many there is room.
-        room: usize,
-    },
-}
+/// Why robots cannot be so, in words.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct StationingError(String);
 
 #[cfg(test)]
 mod tests {
@@ -200,8 +188,8 @@ mod tests {
         assert!(distance_m(one[0].place_at(3.5), [92.1, 92.1]) < 1e-9);
         assert_eq!(stationing.schedules(&grid(), 9, 1_000).len(), 9);
         assert_eq!(stationing.check(&grid(), 9), Ok(()));
-        let room = StationingError::Room { most: 10, room: 9 };
-        assert_eq!(stationing.check(&grid(), 10), Err(room));
+        let refused = stationing.check(&grid(), 10).unwrap_err().to_string();
+        assert_eq!(refused, "there are places for 9 robots, not for 10");
     }
 
     #[test]
@@ -243,7 +231,8 @@ mod tests {
             robots_per_intersection: 2,
             ..Stationing::at(Site::Center)
         };
-        assert_eq!(stationing.check(&grid(), 2), Err(StationingError::NoCorner));
+        let refused = stationing.check(&grid(), 2).unwrap_err().to_string();
+        assert!(refused.contains("at its corners"), "{refused}");
         // But one to another intersection.
         let dispatched = Stationing {
             patrol_mps: Some(1.0),
