@@ -19,6 +19,16 @@ use crate::traffic::{self, Traffic};
 /// How long a robot waits after a call before it calls again.
 const CALL_PERIOD: Millis = Millis(2_000);
 
+/// For how long a person's word that the road is clear counts: it is about the road that they saw.
+const SAID: Millis = Millis(10_000);
+
+/// For how long somebody whom a robot without sensors hears of counts as on the road: until the next report, which may come so much
+/// later (`T_GenVamMax`, TS 103 300-3).
+const REPORTED: Millis = Millis(5_000);
+
+/// [`Crossing::stood`] of a robot that has looked at the carriageway on which it found itself, or was beside it.
+const LOOKED: Millis = Millis(u32::MAX);
+
 /// How far from the carriageway a body stops that waits for vehicles to pass, in centimetres, at most.
 const KERB_CM: u32 = 200;
 
@@ -65,8 +75,8 @@ struct Obligation {
     about: About,
     /// Until then a sign that counts on this robot may still show go.
     wait: Millis,
-    /// Whether a person has said that the road is clear.
-    is_said_clear: bool,
+    /// For how long yet a person's word counts that the road is clear.
+    said_clear: Millis,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -134,8 +144,9 @@ pub struct Crossing<const N: usize = 64> {
     waits: bool,
     /// Whether it was to wait for vehicles at the kerb, and they have not passed.
     is_held_at_kerb: bool,
-    /// For how long it has stood on the carriageway since its start, or since it failed there, without a part; without end once it was
-    /// beside it, or knew that nobody is on it.
+    /// Whether its newest maneuver failed.
+    has_failed: bool,
+    /// For how long it has stood on the carriageway since its start, or since it lost its part there by a failure, until it has [`LOOKED`].
     stood: Millis,
     /// Where its own body is, and how long ago that was measured.
     pose: Option<(Pose, Millis)>,
@@ -194,7 +205,7 @@ impl<const N: usize> Crossing<N> {
                 self.is_person_said = false;
                 self.tracks.resolve(true);
                 if let Some(obligation) = &mut self.obligation {
-                    obligation.is_said_clear = true;
+                    obligation.said_clear = SAID;
                 }
             }
         }
@@ -216,13 +227,12 @@ impl<const N: usize> Crossing<N> {
             Phase::Following(_) => Standing::Following,
             Phase::Idle | Phase::Offering(_) => Standing::Bound,
         };
-        // A robot that failed among people looks as one that has just started, before it leaves the road.
-        if let Phase::Following(following) = robot.phase()
-            && let Some(job) = following.job
-            && matches!(job.progress, Progress::Failed(_))
-        {
+        // A robot that loses its part by a failure looks as one that has just started, before it leaves the road.
+        if self.has_failed && self.standing != Standing::Following {
             self.stood = Millis::ZERO;
         }
+        self.has_failed = matches!(robot.phase(), Phase::Following(following)
+            if following.job.is_some_and(|job| matches!(job.progress, Progress::Failed(_))));
         if was_own && !self.is_own() {
             self.end_call();
             self.lead = None;
@@ -271,7 +281,7 @@ impl<const N: usize> Crossing<N> {
                 About::Duty(_) => setup.t_safety,
                 About::Clearing => Millis::ZERO,
             },
-            is_said_clear: false,
+            said_clear: Millis::ZERO,
         });
         self.hold_count();
     }
@@ -305,6 +315,7 @@ impl<const N: usize> Crossing<N> {
         }
         if let Some(obligation) = &mut self.obligation {
             obligation.wait = obligation.wait.saturating_sub(time);
+            obligation.said_clear = obligation.said_clear.saturating_sub(time);
         }
         if let Some(lead) = &mut self.lead {
             lead.elapse(setup, time);
@@ -317,7 +328,8 @@ impl<const N: usize> Crossing<N> {
         self.guard_corridor(setup, out);
         self.watch_people(setup, out);
         self.watch_task(setup, out);
-        self.leave_road(setup, time, out);
+        self.look(setup, time);
+        self.leave_road(setup, out);
         self.watch_way(setup, out);
         self.watch_road(setup, out);
         self.watch_zone(setup, out);
@@ -340,7 +352,7 @@ impl<const N: usize> Crossing<N> {
         if let Err(why) = self.occupancy.admit(setup, frame) {
             let mut people = frame.sightings.iter();
             if people.any(|it| may_be_on_road(setup, it)) {
-                self.occupy(setup);
+                self.occupy(setup.sensors.linger);
             }
             return out.put(Output::Dropped(why));
         }
@@ -356,7 +368,7 @@ impl<const N: usize> Crossing<N> {
         );
         if is_occupied {
             self.occupancy.owe(setup, frame);
-            self.occupy(setup);
+            self.occupy(setup.sensors.linger);
         } else if frame.age.saturating_add(setup.waiting.step_off) < self.quiet {
             self.occupancy.count(setup, frame);
             // One source that is gone keeps the others from settling; the road may be known to be clear without it.
@@ -413,15 +425,20 @@ impl<const N: usize> Crossing<N> {
             },
         );
         if is_occupied {
-            self.occupy(setup);
+            let linger = setup.sensors.linger;
+            self.occupy(if has_sources {
+                linger
+            } else {
+                linger.max(REPORTED)
+            });
         }
     }
 
-    /// A person is on the road. The word of another one that it is clear was said before this.
-    fn occupy(&mut self, setup: &Setup) {
-        self.occupancy.occupy(setup);
+    /// A person is on the road, and counts as there for so long. The word of another one that it is clear was said before this.
+    fn occupy(&mut self, linger: Millis) {
+        self.occupancy.occupy(linger);
         if let Some(obligation) = &mut self.obligation {
-            obligation.is_said_clear = false;
+            obligation.said_clear = Millis::ZERO;
         }
     }
 
@@ -432,7 +449,7 @@ impl<const N: usize> Crossing<N> {
         }
         let is_beside = |pose: Pose| !setup.ground.may_be_road(pose.at, pose.error_cm.into());
         if self.pose.is_some_and(|(pose, _)| is_beside(pose)) {
-            self.stood = Millis(u32::MAX);
+            self.stood = LOOKED;
         }
         if let Some(place) = setup.plan.as_ref().and_then(|plan| plan.own_place) {
             self.own.learn(setup.position, place, pose, age);
@@ -495,14 +512,11 @@ impl<const N: usize> Crossing<N> {
 
     /// A robot without a part in a session goes home from the carriageway and from the place of its plan, unless it sees
     /// somebody on the road.
-    fn leave_road(&mut self, setup: &Setup, time: Millis, out: &mut Outputs) {
+    fn leave_road(&mut self, setup: &Setup, out: &mut Outputs) {
         let (Some(home), Some((pose, _))) = (setup.home, self.pose) else {
             return;
         };
-        if !self.has_no_part() || setup.ground.is_road(home) {
-            return;
-        }
-        if self.looks_first(setup, time) {
+        if !self.has_no_part() || setup.ground.is_road(home) || self.is_looking() {
             return;
         }
         let is_out = setup.ground.is_road(pose.at) || self.walk.is_some();
@@ -514,19 +528,38 @@ impl<const N: usize> Crossing<N> {
         }
     }
 
-    /// Whether it stays on the carriageway on which it found itself after its start: it may have lost power in the middle of a
-    /// crossing, beside people who count on it. It stays until it knows that nobody is there, and where nothing tells it so, for as
-    /// long as people need who set out by the last sign that counted on it. A robot that stands on a lane for ever helps nobody.
-    fn looks_first(&mut self, setup: &Setup, time: Millis) -> bool {
+    /// It stays on the carriageway on which it found itself after its start: it may have lost power in the middle of a crossing,
+    /// beside people who count on it. It stays until it knows that nobody is there, and where nothing tells it so, for as long as
+    /// people need who set out by the last sign that counted on it. A robot that stands on a lane for ever helps nobody.
+    fn look(&mut self, setup: &Setup, time: Millis) {
+        if self.pose.is_none() || !self.is_looking() {
+            return;
+        }
+        let mut is_over = false;
         if self.stood < setup.t_safety {
             self.occupancy.start_anew();
             self.quiet = Millis::ZERO;
-        } else if self.occupancy.is_clear(setup) {
-            self.stood = Millis(u32::MAX);
+        } else {
+            is_over = self.occupancy.is_clear(setup);
         }
         self.stood = self.stood.saturating_add(time);
         let set_out = setup.t_safety.saturating_add(setup.waiting.step_off);
-        self.stood < set_out.saturating_add(setup.crossing_time())
+        let across = set_out.saturating_add(setup.crossing_time());
+        if is_over || self.stood >= across && !self.tracks.is_on_road() {
+            self.stood = LOOKED;
+        }
+    }
+
+    /// Whether it has not looked yet at the carriageway on which it found itself.
+    fn is_looking(&self) -> bool {
+        self.stood < LOOKED
+    }
+
+    /// Whether its body stays where it found itself on the carriageway, and does not go to a place elsewhere yet.
+    fn is_held_by_look(&self, setup: &Setup, to: Point) -> bool {
+        let tolerance = u32::from(setup.position.tolerance_cm);
+        let is_elsewhere = |(pose, _): (Pose, _)| pose.at.distance_cm(to) > tolerance;
+        self.pose.is_some_and(is_elsewhere) && self.is_looking()
     }
 
     /// Has the body wait on its way, or go on.
@@ -535,13 +568,16 @@ impl<const N: usize> Crossing<N> {
         let to = self.task.map_or(self.walk, |task| task.place);
         let to = to.filter(|_| !self.is_kerbward);
         let is_held = to.is_some_and(|to| self.is_held_by_vehicles(setup, to));
+        let looks = to.is_some_and(|to| self.is_held_by_look(setup, to));
         let is_on_road = |pose: Pose| setup.ground.is_road(pose.at);
         let is_out = self.pose.is_some_and(|(pose, _)| is_on_road(pose));
         self.is_held_at_kerb = is_held && (self.is_held_at_kerb || !is_out);
         let waits = if self.is_kerbward {
             self.is_person_apart(setup)
         } else {
-            is_held || self.task.as_ref().is_some_and(is_escort) && self.is_person_behind(setup)
+            is_held
+                || looks
+                || self.task.as_ref().is_some_and(is_escort) && self.is_person_behind(setup)
         };
         match (self.waits, waits) {
             (false, true) => out.put(Output::Wait),
@@ -780,7 +816,7 @@ impl<const N: usize> Crossing<N> {
             About::Duty(Duty::Crossing(_)) | About::Clearing => false,
         };
         let is_seen_clear = !self.is_person_said && self.occupancy.is_clear(setup);
-        let is_clear = obligation.is_said_clear
+        let is_clear = obligation.said_clear > Millis::ZERO
             || lets_nobody_cross
             || obligation.wait == Millis::ZERO && is_seen_clear;
         if is_clear && !self.is_falling_back {

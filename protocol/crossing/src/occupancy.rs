@@ -163,10 +163,10 @@ impl Occupancy {
         }
     }
 
-    /// A person is on the road.
-    pub(crate) fn occupy(&mut self, setup: &Setup) {
+    /// A person is on the road, and counts as there for so long.
+    pub(crate) fn occupy(&mut self, linger: Millis) {
         self.start_anew();
-        self.seen = setup.sensors.linger;
+        self.seen = self.seen.max(linger);
     }
 
     /// Starts the count anew.

@@ -10,9 +10,10 @@ use crate::whole::*;
 /// The kerb to which it goes.
 const OVER_THERE: Point = Point::new(100, 800);
 
-/// A robot with sensors and the command to go with a person.
+/// A robot with sensors and the command to go with a person, from the kerb.
 fn escort() -> Scene {
     let mut scene = Scene::new(street());
+    scene.is_at(100, -100, 0);
     let maneuver = maneuver(TaskType::MOVE, 0);
     scene.tell(Input::Started(maneuver, Some(OVER_THERE)));
     scene

@@ -1,7 +1,7 @@
 //! Evidence that one station, or one odd frame, takes away.
 
 use crossguard_crossing::*;
-use crossguard_protocol::{Millis, StationId, TaskType};
+use crossguard_protocol::{Event, Millis, StationId, TaskType};
 
 use crate::scene::*;
 use crate::team::Team;
@@ -163,6 +163,30 @@ fn nobody_on_the_road_is_taken_off_it_by_another_station() {
         });
         assert!((0..=250).contains(&ahead), "liar {liar}: {ahead} cm");
     }
+}
+
+/// Hazard: a group of whom some are on the road is heard of every few seconds, and its escort is done in between.
+#[test]
+fn people_of_whom_a_robot_only_hears_are_on_the_road_until_the_next_report() {
+    let mut scene = Scene::new(Setup {
+        watches: false,
+        ..street()
+    });
+    let escort = maneuver(TaskType::MOVE, 1);
+    scene.tell(Input::Started(escort, Some(Point::new(100, 800))));
+    scene.tell(Input::Body(BodyReport::Completed(escort.id)));
+    let group = Sighting {
+        error_cm: 500,
+        ..person(1, 100, -100)
+    };
+    let is_done = |scene: &Scene| scene.told(|it| *it == Event::ManeuverCompleted(escort.id)) > 0;
+    for _ in 0..3 {
+        scene.tell(Input::Heard(WITNESS, group, Millis(0)));
+        scene.pass(4_900);
+        assert!(!is_done(&scene));
+    }
+    scene.pass(100);
+    assert!(is_done(&scene));
 }
 
 /// Hazard: there are five cameras, and the fifth alone has somebody on the road.

@@ -3,7 +3,9 @@
 use std::iter::once;
 
 use crossguard_crossing::*;
-use crossguard_protocol::{Availability, Event, List, Millis, Phase, TaskType, Unavailability};
+use crossguard_protocol::{
+    Availability, Event, List, Millis, Notice, Phase, TaskType, Unavailability,
+};
 
 use crate::scene::*;
 use crate::team::*;
@@ -188,6 +190,46 @@ fn a_robot_that_may_have_booted_on_the_road_by_its_first_position_stays_there_fi
             "{error_cm}"
         );
     }
+}
+
+/// Hazard: a guard loses power in the middle of a crossing, boots on the lane, and is commanded to another place, or leads, at once.
+#[test]
+fn a_robot_that_boots_on_the_road_looks_before_it_has_a_part_elsewhere() {
+    let goes_ms = |starts: Input<'_>, sees: Option<&[Sighting]>| {
+        let mut plan = plan(&[leg(TaskType::BLOCK, POST)]);
+        plan.own_place = Some(POST);
+        let mut scene = Scene::new(Setup {
+            plan: Some(plan),
+            ..street()
+        });
+        scene.is_at(0, 100, 0);
+        scene.tell(starts);
+        (100..=60_000).step_by(100).find(|_| {
+            scene.is_at(0, 100, 0);
+            if let Some(people) = sees {
+                scene.frame(0, 0, 0b11, people);
+            }
+            scene.pass(100);
+            let mut last = scene.out.iter().rev();
+            let last = last.find(|it| matches!(it, Output::Wait | Output::GoOn));
+            last != Some(&Output::Wait)
+        })
+    };
+    let maneuver = maneuver(TaskType::BLOCK, 1);
+    let leads = Notice::RolesEstablished(maneuver.id.session);
+    for starts in [Input::Started(maneuver, Some(POST)), Input::Notice(leads)] {
+        let stays = [person(1, 100, 300)];
+        for (sees, expected) in [
+            (None, Some(18_000)),
+            (Some(&[][..]), Some(4_700)),
+            (Some(&stays[..]), None),
+        ] {
+            assert_eq!(goes_ms(starts, sees), expected, "{starts:?} {sees:?}");
+        }
+    }
+    // It is in its place already.
+    let here = Input::Started(maneuver, Some(Point::new(0, 250)));
+    assert_eq!(goes_ms(here, None), Some(100));
 }
 
 #[test]

@@ -566,6 +566,24 @@ fn a_word_that_somebody_is_seen_after_frees_no_guard() {
     }
 }
 
+/// Hazard: the body takes longer to fall back than the road stays as a person saw it. Somebody has come since, and the guard leaves.
+#[test]
+fn a_word_that_the_road_is_clear_is_about_the_road_as_it_was() {
+    for (ms, is_free) in [(9_000, true), (11_000, false)] {
+        let mut team = left_alone(TaskType::BLOCK, false);
+        team.pass_until("a duty", |it| it.robots[1].robot.duty().is_some());
+        team.hear(1, Input::BodyIsFree(false));
+        team.hear(1, Input::SaidClear);
+        team.pass(ms);
+        team.hear(1, Input::BodyIsFree(true));
+        team.pass(500);
+        assert_eq!(team.robots[1].robot.duty().is_none(), is_free, "{ms}");
+        team.hear(1, Input::SaidClear);
+        team.pass(500);
+        assert_eq!(team.robots[1].robot.duty(), None, "{ms}");
+    }
+}
+
 #[test]
 fn a_robot_that_guarded_nobody_is_free_when_its_body_is() {
     let mut team = left_alone(TaskType::INITIAL_POS, false);
