@@ -4,6 +4,7 @@ mod ages;
 mod another_leader;
 mod cam;
 mod clock_that_goes_back;
+mod groups;
 mod made_up_sessions;
 mod receive_path;
 mod same_request;

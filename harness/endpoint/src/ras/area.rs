@@ -177,7 +177,6 @@ impl Area {
     #[must_use]
     pub fn of_wire(shape: &Shape, reference: Point) -> Self {
         let center = |it: Option<CartesianPosition3d>| it.map_or([0.0, 0.0], point_of);
-        let metres = |length: StandardLength12b| f64::from(length.get()) / 10.0;
         let area = match shape {
             Shape::Circular(circle) => Self::Circle {
                 center: center(circle.shape_reference_point),
@@ -204,6 +203,18 @@ impl Area {
             }
         };
         area.moved(reference)
+    }
+}
+
+/// How far a shape reaches from its middle, in metres; a polygon from its reference point.
+pub(crate) fn extent_m(shape: &Shape) -> f64 {
+    match shape {
+        Shape::Circular(circle) => metres(circle.radius),
+        Shape::Rectangular(sides) => metres(sides.semi_length).hypot(metres(sides.semi_breadth)),
+        Shape::Polygonal(polygon) => {
+            let corners = polygon.polygon.iter().copied().map(point_of);
+            corners.map(|[x, y]| x.hypot(y)).fold(0.0, f64::max)
+        }
     }
 }
 
@@ -316,6 +327,10 @@ fn rectangle_along(a: Point, b: Point, points: &[Point]) -> Area {
 )]
 fn whole(steps: f64) -> u16 {
     steps as u16
+}
+
+fn metres(length: StandardLength12b) -> f64 {
+    f64::from(length.get()) / 10.0
 }
 
 fn decimetres(metres: f64) -> StandardLength12b {

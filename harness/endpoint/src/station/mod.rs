@@ -5,6 +5,7 @@
 //! - [`vehicle`] is the other side of a question to a vehicle.
 //! - [`listen`] reads packets and messages that are meant for any receiver, for sniffers and charts.
 
+mod extent;
 pub mod listen;
 mod map;
 mod namesakes;

@@ -1,13 +1,21 @@
 //! Messages of other stations than robots: the road users that they put on the map.
 
+use crossguard_codec::core::cdd::Shape;
 use crossguard_codec::geonet::{EgoPosition, Indication, Signer};
 use crossguard_codec::its::ItsMessage;
-use crossguard_codec::{DecodeError, Identity, Received, RoadUser, Service};
+use crossguard_codec::{DecodeError, Identity, Kind, Received, RoadUser, Service};
 use crossguard_protocol::StationId;
 
+use super::extent::{extent_m, widened};
 use super::namesakes::NotAdmitted;
 use super::neighbours::Neighbours;
 use crate::cause::Cause;
+
+/// How fast people walk at most of whom a CPM does not say it, in m/s.
+const WALKS_MPS: f64 = 4.0;
+
+/// Longest time that an object of a CPM is old when that is made, in ms (`measurementDeltaTime`, TS 103 324).
+const MEASURED_MS: u64 = 2_048;
 
 /// The service that a message is of.
 #[must_use]
@@ -83,12 +91,68 @@ impl Neighbours {
             let admitted = self.namesakes.admit(from, as_whom, now_ms);
             admitted.err().map(|why| (why, signer))
         });
-        for user in message.road_users(ego.timestamp_its) {
+        for user in road_users(message, ego.timestamp_its) {
             let user = refused.map_or(user, |(_, signer)| apart(user, signer));
             self.map.observe(user, now_ms);
         }
         refused.map_or(Ok(received), |(why, _)| Err(why.into()))
     }
+}
+
+/// The road users of a VAM. Its cluster counts as far as it reaches. The head of one that is over is somebody, and one of which
+/// nobody knows how many they are has somebody.
+macro_rules! of_vam {
+    ($variant:ident($vam:ident), $now_its:ident) => {{
+        let mut vam = $vam.clone();
+        let container = &mut vam.vam.vam_parameters.vru_cluster_information_container;
+        container.take_if(|it| {
+            let cluster = &it.vru_cluster_information;
+            let is_nobody = cluster.cluster_cardinality_size.0 == 0;
+            is_nobody && cluster.cluster_bounding_box_shape.is_none()
+        });
+        let by_m = container.as_mut().map_or(0.0, |it| {
+            let cluster = &mut it.vru_cluster_information;
+            let size = &mut cluster.cluster_cardinality_size.0;
+            *size = (*size).max(1);
+            let shape = cluster.cluster_bounding_box_shape.as_ref();
+            extent_m(shape.and_then(|shape| Shape::try_from(shape).ok()).as_ref())
+        });
+        let users = ItsMessage::$variant(vam).road_users($now_its).into_iter();
+        users.map(|user| widened(user, by_m)).collect()
+    }};
+}
+
+/// The road users that a message tells of at `now_its`, a `TimestampIts`: people as far as they may have gone and their group reaches.
+fn road_users(message: &ItsMessage, now_its: u64) -> Vec<RoadUser> {
+    let mut users = message.road_users(now_its);
+    match message {
+        ItsMessage::Vam(vam) => of_vam!(Vam(vam), now_its),
+        ItsMessage::Vam211(vam) => of_vam!(Vam211(vam), now_its),
+        ItsMessage::Cpm(cpm) => {
+            // A message is made before it is heard: by so much its station's clock is ahead at least.
+            let made_its = cpm.management_container.reference_time.0;
+            let ahead_ms = made_its.saturating_sub(now_its);
+            for user in &mut users {
+                user.measured_its = user.measured_its.saturating_sub(ahead_ms);
+                *user = as_old_as_it_is(*user, now_its);
+            }
+            users
+        }
+        _ => users,
+    }
+}
+
+/// People of a CPM, who have gone on since they were measured.
+fn as_old_as_it_is(user: RoadUser, now_its: u64) -> RoadUser {
+    if user.kind != Kind::Vru {
+        return user;
+    }
+    let age_ms = now_its.saturating_sub(user.measured_its).min(MEASURED_MS);
+    let age_s = std::time::Duration::from_millis(age_ms).as_secs_f64();
+    let walked_m = user.speed.unwrap_or(WALKS_MPS) * age_s;
+    let is_group = user.cardinality != 1;
+    let by_m = if is_group { extent_m(None) } else { 0.0 };
+    widened(user, walked_m + by_m)
 }
 
 /// A road user whose station may not go by its id, by the ticket that tells of them. They are on the road all the same, take the
