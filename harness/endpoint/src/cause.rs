@@ -80,6 +80,8 @@ pub enum Cause {
     NotYielding,
     /// The application had more for the state machine at once than waits for it.
     WishesFull,
+    /// Another robot asks for help at a crossing that is not this robot's.
+    OtherCrossing,
     /// The robot perceived people and does not know its own position.
     Unplaced,
     /// A sensor source delivered no usable frame, for this reason.
@@ -133,9 +135,11 @@ impl Cause {
             Self::NoUse(_) => Layer::Service,
             Self::Undecodable(_) | Self::NotCanonical => Layer::Syntax,
             Self::Contradictory(_) => Layer::Semantics,
-            Self::Ignored(_) | Self::NotYielding | Self::WishesFull | Self::ClockWentBack => {
-                Layer::Protocol
-            }
+            Self::Ignored(_)
+            | Self::NotYielding
+            | Self::WishesFull
+            | Self::OtherCrossing
+            | Self::ClockWentBack => Layer::Protocol,
             Self::Unplaced | Self::FrameDropped(_) => Layer::Perception,
             Self::BodySilent
             | Self::BodyFault
@@ -188,6 +192,7 @@ impl Display for Reason {
             Cause::Ignored(why) => return why.fmt(f),
             Cause::NotYielding => "another leader does not yield",
             Cause::WishesFull => "too many wishes of the application",
+            Cause::OtherCrossing => "help for another crossing",
             Cause::Unplaced => "own position unknown",
             Cause::BodySilent => "silent",
             Cause::BodyFault => "fault",

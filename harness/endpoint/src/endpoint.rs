@@ -8,6 +8,7 @@ mod answers;
 mod others;
 #[cfg_attr(not(feature = "security"), path = "endpoint/no_pseudonyms.rs")]
 mod pseudonyms;
+mod served;
 mod turn;
 
 use crossguard_codec::{Identifiers, RobotState, Service, TaskParameters};
@@ -19,6 +20,7 @@ use crossguard_protocol::{
 use self::answers::Answers;
 use self::others::Others;
 use self::pseudonyms::Pseudonyms;
+pub use self::served::Served;
 use self::turn::Turn;
 use crate::cause::Cause;
 use crate::counters::Counters;
@@ -136,6 +138,8 @@ struct Around {
     surroundings: Surroundings,
     answers: Answers,
     counters: Counters,
+    /// The crossing at which the robot helps; without one, at any.
+    served: Option<Served>,
 }
 
 impl<P: StateMachine> Endpoint<P> {
@@ -151,6 +155,7 @@ impl<P: StateMachine> Endpoint<P> {
                 neighbours: Neighbours::new(identifiers),
                 answers: Answers::default(),
                 counters: Counters::default(),
+                served: None,
             },
             exchange: Exchange::new(protocol, config, identifiers, now_ms),
             pseudonyms: Pseudonyms::default(),
@@ -166,6 +171,11 @@ impl<P: StateMachine> Endpoint<P> {
         self.others = Others::new(&awareness);
         self.around.surroundings = Surroundings::new(awareness, cluster_seed(self.robot()));
         self
+    }
+
+    /// From now on the robot helps at this crossing alone; without one, at any. Requests for another one are dropped.
+    pub const fn serve(&mut self, served: Option<Served>) {
+        self.around.served = served;
     }
 
     /// Congestion control says that two CAM, or two RAM outside of a session, are at least this many ms apart.

@@ -20,8 +20,8 @@ use crossguard_codec::{
     TaskParameters, ViewError, encode_into, ram_from, rmcm_from_answer, rmcm_from_commands,
 };
 use crossguard_protocol::{
-    Command, Config, Event, Input, Millis, Output, Outputs, Phase, RequestId, Rmcm, Robot,
-    SessionId, StateMachine, StationId, TaskType, UniqueNumber, Verdict,
+    Command, Config, Coordination, Event, HelpRequest, Input, Millis, Output, Outputs, Phase,
+    RequestId, Rmcm, Robot, SessionId, StateMachine, StationId, TaskType, UniqueNumber, Verdict,
 };
 
 pub use self::entitled::NotEntitled;
@@ -249,6 +249,12 @@ impl<P: StateMachine> Exchange<P> {
             let why = NotEntitled::Unpinned(heard.from);
             return host.dropped(why.into(), &why, octets);
         }
+        if let Some(request) = asked_for(me, &heard)
+            && !host.helps(&request, &heard)
+        {
+            let detail = format_args!("station {} asks at {}", heard.from, request.place);
+            return host.dropped(Cause::OtherCrossing, &detail, octets);
+        }
         host.heard(me, &heard, message, arrived_ms);
         for input in heard.inputs.iter() {
             if self.is_another_command(input, heard.parameters) {
@@ -456,4 +462,18 @@ impl<P: StateMachine> Exchange<P> {
         };
         (state, status)
     }
+}
+
+/// The help that a message asks a robot for that may offer it.
+fn asked_for(me: &Robot, heard: &Heard) -> Option<HelpRequest> {
+    if !matches!(me.phase(), Phase::Idle | Phase::Requesting(_)) {
+        return None;
+    }
+    heard.inputs.iter().find_map(|input| match input {
+        Input::Ram { ram, .. } => match ram.coordination {
+            Coordination::NeedHelp { request, .. } => Some(request),
+            _ => None,
+        },
+        _ => None,
+    })
 }

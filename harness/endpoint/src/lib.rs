@@ -31,7 +31,7 @@ pub mod ras;
 pub mod station;
 
 #[cfg(feature = "std")]
-pub use endpoint::{Effect, Endpoint, Stimulus};
+pub use endpoint::{Effect, Endpoint, Served, Stimulus};
 pub use exchange::Moment;
 
 /// The Rust in the README compiles.

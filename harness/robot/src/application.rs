@@ -20,7 +20,7 @@ use crossguard_crossing::{
     Crossing, FrameDrop, Hindrance, Input, Leg, Output, Outputs, Sensors, Setup,
 };
 use crossguard_endpoint::cause::Cause;
-use crossguard_endpoint::{Effect, Stimulus};
+use crossguard_endpoint::{Effect, Served, Stimulus};
 use crossguard_protocol::{
     self as protocol, Availability, Config, Duty, Event, Millis, Notice, Phase, Robot, StationId,
     Unavailability,
@@ -36,6 +36,9 @@ use crate::sign::{Shown, Sign};
 use crate::site::{Place, Site};
 use crate::street::Road;
 use crate::zone::{place, point};
+
+/// How far from a crossing a robot is that asks for help there, in metres at most: its sensors have the people who wait.
+const ASKS_WITHIN_M: f64 = 50.0;
 
 /// The longest list of wishes; more are dropped, and counted.
 const WISHES: usize = 64;
@@ -162,6 +165,21 @@ impl Application {
     pub fn zone(&self) -> Option<Outline> {
         let zone = self.road.zone()?;
         Some(Outline::of(&zone, &self.site))
+    }
+
+    /// The crossing at which it helps, if it knows one: its beliefs of the road are about that one.
+    pub(crate) fn served(&self) -> Option<Served> {
+        let (Road::Watched(_) | Road::Heard(_)) = self.road else {
+            return None;
+        };
+        let crossing = self.setup.ground.crossing.or(self.setup.ground.road)?;
+        let middle = crossing.middle();
+        let corners = crossing.corners().map(|corner| corner.distance_cm(middle));
+        Some(Served {
+            place: self.site.crossing,
+            middle: self.site.position(place(middle)),
+            within_m: f64::from(corners.max()?) / 100.0 + ASKS_WITHIN_M,
+        })
     }
 
     /// Its sign.

@@ -32,7 +32,8 @@ pub struct Machine<P = Robot> {
 impl<P: StateMachine> Machine<P> {
     /// The robot with this endpoint and application.
     #[must_use]
-    pub const fn new(endpoint: Endpoint<P>, application: Application) -> Self {
+    pub fn new(mut endpoint: Endpoint<P>, application: Application) -> Self {
+        endpoint.serve(application.served());
         Self {
             endpoint,
             application,

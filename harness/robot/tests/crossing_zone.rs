@@ -9,8 +9,8 @@ use crossguard_codec::{Identity, Kind, RoadUser};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::station::{LocalDynamicMap, Security};
-use crossguard_endpoint::{Effect, Moment};
-use crossguard_protocol::{EndReason, Event, Input, Millis, Notice, Output, Phase, Urgency};
+use crossguard_endpoint::{Effect, Moment, Stimulus};
+use crossguard_protocol::{EndReason, Event, Input, Millis, Notice, Output, Phase, Role, Urgency};
 use crossguard_robot::body::Build;
 use crossguard_robot::machine::{Machine, is_at_rest};
 use crossguard_robot::perception::SensorFrame;
@@ -213,5 +213,26 @@ fn a_person_who_tells_of_themselves_by_vam_is_called_for() {
         let application = &mut leader.application;
         application.listen(&map, &robot, Moment::after(BEGAN_ITS, now_ms.into()));
         crossing.pass(500, None);
+    }
+}
+
+/// Hazard: a robot that watches one crossing is recruited at another one, 200 m away, and goes by the kerbs of its own.
+#[test]
+fn a_robot_that_watches_a_crossing_helps_nobody_at_another_one() {
+    for (east, helps) in [(-20.0, true), (-200.0, false)] {
+        let robot = |station, east, road| {
+            let body = (Build::Quadruped, Place::new(east, -2.0), SPEED);
+            support::machine(station, body, None, road, Security::default())
+        };
+        let leader = robot(1, east, Road::Unknown);
+        let helper = robot(2, -2.0, Road::Watched(zone::of_the_crossing()));
+        let mut street = Street::new(vec![Some(leader), Some(helper)], Done::note);
+        let request = Plan::crossing(Site::default()).request();
+        street.tell(0, Stimulus::Event(Event::PedestrianDetected(request)));
+        street.pass(3_000);
+        let helper = &street.robot(1).endpoint;
+        assert_eq!(helper.robot().role() == Role::Follower, helps, "{east} m");
+        let dropped = helper.counters().of(Cause::OtherCrossing);
+        assert_eq!(dropped == 0, helps, "{east} m");
     }
 }

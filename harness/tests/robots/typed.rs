@@ -135,7 +135,10 @@ fn a_robot_whose_log_cannot_be_written_crosses_all_the_same_and_says_so() {
         "{said}{error}"
     );
     error.must_have(&["/dev/full: No space left on device", "the robot goes on"]);
-    said.must_have(&["Its body is simulated", "dropped, log: full: a log has ended"]);
+    said.must_have(&[
+        "Its body is simulated",
+        "dropped, log: full: a log has ended",
+    ]);
     assert_eq!(output.status.code(), Some(3), "the log is incomplete");
     quit(&mut go2.0);
 }

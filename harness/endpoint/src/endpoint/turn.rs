@@ -6,10 +6,10 @@ use crossguard_codec::core::ram::RAM;
 use crossguard_codec::geonet::{Address, Indication, PACKET_LEN_MAX, Signer};
 use crossguard_codec::{Heard, RobotState, Service, TaskParameters};
 use crossguard_protocol::{
-    Coordination, Event, Ignored, Input, Output, Outputs, Phase, Robot, StationId,
+    Coordination, Event, HelpRequest, Ignored, Input, Output, Outputs, Phase, Robot, StationId,
 };
 
-use super::{Around, Effect, others};
+use super::{Around, Effect, Served, others};
 use crate::cause::Cause;
 use crate::exchange::{Host, Moment, Outgoing};
 use crate::ras::clustering::PerceivedVru;
@@ -58,6 +58,11 @@ impl<'a> Turn<'a> {
         if let Err(unplaced) = perceived {
             self.dropped(Cause::Unplaced, &unplaced, &[]);
         }
+    }
+
+    fn observe(&mut self, heard: &Heard) {
+        let (ego, now_ms) = (self.ego(), self.moment.now_ms);
+        self.around.neighbours.observe_robot(heard, &ego, now_ms);
     }
 
     /// A message was understood, from any sender.
@@ -138,6 +143,16 @@ impl Host for Turn<'_> {
             .push(Effect::VehicleAnswered(vehicle, promises));
     }
 
+    fn helps(&mut self, request: &HelpRequest, heard: &Heard) -> bool {
+        let from = heard.state.as_ref().map(|state| state.position);
+        let is_meant = |served: Served| served.is_meant(request.place, &from.unwrap_or_default());
+        let helps = self.around.served.is_none_or(is_meant);
+        if !helps {
+            self.observe(heard);
+        }
+        helps
+    }
+
     fn heard(&mut self, me: &Robot, heard: &Heard, message: &[u8], arrived_ms: u64) {
         let now_ms = self.moment.now_ms;
         self.understood(heard.service, heard.from, message, arrived_ms);
@@ -147,8 +162,7 @@ impl Host for Turn<'_> {
             }
         }
         let Some(state) = &heard.state else { return };
-        let ego = self.ego();
-        self.around.neighbours.observe_robot(heard, &ego, now_ms);
+        self.observe(heard);
         let surroundings = &mut self.around.surroundings;
         if let Some(plane) = surroundings.plane() {
             let (cluster, from) = (heard.cluster.as_ref(), heard.from.0);

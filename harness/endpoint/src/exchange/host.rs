@@ -5,7 +5,7 @@ use core::fmt::Display;
 use crossguard_codec::core::ram::RAM;
 use crossguard_codec::geonet::{Address, EgoPosition, Indication, Request, Signer};
 use crossguard_codec::{Heard, RobotState, Service, TaskParameters};
-use crossguard_protocol::{Input, Output, Outputs, Robot, StationId};
+use crossguard_protocol::{HelpRequest, Input, Output, Outputs, Robot, StationId};
 
 use crate::cause::Cause;
 use crate::ras::generation::Trigger;
@@ -74,6 +74,12 @@ pub trait Host {
 
     /// A vehicle answers the newest question whether it will stop.
     fn answered(&mut self, _vehicle: StationId, _promises: bool) {}
+
+    /// Whether the robot helps at the crossing of this request, which a robot makes that was heard. Who makes it is around
+    /// in any case.
+    fn helps(&mut self, _request: &HelpRequest, _heard: &Heard) -> bool {
+        true
+    }
 
     /// The robot `me` understood a message, which arrived then.
     fn heard(&mut self, me: &Robot, heard: &Heard, message: &[u8], arrived_ms: u64);
