@@ -88,8 +88,11 @@ const WEAKENINGS: &[Weakening] = &[
     (DRIFTING, |setup| setup.position.tolerance_cm = 10_000, Rule::P2),
     // It is for a minute after its last position.
     (DRIFTING, |setup| setup.position.lease = Millis(60_000), Rule::P2),
-    // A leader whose plan has two guards asks for one.
-    (TEAM, |setup| setup.request.followers = 1, Rule::P2),
+    // A leader with places for two guards asks for one, and lets people cross with one.
+    (TEAM, |setup| {
+        setup.request.followers = 1;
+        if let Some(plan) = &mut setup.plan { plan.followers = 1 }
+    }, Rule::P2),
     (WITH_VEHICLE, |setup| if setup.plan.is_some() { trusts_drivers(setup) }, Rule::P3),
     (WITH_VEHICLE, |setup| if setup.plan.is_none() { trusts_drivers(setup) }, Rule::P9),
     // Silence is a promise.

@@ -143,7 +143,7 @@ fn the_end_of_a_log_is_told_once_to_the_readers_that_are_left() {
             .journal
             .reader(RECORDS, WhenFull::Skip, Cause::OutputFull);
         let robot = setup.start();
-        robot.order(Order::Wish(Stimulus::Event(Event::LeaveRequested)));
+        robot.order(Order::Tell(Stimulus::Event(Event::LeaveRequested)));
         robot.stop().unwrap();
         let told = |record: &Arc<Record>| matches!(&record.entry, Entry::Dropped { cause, .. } if *cause == Cause::LogFull.into());
         let told = records.iter().filter(told).count();

@@ -160,7 +160,7 @@ impl Street {
     /// The second robot guards from a place, and its leader leaves.
     fn guard(&mut self) {
         self.ask();
-        let order = Stimulus::Order {
+        let order = Stimulus::Command {
             follower: self.id(1),
             task: TaskType::BLOCK,
             parameters: TaskParameters::default(),
