@@ -148,8 +148,8 @@ fn as_old_as_it_is(user: RoadUser, now_its: u64) -> RoadUser {
         return user;
     }
     let age_ms = now_its.saturating_sub(user.measured_its).min(MEASURED_MS);
-    let age_s = std::time::Duration::from_millis(age_ms).as_secs_f64();
-    let walked_m = user.speed.unwrap_or(WALKS_MPS) * age_s;
+    let since_s = std::time::Duration::from_millis(age_ms).as_secs_f64();
+    let walked_m = user.speed.unwrap_or(WALKS_MPS) * since_s;
     let is_group = user.cardinality != 1;
     let by_m = if is_group { extent_m(None) } else { 0.0 };
     widened(user, walked_m + by_m)
