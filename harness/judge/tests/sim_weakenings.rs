@@ -98,9 +98,9 @@ fn assert_found(totals: &Totals, properties: &[&str]) {
     );
 }
 
-/// Weakenings that break this property, alone or beside others.
+/// Weakenings that break this property, alone or beside others. W1 is missing: a leader that asks for fewer guards than its plan has
+/// shows no go, because of its crossing machine. The exploration has it broken by that rule.
 const FOUND_AMONG: &[(&dyn Rules, &str)] = &[
-    (&AsksForFewer, "W1"),
     (&StopsInPlace, "W2"),
     (&HearsNoLeader, "W3"),
     (&HidesOneLeaderByAnother, "W3"),
@@ -109,6 +109,13 @@ const FOUND_AMONG: &[(&dyn Rules, &str)] = &[
     (&TELLS_OF_NO_LOST_GUARD, "W6"),
     (&TELLS_OF_NO_END, "W8"),
 ];
+
+#[test]
+fn a_leader_that_asks_for_fewer_guards_shows_no_go() {
+    let totals = fuzz(&AsksForFewer, 0.0, "", 1, PER_TRY, usize::MAX);
+    let mut failures = totals.failures.iter();
+    assert!(failures.all(|it| it.finding.property != "W1"));
+}
 
 #[test]
 fn each_hazard_to_people_is_found_where_its_rule_is_gone() {
