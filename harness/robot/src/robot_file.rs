@@ -508,12 +508,7 @@ impl RobotTable {
         let carriageway = carriageway.map(|it| (area(it.whole), area(it.crossing)));
         let (carriageway, crossing) = carriageway.unzip();
         let own_road = zone.as_ref().and_then(|zone| zone.road.as_ref());
-        if let (Some(road), Some(crossing), true) = (own_road, crossing, self.site_file.is_some()) {
-            let crossing = Zone::of_road(crossing);
-            if crossing.covered(Some(road)) != crossing.covered(None) {
-                return Err(NoZone::PartialRoad.into());
-            }
-        }
+        check_road(own_road, crossing.filter(|_| self.site_file.is_some()))?;
         // A file without a site has the street of the demonstrations, unless it has a road of its own.
         let has_layout = self.site_file.is_some() || own_road.is_none();
         let is_on_road = |place: &Place| {
@@ -567,6 +562,15 @@ impl RobotTable {
             trust_ros_graph: self.trust_ros_graph,
         })
     }
+}
+
+/// A road of a zone's own has all of its site's crossing.
+fn check_road(own: Option<&Area>, crossing: Option<Area>) -> Result<(), NoZone> {
+    let (Some(road), Some(crossing)) = (own, crossing.map(Zone::of_road)) else {
+        return Ok(());
+    };
+    let is_whole = crossing.covered(Some(road)) == crossing.covered(None);
+    is_whole.then_some(()).ok_or(NoZone::PartialRoad)
 }
 
 impl OperatorTable {

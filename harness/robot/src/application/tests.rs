@@ -304,7 +304,13 @@ fn hears_of(application: &mut Application, user: RoadUser, now_ms: u64) {
 
 /// A robot that watches the simulated street, and has seen it empty once.
 fn watching() -> Application {
-    let body = Simulated::new(Build::Humanoid, Site::default(), Place::default(), 1.0, 1);
+    let body = Simulated::new(
+        Build::Humanoid,
+        Site::default(),
+        Place::new(0.0, -1.5),
+        1.0,
+        1,
+    );
     let application = Application::new(Box::new(body), None);
     let road = Street::default().zone().road.unwrap();
     let mut application = application.on(Road::Watched(Zone::of_road(road)));
