@@ -1,4 +1,5 @@
 //! People that other stations report: how far they may be from the place that a message says.
+#![expect(clippy::float_cmp, reason = "whole centimetres")]
 
 use crossguard_codec::asn1::cdd::{CardinalNumber1B, ConfidenceLevel, VruClusterInformation};
 use crossguard_codec::asn1::cdd::{VruProfileAndSubprofile, VruSubProfilePedestrian};
@@ -157,9 +158,9 @@ fn object(class: Option<ObjectClass>, age_ms: i16, ahead_ms: u64, tells: bool) -
     ItsMessage::Cpm(cpm)
 }
 
-fn pedestrian() -> Option<ObjectClass> {
+fn pedestrian() -> ObjectClass {
     let person = VruProfileAndSubprofile::pedestrian(VruSubProfilePedestrian(1));
-    Some(ObjectClass::vruSubClass(person))
+    ObjectClass::vruSubClass(person)
 }
 
 /// Hazard: the clock of a road-side unit is ahead, and what it has seen 1.5 s ago counts as seen now.
@@ -167,7 +168,7 @@ fn pedestrian() -> Option<ObjectClass> {
 fn what_a_cpm_tells_is_as_old_as_it_says_whatever_the_clock_of_its_station() {
     let now_its = moment(0).timestamp_its;
     for ahead_ms in [0, 500, 10_000] {
-        let (person, _) = one(&object(pedestrian(), 1_500, ahead_ms, true));
+        let (person, _) = one(&object(Some(pedestrian()), 1_500, ahead_ms, true));
         assert_eq!(person.measured_its, now_its - 1_500, "{ahead_ms}");
     }
 }
@@ -175,7 +176,7 @@ fn what_a_cpm_tells_is_as_old_as_it_says_whatever_the_clock_of_its_station() {
 /// Hazard: somebody who was beside the road 1.5 s ago is on it, and counts as beside it.
 #[test]
 fn people_in_a_cpm_have_gone_on_since_they_were_seen() {
-    let error_cm = |age_ms, tells| one(&object(pedestrian(), age_ms, 0, tells)).1;
+    let error_cm = |age_ms, tells| one(&object(Some(pedestrian()), age_ms, 0, tells)).1;
     let seen_now_cm = error_cm(0, true);
     assert_eq!(error_cm(0, false), seen_now_cm);
     // At the 2.236 m/s that they are said to walk, and at 4 m/s.
@@ -189,7 +190,7 @@ fn people_in_a_cpm_have_gone_on_since_they_were_seen() {
 fn a_group_in_a_cpm_reaches_5_m() {
     let error_cm = |class| one(&object(Some(class), 0, 0, true)).1;
     let group = VruClusterInformation::new(None, None, CardinalNumber1B(3), None);
-    let alone_cm = error_cm(pedestrian().unwrap());
+    let alone_cm = error_cm(pedestrian());
     assert_eq!(
         error_cm(ObjectClass::groupSubClass(group)),
         alone_cm + 500.0

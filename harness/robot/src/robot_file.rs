@@ -488,10 +488,7 @@ impl RobotTable {
             .zone
             .map(|zone| zone.check(&layout, confidence_min, autopilot));
         let (zone, kerbs) = zone.transpose()?.unzip();
-        let has_real_people = |body: &BodyTable| !body.simulated_people;
-        if autopilot && zone.is_none() && self.body.as_ref().is_some_and(has_real_people) {
-            return Err(NoBody::SeesNobody.into());
-        }
+        check_people(self.body.as_ref(), !autopilot || zone.is_some())?;
         let config = Config::new(self.protocol)?;
         if config.settings().holding.contains(TaskType::MOVE) {
             return Err(Impossibility::EscortHolds);
@@ -562,6 +559,12 @@ impl RobotTable {
             trust_ros_graph: self.trust_ros_graph,
         })
     }
+}
+
+/// A robot with a real body that leads sees the people whom it counts, or they are simulated by its file's word.
+fn check_people(body: Option<&BodyTable>, sees: bool) -> Result<(), NoBody> {
+    let is_fine = sees || body.is_none_or(|body| body.simulated_people);
+    is_fine.then_some(()).ok_or(NoBody::SeesNobody)
 }
 
 /// A road of a zone's own has all of its site's crossing.
