@@ -42,7 +42,7 @@ const MOTORCYCLE: u8 = 4;
 const UNSAID_ERROR_CM: u16 = 1_000;
 
 /// The key of a vehicle that may be there and was not heard.
-pub(super) const UNHEARD: u64 = 1 << 59;
+pub(super) const UNHEARD: u64 = 1 << 58;
 
 /// A vehicle that was not heard says again within this time where it is (CAM, EN 302 637-2, `T_GenCamMax`).
 const SAYS_AGAIN: Millis = Millis(1_000);
