@@ -561,7 +561,7 @@ impl RobotTable {
     }
 }
 
-/// A robot with a real body that leads sees the people whom it counts, or they are simulated by its file's word.
+/// A real body that leads wants sensors for people, or the word of its file that they are simulated.
 fn check_people(body: Option<&BodyTable>, sees: bool) -> Result<(), NoBody> {
     let is_fine = sees || body.is_none_or(|body| body.simulated_people);
     is_fine.then_some(()).ok_or(NoBody::SeesNobody)

@@ -113,7 +113,7 @@ fn a_wish_that_is_repeated_takes_one_place_and_one_that_is_dropped_is_counted() 
     application.wish(told[1]);
     assert_eq!(wishes(&mut application), told);
     assert_eq!(application.next_trouble(), None);
-    // Every other one of those that find no place repeats the last one that did.
+    // Half of the wishes without a place repeat the last one that has a place.
     (0..WISHES + 10).for_each(|number| application.wish(told[number % 2]));
     assert_eq!(wishes(&mut application).len(), WISHES);
     let (cause, _, count) = application.next_trouble().unwrap();
@@ -436,6 +436,20 @@ fn packets_that_are_dropped_for_their_number_may_be_those_of_a_vehicle() {
     application.step(Input::CorridorOpen(Millis(1_900)));
     let why = application.next_hindrance().unwrap();
     assert!(why.starts_with("packets were dropped"), "{why}");
+}
+
+/// Hazard: a parked vehicle that a detector numbers 0 takes the place of the one that may come and was not heard.
+#[test]
+fn a_vehicle_with_any_number_is_not_the_one_that_was_not_heard() {
+    let mut application = leader_that_drops(Cause::InboxFull, false);
+    let road = application.setup.ground.where_people_cross().unwrap();
+    let middle = place(road.middle());
+    let parked = PerceivedVru {
+        class: VruClass::Vehicle,
+        ..PerceivedVru::pedestrian(0, [middle.east, middle.north])
+    };
+    application.perceive(StationId(1), &parked);
+    assert!(application.crossing.hindered(&application.setup).is_some());
 }
 
 /// Go ends in a flood as it does where the channel is jammed. A robot that was held up for a moment keeps the go that it has.

@@ -22,7 +22,7 @@ pub(super) struct BodyTable {
     listen: String,
     #[serde(default = "silence_ms")]
     silence_ms: u32,
-    /// Whether the people whom this body leads without a zone are simulated on purpose.
+    /// Whether a robot that leads without a zone has simulated people on purpose.
     #[serde(default)]
     pub(super) simulated_people: bool,
 }
