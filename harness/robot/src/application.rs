@@ -172,13 +172,11 @@ impl Application {
         let (Road::Watched(_) | Road::Heard(_)) = self.road else {
             return None;
         };
-        let crossing = self.setup.ground.crossing.or(self.setup.ground.road)?;
-        let middle = crossing.middle();
-        let corners = crossing.corners().map(|corner| corner.distance_cm(middle));
+        let crossing = self.setup.ground.where_people_cross()?;
         Some(Served {
             place: self.site.crossing,
-            middle: self.site.position(place(middle)),
-            within_m: f64::from(corners.max()?) / 100.0 + ASKS_WITHIN_M,
+            middle: self.site.position(place(crossing.middle())),
+            within_m: f64::from(crossing.reach_cm()) / 100.0 + ASKS_WITHIN_M,
         })
     }
 

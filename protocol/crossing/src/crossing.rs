@@ -5,7 +5,7 @@ use crossguard_protocol::{
     Notice, Phase, Progress, Robot, StationId,
 };
 
-use crate::ground::{Point, Way};
+use crate::ground::Point;
 use crate::input::{
     BodyReport, Frame, FrameDrop, Hindrance, Input, Output, Outputs, Pose, RoadUser, Sighting,
 };
@@ -22,7 +22,7 @@ const CALL_PERIOD: Millis = Millis(2_000);
 /// For how long a person's word that the road is clear counts: it is about the road that they saw.
 const SAID: Millis = Millis(10_000);
 
-/// For how long somebody whom a robot without sensors hears of counts as on the road: until the next report, which may come so much
+/// Time for which a report keeps a person on the road, for a robot without sensors: until the next report, which may come so much
 /// later (`T_GenVamMax`, TS 103 300-3).
 const REPORTED: Millis = Millis(5_000);
 
@@ -379,7 +379,7 @@ impl<const N: usize> Crossing<N> {
             self.occupancy.doubt(frame.source);
         }
         for (number, sighting) in (0..).zip(frame.sightings) {
-            if rides(setup, sighting) {
+            if traffic::rides(setup, sighting) {
                 // A number that several have tells them apart no more than none.
                 let mut others = frame.sightings.iter().filter(|it| it.id == sighting.id);
                 let id = sighting.id.filter(|_| others.nth(1).is_none());
@@ -929,13 +929,6 @@ fn executing(robot: &Robot) -> Option<Maneuver> {
         Phase::Following(following) => following.executing(),
         _ => None,
     }
-}
-
-/// Whether somebody comes like a vehicle: is one, or is faster than people walk.
-fn rides(setup: &Setup, sighting: &Sighting) -> bool {
-    let is_fast = |it: Way| it.length_cm() > u32::from(setup.sensors.speed_max_cmps);
-    matches!(sighting.what, RoadUser::Vehicle | RoadUser::Motorcyclist)
-        || sighting.velocity.is_some_and(is_fast)
 }
 
 /// Whether somebody may be a person on the carriageway.

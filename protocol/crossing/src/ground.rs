@@ -219,6 +219,14 @@ impl Shape {
         widths.min().unwrap_or(u32::MAX)
     }
 
+    /// How far its corners are from its middle at most, in centimetres.
+    #[must_use]
+    pub fn reach_cm(&self) -> u32 {
+        let middle = self.middle();
+        let corners = self.corners().map(|corner| corner.distance_cm(middle));
+        corners.max().unwrap_or(0)
+    }
+
     /// The mean of its corners.
     #[must_use]
     pub fn middle(&self) -> Point {
@@ -288,6 +296,12 @@ pub struct Ground {
 }
 
 impl Ground {
+    /// The part of the carriageway on which people cross, or the whole, if that is not said.
+    #[must_use]
+    pub fn where_people_cross(&self) -> Option<&Shape> {
+        self.crossing.as_ref().or(self.road.as_ref())
+    }
+
     /// Whether somebody who is at most `error_cm` from a place may be on the carriageway.
     #[must_use]
     pub fn may_be_road(&self, at: Point, error_cm: u32) -> bool {

@@ -17,7 +17,7 @@ pub mod laws;
 use crossguard_protocol::{Millis, StationId};
 
 use crate::ground::{Point, Shape, Way};
-use crate::input::Vehicle;
+use crate::input::{RoadUser, Sighting, Vehicle};
 use crate::setup::{Setup, TrafficRules};
 
 /// Capacity for vehicles. A further one takes the place of one that stands or goes away, or else is a hindrance.
@@ -144,7 +144,7 @@ impl Traffic {
 
     /// The first vehicle to be asked that has not said that it will stop, and where its front is to stand.
     pub(crate) fn unpromised(&self, setup: &Setup) -> Option<(StationId, Point)> {
-        let (rules, crossing) = (&setup.traffic, crossing(setup)?);
+        let (rules, crossing) = (&setup.traffic, setup.ground.where_people_cross()?);
         if rules.asks == Millis::ZERO {
             return None;
         }
@@ -164,7 +164,12 @@ impl Traffic {
     /// The first vehicle that could no longer stop comfortably before the crossing.
     #[must_use]
     pub fn hindrance(&self, setup: &Setup) -> Option<u64> {
-        self.first(setup, crossing(setup)?, &setup.traffic, |_, _| true)
+        self.first(
+            setup,
+            setup.ground.where_people_cross()?,
+            &setup.traffic,
+            |_, _| true,
+        )
     }
 
     /// Whether a body that goes from one place to another would step in front of a vehicle that could no longer stop: comfortably,
@@ -211,19 +216,11 @@ impl Traffic {
     }
 }
 
-fn crossing(setup: &Setup) -> Option<&Shape> {
-    setup
-        .ground
-        .crossing
-        .as_ref()
-        .or(setup.ground.road.as_ref())
-}
-
 /// The velocity of a vehicle of which not everything is said. One of which nobody knows how fast it is may be as fast as is allowed
 /// in towns; one of which nobody knows its direction, which is a way of any length, comes to the crossing.
 #[must_use]
 pub fn velocity(setup: &Setup, at: Point, speed_cmps: Option<u32>, direction: Option<Way>) -> Way {
-    let to_crossing = || Some(at.to(crossing(setup)?.middle()));
+    let to_crossing = || Some(at.to(setup.ground.where_people_cross()?.middle()));
     let Some(known) = direction.or_else(to_crossing) else {
         return Way::default();
     };
@@ -242,9 +239,20 @@ pub fn velocity(setup: &Setup, at: Point, speed_cmps: Option<u32>, direction: Op
     direction.part(speed, length)
 }
 
+/// Whether somebody comes like a vehicle: is one, or is faster than people walk.
+#[must_use]
+pub fn rides(setup: &Setup, sighting: &Sighting) -> bool {
+    let is_fast = |it: Way| it.length_cm() > u32::from(setup.sensors.speed_max_cmps);
+    matches!(sighting.what, RoadUser::Vehicle | RoadUser::Motorcyclist)
+        || sighting.velocity.is_some_and(is_fast)
+}
+
 /// Whether a vehicle moves on a line or a bend that leads over the crossing.
 fn may_hinder(setup: &Setup, vehicle: &Vehicle) -> bool {
-    crossing(setup).is_some_and(|crossing| ahead(setup, crossing, vehicle).is_some())
+    setup
+        .ground
+        .where_people_cross()
+        .is_some_and(|crossing| ahead(setup, crossing, vehicle).is_some())
 }
 
 /// How a vehicle comes to a place, if it moves on a line or a bend that comes near it, and has not passed it with its whole length.
@@ -252,8 +260,7 @@ fn ahead(setup: &Setup, place: &Shape, vehicle: &Vehicle) -> Option<Motion> {
     let rules = &setup.traffic;
     let speed_cmps = vehicle.velocity.length_cm();
     let middle: Point = place.middle();
-    let corners = place.corners().map(|corner| corner.distance_cm(middle));
-    let half = corners.max().unwrap_or(0);
+    let half = place.reach_cm();
     // It may be anywhere within its error.
     let error_cm = u32::from(vehicle.error_cm);
     let near = half.saturating_add(error_cm);

@@ -9,6 +9,9 @@ use std::collections::BTreeMap;
 use crossguard_codec::si::generation_delta_time;
 use crossguard_codec::{Identity, Kind, RoadUser};
 
+/// Longest time that an object of a CPM is old when that is made, in ms (`measurementDeltaTime`, TS 103 324).
+pub const MEASURED_MS: u64 = 2_048;
+
 /// How many of one kind are remembered.
 pub const USERS_MAX: usize = 128;
 

@@ -18,7 +18,7 @@ mod pseudonyms;
 mod security;
 pub mod vehicle;
 
-pub use map::{LocalDynamicMap, Neighbour, USERS_MAX, lifetime_ms};
+pub use map::{LocalDynamicMap, MEASURED_MS, Neighbour, USERS_MAX, lifetime_ms};
 pub use namesakes::{NAMES_MAX, NotAdmitted};
 pub(crate) use neighbours::Neighbours;
 #[cfg(feature = "foreign")]

@@ -7,15 +7,13 @@ use crossguard_codec::{DecodeError, Identity, Kind, Received, RoadUser, Service}
 use crossguard_protocol::StationId;
 
 use super::extent::{extent_m, widened};
+use super::map::MEASURED_MS;
 use super::namesakes::NotAdmitted;
 use super::neighbours::Neighbours;
 use crate::cause::Cause;
 
-/// How fast people walk at most of whom a CPM does not say it, in m/s.
+/// Speed of a person whose speed a CPM does not say, in m/s: the largest.
 const WALKS_MPS: f64 = 4.0;
-
-/// Longest time that an object of a CPM is old when that is made, in ms (`measurementDeltaTime`, TS 103 324).
-const MEASURED_MS: u64 = 2_048;
 
 /// The service that a message is of.
 #[must_use]
@@ -124,7 +122,7 @@ macro_rules! of_vam {
 
 /// The road users that a message tells of at `now_its`, a `TimestampIts`: people as far as they may have gone and their group reaches.
 fn road_users(message: &ItsMessage, now_its: u64) -> Vec<RoadUser> {
-    let mut users = message.road_users(now_its);
+    let users = || message.road_users(now_its);
     match message {
         ItsMessage::Vam(vam) => of_vam!(Vam(vam), now_its),
         ItsMessage::Vam211(vam) => of_vam!(Vam211(vam), now_its),
@@ -132,13 +130,14 @@ fn road_users(message: &ItsMessage, now_its: u64) -> Vec<RoadUser> {
             // A message is made before it is heard: by so much its station's clock is ahead at least.
             let made_its = cpm.management_container.reference_time.0;
             let ahead_ms = made_its.saturating_sub(now_its);
-            for user in &mut users {
-                user.measured_its = user.measured_its.saturating_sub(ahead_ms);
-                *user = as_old_as_it_is(*user, now_its);
-            }
-            users
+            let measured = |user: RoadUser| RoadUser {
+                measured_its: user.measured_its.saturating_sub(ahead_ms),
+                ..user
+            };
+            let users = users().into_iter().map(measured);
+            users.map(|user| as_old_as_it_is(user, now_its)).collect()
         }
-        _ => users,
+        _ => users(),
     }
 }
 

@@ -13,7 +13,7 @@ use crossguard_endpoint::Moment;
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_endpoint::ras::motion::degrees;
-use crossguard_endpoint::station::{LocalDynamicMap, Neighbour};
+use crossguard_endpoint::station::{LocalDynamicMap, MEASURED_MS, Neighbour};
 use crossguard_protocol::{Millis, Phase, Robot, StationId};
 
 use super::{Application, Conduct};
@@ -28,10 +28,6 @@ const SIGHT_PERIOD_S: f64 = 0.2;
 
 /// Length of a way in the direction of a vehicle, in metres: long enough to tell directions apart by whole centimetres.
 const DIRECTION_M: f64 = 1e3;
-
-/// Longest time that an object of a CPM is old when that is made, in ms (`measurementDeltaTime`, TS 103 324). A report that seems
-/// older is of a station whose wall clock is another one than the robot's.
-const MEASURED_MS: u64 = 2_048;
 
 /// Vulnerable road users who ride, by ETSI: `TrafficParticipantType` of TS 102 894-2. The last two are no slower than cars.
 const CYCLIST: u8 = 2;
@@ -110,15 +106,13 @@ impl Application {
         }
         let seen = sighting(vru, 0.0);
         self.observe_one(ONE_BY_ONE, seen);
-        let velocity = seen.velocity.unwrap_or_default();
-        let is_fast = velocity.length_cm() > self.setup.sensors.speed_max_cmps.into();
-        if is_fast || matches!(seen.what, RoadUser::Vehicle | RoadUser::Motorcyclist) {
+        if traffic::rides(&self.setup, &seen) {
             let vehicle = Vehicle {
                 key: 1 << 59 | u64::from(vru.id),
                 station: None,
                 at: seen.at,
                 error_cm: seen.error_cm,
-                velocity,
+                velocity: seen.velocity.unwrap_or_default(),
             };
             self.step(Input::Vehicle(vehicle, Millis::ZERO));
         }
@@ -355,8 +349,7 @@ impl Application {
             Cause::WaitedTooLong if !is_go => self.setup.traffic.keep.saturating_sub(SAYS_AGAIN),
             _ => return,
         };
-        let ground = &self.setup.ground;
-        let crossing = ground.crossing.as_ref().or(ground.road.as_ref());
+        let crossing = self.setup.ground.where_people_cross();
         let Some(at) = crossing.filter(|_| self.counts).map(Shape::middle) else {
             return;
         };
@@ -470,7 +463,8 @@ fn error_cm(position: &Position) -> u16 {
     (position.error_m() * 100.0).ceil() as u16
 }
 
-/// How long before this moment somebody was measured, as their message says.
+/// How long before this moment somebody was measured, as their message says. A report that seems older than an object of a CPM can be
+/// is of a station whose wall clock is another one than the robot's.
 fn measured_ago(known: &Neighbour, moment: Moment) -> Millis {
     let ago_ms = moment.timestamp_its.saturating_sub(known.user.measured_its);
     Millis(u32::try_from(ago_ms.min(MEASURED_MS)).unwrap_or(u32::MAX))

@@ -232,16 +232,22 @@ fn a_robot_that_boots_on_the_road_looks_before_it_has_a_part_elsewhere() {
     assert_eq!(goes_ms(here, None), Some(100));
 }
 
+/// A guard at its post, beside a slow walker who has been on the road for four seconds.
+fn beside_a_walker(sees: bool) -> Team {
+    let mut team = team(plan(&[leg(TaskType::BLOCK, POST)]), sees);
+    team.robots[1].setup.home = Some(Point::new(-100, -150));
+    team.robots[1].setup.calls = false;
+    team.people = vec![person(1, 100, -100)];
+    team.pass_until("go", Team::shows_go);
+    team.people[0] = walking(team.people[0], 0, 60);
+    team.pass(4_000);
+    team
+}
+
 #[test]
 fn a_guard_that_boots_on_the_road_stays_with_the_person_there() {
     for sees in [true, false] {
-        let mut team = team(plan(&[leg(TaskType::BLOCK, POST)]), sees);
-        team.robots[1].setup.home = Some(Point::new(-100, -150));
-        team.robots[1].setup.calls = false;
-        team.people = vec![person(1, 100, -100)];
-        team.pass_until("go", Team::shows_go);
-        team.people[0] = walking(team.people[0], 0, 60);
-        team.pass(4_000);
+        let mut team = beside_a_walker(sees);
         team.boot(1);
         team.pass_until("across", |it| {
             let guard = &it.robots[1].body;
@@ -374,13 +380,7 @@ fn nobody_is_called_for_people_who_pass_vehicles_and_stale_sensors() {
 /// Its process hung, or somebody stopped it, and an operator says that it is available again.
 #[test]
 fn a_guard_that_was_stopped_beside_people_looks_before_it_leaves_the_road() {
-    let mut team = team(plan(&[leg(TaskType::BLOCK, POST)]), false);
-    team.robots[1].setup.home = Some(Point::new(-100, -150));
-    team.robots[1].setup.calls = false;
-    team.people = vec![person(1, 100, -100)];
-    team.pass_until("go", Team::shows_go);
-    team.people[0] = walking(team.people[0], 0, 60);
-    team.pass(4_000);
+    let mut team = beside_a_walker(false);
     let stop = Availability::Unavailable(Unavailability::EmergencyStop);
     team.event(1, Event::AvailabilityChanged(stop));
     team.pass(1_000);
