@@ -439,6 +439,7 @@ fn vehicle(metres: u8) -> Vehicle {
         key: 7,
         station: Some(VEHICLE),
         at: Point::new(-300 - 100 * i32::from(metres), 200),
+        front_cm: 0,
         error_cm: 0,
         velocity: Way {
             east_cm: 1_389,

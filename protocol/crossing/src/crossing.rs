@@ -24,7 +24,7 @@ const SAID: Millis = Millis(10_000);
 
 /// Time for which a report keeps a person on the road, for a robot without sensors: until the next report, which may come so much
 /// later (`T_GenVamMax`, TS 103 300-3).
-const REPORTED: Millis = Millis(5_000);
+const REPORTED: Millis = Millis(5_500);
 
 /// [`Crossing::stood`] of a robot that has looked at the carriageway on which it found itself, or was beside it.
 const LOOKED: Millis = Millis(u32::MAX);
@@ -349,6 +349,7 @@ impl<const N: usize> Crossing<N> {
     }
 
     fn frame(&mut self, setup: &Setup, frame: &Frame<'_>, out: &mut Outputs) {
+        self.see_vehicles(setup, frame);
         if let Err(why) = self.occupancy.admit(setup, frame) {
             let mut people = frame.sightings.iter();
             if people.any(|it| may_be_on_road(setup, it)) {
@@ -378,23 +379,20 @@ impl<const N: usize> Crossing<N> {
         } else {
             self.occupancy.doubt(frame.source);
         }
+    }
+
+    /// Vehicles count also in a frame that comes too late for people: the road beside them is as it was, and they are nearer.
+    fn see_vehicles(&mut self, setup: &Setup, frame: &Frame<'_>) {
         for (number, sighting) in (0..).zip(frame.sightings) {
             if traffic::rides(setup, sighting) {
                 // A number that several have tells them apart no more than none.
                 let mut others = frame.sightings.iter().filter(|it| it.id == sighting.id);
                 let id = sighting.id.filter(|_| others.nth(1).is_none());
-                let vehicle = crate::input::Vehicle {
-                    station: None,
-                    // Apart from those of stations and of other sources, and those with a number from those without.
-                    key: 1 << 63
-                        | u64::from(frame.source) << 33
-                        | id.map_or(1 << 32 | number, u64::from),
-                    at: sighting.at,
-                    error_cm: sighting.error_cm,
-                    velocity: sighting
-                        .velocity
-                        .unwrap_or_else(|| traffic::velocity(setup, sighting.at, None, None)),
-                };
+                // Apart from those of stations and of other sources, and those with a number from those without.
+                let key = 1 << 63
+                    | u64::from(frame.source) << 33
+                    | id.map_or(1 << 32 | number, u64::from);
+                let vehicle = traffic::seen(setup, key, sighting);
                 self.traffic.hear(setup, vehicle, frame.age);
             }
         }
@@ -520,7 +518,7 @@ impl<const N: usize> Crossing<N> {
             return;
         }
         let is_out = setup.ground.is_road(pose.at) || self.walk.is_some();
-        if is_out && self.walk != Some(home) && !self.tracks.is_on_road() {
+        if is_out && self.walk != Some(home) && !self.may_be_people() {
             self.walk_to(home, out);
         }
         if pose.at.distance_cm(home) <= u32::from(setup.position.tolerance_cm) {
@@ -545,9 +543,14 @@ impl<const N: usize> Crossing<N> {
         self.stood = self.stood.saturating_add(time);
         let set_out = setup.t_safety.saturating_add(setup.waiting.step_off);
         let across = set_out.saturating_add(setup.crossing_time());
-        if is_over || self.stood >= across && !self.tracks.is_on_road() {
+        if is_over || self.stood >= across && !self.may_be_people() {
             self.stood = LOOKED;
         }
+    }
+
+    /// Whether somebody is on the road, or may be until others report again.
+    fn may_be_people(&self) -> bool {
+        self.tracks.is_on_road() || self.occupancy.was_seen()
     }
 
     /// Whether it has not looked yet at the carriageway on which it found itself.
@@ -571,11 +574,15 @@ impl<const N: usize> Crossing<N> {
         let looks = to.is_some_and(|to| self.is_held_by_look(setup, to));
         let is_on_road = |pose: Pose| setup.ground.is_road(pose.at);
         let is_out = self.pose.is_some_and(|(pose, _)| is_on_road(pose));
-        self.is_held_at_kerb = is_held && (self.is_held_at_kerb || !is_out);
+        // A body that does not know where it is any more stays where it was to wait.
+        let stays = self.pose.is_none() && self.waits && to.is_some();
+        self.is_held_at_kerb =
+            is_held && (self.is_held_at_kerb || !is_out) || stays && self.is_held_at_kerb;
         let waits = if self.is_kerbward {
             self.is_person_apart(setup)
         } else {
             is_held
+                || stays
                 || looks
                 || self.task.as_ref().is_some_and(is_escort) && self.is_person_behind(setup)
         };
@@ -587,17 +594,23 @@ impl<const N: usize> Crossing<N> {
         self.waits = waits;
     }
 
-    /// Whether the body is to let vehicles pass: at the kerb, on its way on or over the carriageway; without a maneuver, also on it,
-    /// before it steps on another lane. Where somebody is on the road, it does so for those alone that could not stop by hard braking.
+    /// Whether the body is to let vehicles pass: at the kerb, on its way on or over the carriageway; where nobody is on the road or it
+    /// has no maneuver, also on it, before it steps on another lane. Where somebody is on the road, it does so for those alone that could not stop by hard braking.
     fn is_held_by_vehicles(&self, setup: &Setup, to: Point) -> bool {
         let (Some(road), Some((pose, _))) = (setup.ground.road, self.pose) else {
             return false;
         };
         // A body that is told to stand at the kerb may roll over it.
         let may_be_held = if road.has(pose.at) {
-            self.task.is_none() || self.is_held_at_kerb
+            // Nobody needs a guard at once before people are on the road.
+            let is_early = || {
+                !self.tracks.is_on_road()
+                    && pose.at.distance_cm(to) > setup.position.tolerance_cm.into()
+            };
+            self.task.is_none() || self.is_held_at_kerb || is_early()
         } else {
-            road.distance_cm(pose.at) <= KERB_CM && road.is_between(pose.at, to)
+            road.distance_cm(pose.at) <= KERB_CM.saturating_add(pose.error_cm.into())
+                && road.is_between(pose.at, to)
         };
         let is_urgent = self.tracks.is_on_road();
         let way = [pose.at, to];
@@ -659,14 +672,16 @@ impl<const N: usize> Crossing<N> {
     /// Whether the robot sees somebody on the road who is too far from the body for it to go on to the kerb. Whom it has lost, it
     /// does not wait for in the middle of the road.
     fn is_person_apart(&self, setup: &Setup) -> bool {
-        let Some((pose, _)) = self.pose else {
-            return false;
-        };
         let limit = u32::from(setup.position.ahead_cm);
+        let is_far = |at: Point| {
+            self.pose
+                .is_none_or(|(pose, _)| at.distance_cm(pose.at) > limit)
+        };
         let mut people = self.tracks.iter();
         people.any(|it| {
-            let is_there = it.is_fresh() && it.is_on_road() && it.is_crossing(setup);
-            is_there && it.at().distance_cm(pose.at) > limit
+            // Others report seldom.
+            let is_known = it.is_fresh() || it.is_hearsay() && self.occupancy.was_seen();
+            is_known && it.is_on_road() && it.is_crossing(setup) && is_far(it.at())
         })
     }
 
@@ -747,7 +762,7 @@ impl<const N: usize> Crossing<N> {
 
     /// The cause that keeps people from crossing, besides the plan.
     fn hindrance(&self, setup: &Setup) -> Option<Hindrance> {
-        if setup.watches && !self.occupancy.is_covered(setup) {
+        if setup.watches && !self.occupancy.is_watched(setup) {
             return Some(Hindrance::NoSight);
         }
         if let Some(vehicle) = self.traffic.hindrance(setup) {

@@ -65,8 +65,10 @@ pub struct Vehicle {
     pub key: u64,
     /// The station that it is, if it tells itself where it is: it can be asked to stop.
     pub station: Option<StationId>,
-    /// Where its front is.
+    /// Where it is.
     pub at: Point,
+    /// How far its front is before that place, in centimetres: sensors and CPM say where the middle is, CAM where the front is.
+    pub front_cm: u16,
     /// Error of the place, in centimetres.
     pub error_cm: u16,
     /// Its velocity, in cm/s: where not all of it is known, by [`traffic::velocity`](crate::traffic::velocity).

@@ -122,6 +122,7 @@ fn vehicle(source: &mut impl Source, key: u32) -> Vehicle {
         key: key.into(),
         station: source.flag().then_some(StationId(key)),
         at: point(source),
+        front_cm: source.u16(600),
         error_cm: source.u16(10),
         velocity: way(source),
     }

@@ -189,6 +189,14 @@ impl Occupancy {
         covers_all(setup, fresh.map(|source| source.covers))
     }
 
+    /// Whether the sources cover the whole carriageway now, and each that ever looked still does: one that fails may have been the
+    /// one that saw vehicles come.
+    #[must_use]
+    pub fn is_watched(&self, setup: &Setup) -> bool {
+        let mut known = self.sources.iter().filter(|it| it.age.is_some());
+        self.is_covered(setup) && known.all(|it| it.is_fresh(&setup.sensors))
+    }
+
     /// Whether the carriageway is known to be empty now.
     #[must_use]
     pub fn is_clear(&self, setup: &Setup) -> bool {

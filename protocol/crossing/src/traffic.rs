@@ -1,7 +1,7 @@
 //! Whether a vehicle that is heard or seen could no longer stop comfortably before the crossing, or before the way of a body.
 //!
-//! A vehicle is no hindrance when it stands, has passed with its whole length, passes aside, or is farther away than it needs to stop:
-//! `v * reaction + v² / (2 * deceleration)`. An older report counts as if the vehicle had gone on since. A vehicle that
+//! A vehicle is no hindrance when it stands beside the crossing, has passed with its whole length, passes aside, or is farther away
+//! than it needs to stop: `v * reaction + v² / (2 * deceleration)`. An older report counts as if the vehicle had gone on since. A vehicle that
 //! falls silent counts for `keep`, also where its number is that of another one by now: a vehicle that cannot be where the next
 //! report has it is another one. Vehicles that are neither heard nor seen are the road authority's concern.
 //!
@@ -33,6 +33,9 @@ const STOP_LINE_CM: u32 = 600;
 /// How far a vehicle may be from where it was, in centimetres, beyond its way and the errors of both places: the next one in a queue
 /// is farther away.
 const JUMP_CM: u64 = 500;
+
+/// How much slower a vehicle may be than it was, in cm/s, beyond 10 m/s² of braking.
+const SLOWER_CMPS: u64 = 200;
 
 /// The key of a vehicle whose number is that of another one by now.
 const RENUMBERED: u64 = 1 << 60;
@@ -67,7 +70,9 @@ impl Known {
         let way_cm = speeds.into_iter().max().unwrap_or(0) * u64::from(time.0) / 1_000;
         let errors_cm = u64::from(self.vehicle.error_cm) + u64::from(vehicle.error_cm);
         let gone_cm = u64::from(self.vehicle.at.distance_cm(vehicle.at));
-        gone_cm <= way_cm + errors_cm + JUMP_CM
+        // Nor does it brake harder than that: a car's number may go to the bus beside it that stands.
+        let [was, is] = speeds;
+        gone_cm <= way_cm + errors_cm + JUMP_CM && was <= is + u64::from(time.0) + SLOWER_CMPS
     }
 }
 
@@ -157,7 +162,10 @@ impl Traffic {
                 .filter(|_| is_soon_there && it.promise == Millis::ZERO)?;
             let way = i32::try_from(motion.left_cm.saturating_sub(STOP_LINE_CM)).ok()?;
             let speed = i32::try_from(motion.speed_cmps).ok()?;
-            Some((station, vehicle.at.plus(vehicle.velocity.part(way, speed))))
+            Some((
+                station,
+                front(vehicle).plus(vehicle.velocity.part(way, speed)),
+            ))
         })
     }
 
@@ -247,6 +255,23 @@ pub fn rides(setup: &Setup, sighting: &Sighting) -> bool {
         || sighting.velocity.is_some_and(is_fast)
 }
 
+/// A vehicle, or somebody who comes like one, as a sensor sees it.
+#[must_use]
+pub fn seen(setup: &Setup, key: u64, sighting: &Sighting) -> Vehicle {
+    let unsaid = || velocity(setup, sighting.at, None, None);
+    Vehicle {
+        key,
+        station: None,
+        at: sighting.at,
+        front_cm: match sighting.what {
+            RoadUser::Vehicle => setup.traffic.length_cm / 2,
+            _ => 0,
+        },
+        error_cm: sighting.error_cm,
+        velocity: sighting.velocity.unwrap_or_else(unsaid),
+    }
+}
+
 /// Whether a vehicle moves on a line or a bend that leads over the crossing.
 fn may_hinder(setup: &Setup, vehicle: &Vehicle) -> bool {
     setup
@@ -266,8 +291,9 @@ fn ahead(setup: &Setup, place: &Shape, vehicle: &Vehicle) -> Option<Motion> {
     let near = half.saturating_add(error_cm);
     let aside = aside_cm(vehicle, middle).saturating_sub(near.into());
     let is_in_line = aside <= rules.aside_cm.into();
-    let distance_cm = place.distance_cm(vehicle.at);
-    let left_cm = if vehicle.velocity.dot(vehicle.at.to(middle)) > 0 {
+    let front = front(vehicle);
+    let distance_cm = place.distance_cm(front);
+    let left_cm = if vehicle.velocity.dot(front.to(middle)) > 0 {
         distance_cm
     } else if distance_cm <= u32::from(rules.length_cm).saturating_add(error_cm) {
         0
@@ -280,9 +306,20 @@ fn ahead(setup: &Setup, place: &Shape, vehicle: &Vehicle) -> Option<Motion> {
         speed_cmps,
         is_in_line,
     };
-    let farthest_cm = vehicle.at.distance_cm(middle).saturating_add(half);
+    let farthest_cm = front.distance_cm(middle).saturating_add(half);
     let may_come = is_in_line || aside <= motion.bend_cm(rules, farthest_cm);
-    (may_come && speed_cmps > rules.standing_cmps.into()).then_some(motion)
+    let moves = may_come && speed_cmps > rules.standing_cmps.into();
+    // People would step in front of one that stands where they cross, and it goes on.
+    let is_in_their_way = setup.ground.crossing.is_some() && place.has(vehicle.at);
+    (moves || is_in_their_way).then_some(motion)
+}
+
+/// Where the front of a vehicle is that moves.
+fn front(vehicle: &Vehicle) -> Point {
+    let speed = i32::try_from(vehicle.velocity.length_cm()).unwrap_or(i32::MAX);
+    vehicle
+        .at
+        .plus(vehicle.velocity.part(vehicle.front_cm.into(), speed))
 }
 
 /// How far the line of a vehicle passes from a place.

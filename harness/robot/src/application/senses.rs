@@ -107,13 +107,7 @@ impl Application {
         let seen = sighting(vru, 0.0);
         self.observe_one(ONE_BY_ONE, seen);
         if traffic::rides(&self.setup, &seen) {
-            let vehicle = Vehicle {
-                key: 1 << 59 | u64::from(vru.id),
-                station: None,
-                at: seen.at,
-                error_cm: seen.error_cm,
-                velocity: seen.velocity.unwrap_or_default(),
-            };
+            let vehicle = traffic::seen(&self.setup, 1 << 59 | u64::from(vru.id), &seen);
             self.step(Input::Vehicle(vehicle, Millis::ZERO));
         }
         self.step(Input::Heard(station, seen, Millis::ZERO));
@@ -313,7 +307,7 @@ impl Application {
             None => UNSAID_ERROR_CM,
         };
         // A CAM says where the front is, a CPM where the middle of the bounding box (`PerceivedObject`, TS 102 894-2).
-        let to_front_cm = match user.identity {
+        let front_cm = match user.identity {
             Identity::Station(_) => 0,
             _ => self.setup.traffic.length_cm / 2,
         };
@@ -332,7 +326,8 @@ impl Application {
                 _ => None,
             },
             at,
-            error_cm: error_cm.saturating_add(to_front_cm),
+            front_cm,
+            error_cm,
             velocity,
         };
         self.step(Input::Vehicle(vehicle, measured_ago(known, moment)));
@@ -357,6 +352,7 @@ impl Application {
             key: UNHEARD,
             station: None,
             at,
+            front_cm: 0,
             error_cm: 0,
             velocity: traffic::velocity(&self.setup, at, None, None),
         };

@@ -323,3 +323,15 @@ fn a_setup_that_says_nothing_of_sensors_counts_on_them() {
     scene.pass(501);
     assert_eq!(scene.crossing.hindered(&scene.setup), blind);
 }
+
+/// Hazard: one of two sources sees vehicles come, and fails.
+#[test]
+fn a_source_that_fails_hinders_though_another_covers_the_road() {
+    let mut scene = watch();
+    scene.frame(1, 0, 0, &[]);
+    for (ms, is_blind) in [(500, false), (1, true)] {
+        scene.look(ms, &[]);
+        let blind = scene.crossing.hindered(&scene.setup) == Some(Hindrance::NoSight);
+        assert_eq!(blind, is_blind, "{ms} ms");
+    }
+}

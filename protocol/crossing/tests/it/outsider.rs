@@ -182,7 +182,7 @@ fn people_of_whom_a_robot_only_hears_are_on_the_road_until_the_next_report() {
     let is_done = |scene: &Scene| scene.told(|it| *it == Event::ManeuverCompleted(escort.id)) > 0;
     for _ in 0..3 {
         scene.tell(Input::Heard(WITNESS, group, Millis(0)));
-        scene.pass(4_900);
+        scene.pass(5_400);
         assert!(!is_done(&scene));
     }
     scene.pass(100);

@@ -239,6 +239,7 @@ pub(crate) fn car(east: i32) -> Vehicle {
         key: 7,
         station: Some(StationId(7)),
         at: Point::new(east, 200),
+        front_cm: 0,
         error_cm: 0,
         velocity: Way {
             east_cm: 1_389,
@@ -272,11 +273,53 @@ fn a_guard_steps_on_the_lane_when_no_vehicle_comes_that_cannot_stop() {
     assert!(body.at.north_cm() >= -200, "it stands at the kerb");
     team.pass_until("go", Team::shows_go);
     assert!(is_on_road(&team.robots[1].body));
-    // One on the lane does not stand there on its way because of a vehicle.
-    team.robots[1].body.at = Point::new(-200, 10);
+    // One on the lane does not stand there on its way because of a vehicle, nor at its place.
+    for north in [150, POST.north_cm()] {
+        team.robots[1].body.at = Point::new(-200, north);
+        pass_beside_a_car(&mut team, 1, 3_000);
+        let body = &team.robots[1].body;
+        assert!(!body.waits && body.at.distance_cm(POST) <= 200);
+    }
+}
+
+/// Hazard: the driver could stop when it set out, and does not. Somebody on the road needs it at once.
+#[test]
+fn a_guard_does_not_step_on_the_other_lane_before_a_car_unless_somebody_is_on_the_road() {
+    for is_somebody_there in [false, true] {
+        let mut team = team(plan(&[leg(TaskType::BLOCK, Point::new(-200, 600))]), true);
+        team.people = vec![person(1, 100, -100)];
+        team.pass_until("a maneuver", |it| it.robots[1].body.to.is_some());
+        team.robots[1].body.at = Point::new(-200, 100);
+        team.pass(TICK);
+        if is_somebody_there {
+            team.people.push(person(2, 300, 300));
+        }
+        let vehicle = Vehicle {
+            at: Point::new(-3_500, 500),
+            ..car(0)
+        };
+        pass_beside(&mut team, 1, vehicle, 4_000);
+        let body = &team.robots[1].body;
+        assert_eq!(body.waits, !is_somebody_there);
+        assert_eq!(body.at.north_cm() > 320, is_somebody_there, "{:?}", body.at);
+    }
+}
+
+/// Hazard: the pose of a body fails while it lets a car pass, or while it waits for its person.
+#[test]
+fn a_body_that_does_not_know_where_it_is_any_more_stays_where_it_was_to_wait() {
+    let mut team = blocking();
+    pass_beside_a_car(&mut team, 1, 3_000);
+    team.robots[1].body.is_lost = true;
     pass_beside_a_car(&mut team, 1, 3_000);
     let body = &team.robots[1].body;
-    assert!(!body.waits && body.at.distance_cm(POST) <= 200);
+    assert!(body.waits && !is_on_road(body), "{:?}", body.at);
+    // It knows it again, over the kerb.
+    team.robots[1].body.is_lost = false;
+    team.robots[1].body.at = Point::new(-200, 10);
+    pass_beside_a_car(&mut team, 1, 1_000);
+    assert!(team.robots[1].body.waits);
+    team.pass_until("go", Team::shows_go);
 }
 
 /// A vehicle hits it whose driver cannot stop even by hard braking, and that helps nobody.
