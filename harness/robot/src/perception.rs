@@ -365,15 +365,15 @@ impl Feed {
         if kind.is_fifo() {
             let path = path.to_owned();
             std::thread::spawn(move || match observed(&path) {
-                Ok(lines) => tell_in_time(lines, &tell),
-                Err(why) => tell_in_time(std::iter::once(Err(why)), &tell),
+                Ok(lines) => tell_in_time(lines, &tell, true),
+                Err(why) => tell_in_time(std::iter::once(Err(why)), &tell, true),
             });
         } else if kind.is_file() {
             let all = observed(path)?.collect::<Result<Vec<_>, _>>()?;
-            std::thread::spawn(move || tell_in_time(all.into_iter().map(Ok), &tell));
+            std::thread::spawn(move || tell_in_time(all.into_iter().map(Ok), &tell, false));
         } else {
             let lines = observed(path)?;
-            std::thread::spawn(move || tell_in_time(lines, &tell));
+            std::thread::spawn(move || tell_in_time(lines, &tell, true));
         }
         Ok(Self { told })
     }
@@ -418,29 +418,43 @@ fn observations(
     })
 }
 
+/// How far in the future a frame may be, for the resolution of clocks.
+const FUTURE: Duration = Duration::from_millis(10);
+
 fn tell_in_time(
     observations: impl Iterator<Item = Result<Observation, String>>,
     tell: &SyncSender<Order>,
+    is_live: bool,
 ) {
     let began = Instant::now();
+    // A live feed cannot know what is to come: to wait for it would make each of its frames young.
     let wait = |at_s: f64| {
         let due = began + Duration::from_secs_f64(at_s);
-        std::thread::sleep(due.saturating_duration_since(Instant::now()));
-        due
+        let ahead = due.saturating_duration_since(Instant::now());
+        if is_live && ahead > FUTURE {
+            return Err(format!(
+                "at_s is {at_s}: that is {:.3} s in the future; a program counts from when it opens the pipe, or says unix_s, and a \
+                 recording is a regular file",
+                ahead.as_secs_f64()
+            ));
+        }
+        std::thread::sleep(ahead);
+        Ok(due)
     };
     for observation in observations {
         let told = match observation {
-            Ok(Observation::Frame(frame, Taken::At(at_s))) => {
-                Order::Looked(Arc::new(frame), wait(at_s))
-            }
+            Ok(Observation::Frame(frame, Taken::At(at_s))) => match wait(at_s) {
+                Ok(taken) => Order::Looked(Arc::new(frame), taken),
+                Err(why) => Order::LookedInVain(why),
+            },
             Ok(Observation::Frame(frame, Taken::Unix(unix_s))) => match instant_of(unix_s) {
                 Ok(taken) => Order::Looked(Arc::new(frame), taken),
                 Err(why) => Order::LookedInVain(why),
             },
-            Ok(Observation::Person(vru, at_s)) => {
-                wait(at_s.unwrap_or(0.0));
-                Order::Perceived(vru)
-            }
+            Ok(Observation::Person(vru, at_s)) => match wait(at_s.unwrap_or(0.0)) {
+                Ok(_) => Order::Perceived(vru),
+                Err(why) => Order::LookedInVain(why),
+            },
             Err(why) => Order::LookedInVain(why),
         };
         if tell.send(told).is_err() {
@@ -448,9 +462,6 @@ fn tell_in_time(
         }
     }
 }
-
-/// How far in the future a frame may be, for the resolution of clocks.
-const FUTURE: Duration = Duration::from_millis(10);
 
 /// A moment of wall clock time, in seconds since 1970, on the clock of this machine.
 ///
@@ -553,10 +564,18 @@ mod tests {
         let feed = opened.recv_timeout(Duration::from_secs(30)).unwrap();
         let feed = feed.unwrap();
         assert_eq!(feed.due(), []);
-        std::fs::write(&path, "null\n").unwrap();
+        // A program that counts from before it opened the pipe: its frames are older than they say.
+        let ahead = r#"{"at_s": 3600, "people": []}"#;
+        let person = r#"{"at_s": 3600, "id": 7, "position_m": [3, 0]}"#;
+        std::fs::write(&path, format!("null\n{ahead}\n{person}\n")).unwrap();
         let told = feed.told.lock().unwrap();
-        let told = told.recv_timeout(Duration::from_secs(30)).unwrap();
-        assert!(matches!(told, Order::LookedInVain(why) if why.contains("people:1: ")));
+        for cause in ["people:1: ", "s in the future", "s in the future"] {
+            let told = told.recv_timeout(Duration::from_secs(30)).unwrap();
+            assert!(
+                matches!(&told, Order::LookedInVain(why) if why.contains(cause)),
+                "{told:?}"
+            );
+        }
     }
 
     #[test]

@@ -134,7 +134,7 @@ A line of --perceived is a frame: everybody whom a sensor source saw at one time
   {\"at_s\": 1.5, \"people\": [{\"id\": 7, \"position_m\": [3.0, -1.5], \"velocity_mps\": [1.2, 0.0],
    \"class\": \"pedestrian\", \"confidence\": 0.9, \"error_m\": 0.2}]}
 in metres on the site. at_s is when the source looked, in seconds from the start; a source that writes
-into a pipe says \"unix_s\", seconds since 1970, instead. Only position_m is needed of a person.
+into a pipe says \"unix_s\", seconds since 1970, instead, for a time in the future is malformed there. Only position_m is needed of a person.
 Classes are pedestrian, wheelchairUser, bicyclist, motorcyclist, animal and vehicle. \"covers_m\", a
 polygon, says what the source could see, if that is not the whole crossing; \"source\" numbers several
 sources from 0 to 3. An empty list says that nobody is there; silence says nothing. A frame that is

@@ -284,8 +284,8 @@ impl Application {
         match user.kind {
             Kind::Vehicle => true,
             Kind::Vru => is_fast || matches!(user.station_type, Some(MOPED | MOTORCYCLE)),
-            Kind::Object => is_fast,
-            Kind::Robot | Kind::RoadSideUnit => false,
+            Kind::Object | Kind::Robot => is_fast,
+            Kind::RoadSideUnit => false,
         }
     }
 

@@ -348,6 +348,8 @@ fn whoever_is_as_fast_as_a_vehicle_hinders_like_one() {
         (Kind::Vru, Some(2), 6.0, true),
         (Kind::Vru, None, 13.9, true),
         (Kind::Object, None, 13.9, true),
+        (Kind::Robot, None, 7.0, true),
+        (Kind::Robot, None, 1.6, false),
         (Kind::Vru, Some(1), 1.5, false),
         (Kind::Object, None, 0.0, false),
     ] {
