@@ -19,7 +19,6 @@
 //! `harness/doc/evaluation.md` says which assumptions reproduce the paper, and which do not.
 
 pub mod behaviour;
-mod cam;
 pub mod coverage;
 mod crew;
 mod device;
@@ -43,7 +42,6 @@ pub mod trace;
 pub mod vru;
 mod xml;
 
-pub use cam::CamError;
 pub use crew::Sessions;
 pub use robot::RobotError;
 pub use xml::SumoFileError;

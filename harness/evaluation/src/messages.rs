@@ -3,11 +3,15 @@
 //! A VAM's and a CAM's size follows from which containers it has, so each combination is encoded once.
 //! A RAM is encoded every time.
 
-use crossguard_codec::{ConfidenceEllipse, Measurement, Position, RobotState};
+use crossguard_codec::asn1::cam::{CAM, LowFrequencyContainer};
+use crossguard_codec::{
+    ConfidenceEllipse, Measurement, PastPosition, Position, RobotState, SlowState, decode, encode,
+};
+use crossguard_endpoint::ras::cam::cam;
 use crossguard_endpoint::ras::etsi::NotMade;
+use crossguard_endpoint::station::vehicle::passenger_car;
 use serde::{Deserialize, Serialize};
 
-use super::cam::{CamError, cam_octets};
 use super::device::vam_octets;
 use super::vru::{DueVam, LeaveReason, Operation};
 
@@ -92,7 +96,7 @@ impl Sizes {
     ///
     /// # Errors
     /// When a message cannot be encoded.
-    pub fn measure(cam_path_points: usize) -> Result<Self, SizeError> {
+    pub fn measure(cam_path_points: usize) -> Result<Self, NotMade> {
         let octets = |low_frequency, operation| {
             let due = DueVam {
                 low_frequency,
@@ -133,15 +137,30 @@ impl Sizes {
     }
 }
 
-/// Why a message has no size.
-#[derive(Debug, thiserror::Error)]
-pub enum SizeError {
-    /// A VAM cannot be made.
-    #[error("VAM: {0}")]
-    Vam(#[from] NotMade),
-    /// A CAM cannot be made.
-    #[error("CAM: {0}")]
-    Cam(#[from] CamError),
+/// Octets of a passenger car's CAM, without or with a low-frequency container whose path history has this many
+/// points. More than 40 cannot be encoded.
+fn cam_octets(path_points: Option<usize>) -> Result<usize, NotMade> {
+    let (ids, mut state) = (passenger_car(), state_of_a_pedestrian());
+    let point = PastPosition {
+        latitude: 49.01,
+        longitude: 8.41,
+        altitude: None,
+        duration: Some(0.5),
+    };
+    state.slow = Some(SlowState {
+        path: vec![point],
+        ..SlowState::default()
+    });
+    let octets = cam(&ids, 1, &state, 0, path_points.is_some())?;
+    let mut cam = decode::<CAM>(&ids, &octets)?.message;
+    let slow = &mut cam.cam.cam_parameters.low_frequency_container;
+    if let (Some(points), Some(LowFrequencyContainer::basicVehicleContainerLowFrequency(slow))) =
+        (path_points, slow)
+    {
+        let path = &mut slow.path_history.0;
+        *path = path.iter().cycle().take(points).cloned().collect();
+    }
+    Ok(encode(&ids, &cam)?.len())
 }
 
 /// Confidences as a phone would give them; they do not change the size of a VAM.
@@ -183,6 +202,14 @@ mod tests {
         assert_eq!(frame_octets(59, Signed::No), 141);
         assert_eq!(frame_octets(59, Signed::ByDigest), 234);
         assert_eq!(frame_octets(59, Signed::WithCertificate), 390);
+    }
+
+    /// 41 octets are those of the golden vector C1; C2 has 58 with two points, one of them without time.
+    #[test]
+    fn a_cam_has_the_size_of_the_golden_vectors() {
+        assert_eq!(cam_octets(None).unwrap(), 41);
+        assert_eq!(cam_octets(Some(2)).unwrap(), 60);
+        assert!(cam_octets(Some(41)).is_err());
     }
 
     /// The VAM of which sizes are taken have the containers of the golden vectors, whose octets [`vam_octets`] makes.

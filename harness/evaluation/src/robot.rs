@@ -43,18 +43,9 @@ pub(super) struct Message {
 /// Why a robot's message cannot be sent.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum RobotError {
-    /// It contradicts itself.
+    /// It cannot be made.
     #[error(transparent)]
-    Contradictory(#[from] crossguard_codec::ViewError),
-    /// It cannot be encoded.
-    #[error(transparent)]
-    NotEncodable(#[from] crossguard_codec::EncodeError),
-    /// The encoded message cannot be decoded.
-    #[error(transparent)]
-    NotDecodable(#[from] crossguard_codec::DecodeError),
-    /// A cluster VAM cannot be made.
-    #[error(transparent)]
-    Vam(#[from] NotMade),
+    NotMade(#[from] NotMade),
     /// It does not know where it is.
     #[error(transparent)]
     Unplaced(#[from] Unplaced),
@@ -245,7 +236,7 @@ impl<'a> Robot<'a> {
             .trigger(now_ms, limits, &self.state, &self.status())
     }
 
-    fn ram(&mut self, now_ms: u64, trigger: Trigger) -> Result<Message, RobotError> {
+    fn ram(&mut self, now_ms: u64, trigger: Trigger) -> Result<Message, NotMade> {
         let ids = Identifiers::default();
         let told = self.surroundings.next_told();
         self.last_ram_ms = Some(now_ms);
@@ -292,7 +283,7 @@ impl<'a> Robot<'a> {
         })
     }
 
-    fn rmcm(&self, now_ms: u64, rmcm: &Rmcm) -> Result<Message, RobotError> {
+    fn rmcm(&self, now_ms: u64, rmcm: &Rmcm) -> Result<Message, NotMade> {
         let (ids, position) = (Identifiers::default(), &self.state.position);
         let time = crossguard_codec::si::generation_delta_time(now_ms);
         let message = match rmcm {
