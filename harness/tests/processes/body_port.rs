@@ -3,44 +3,32 @@
 
 use std::io::{BufRead, BufReader, Write};
 use std::os::unix::net::UnixStream;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crossguard_testkit::command::*;
 use serde_json::{Value, json};
 
-const PATIENCE: Duration = Duration::from_mins(1);
+use crate::street::{ARI, GO2, Street, assert_valid, counted};
 
-/// ARI and Go2 as processes, and a body in Python for each.
-struct Street {
-    _folder: tempfile::TempDir,
-    files: [String; 2],
-    robots: [Killed; 2],
-    bodies: [Killed; 2],
-}
-
-/// The robot file of a robot with a body port at a UNIX socket beside it.
-fn ported(folder: &Path, name: &str, station: u32, port: u16, peer: u16) -> String {
-    let file = robot_file(folder, name, station, port, peer);
-    let body = format!("[body]\nsimulated_people = true\nlisten = \"unix:{name}.sock\"\n\n[link]");
-    edit(&file, &[("[link]", &body)]);
-    file
-}
-
-fn socket_of(file: &str) -> String {
+/// Gives a robot a body port at a UNIX socket beside its file, with these lines more; where the socket is.
+fn listens(file: &str, lines: &str) -> PathBuf {
     let socket = Path::new(file).with_extension("sock");
-    socket.display().to_string()
+    let name = socket.file_name().unwrap().display();
+    let body =
+        format!("[body]\n{lines}simulated_people = true\nlisten = \"unix:{name}\"\n\n[link]");
+    edit(file, &[("[link]", &body)]);
+    socket
 }
 
 /// The example body at a place.
-fn body(file: &str, [east, north]: [f64; 2], faster: f64) -> Killed {
-    let socket = socket_of(file);
-    wait_until("the body port", || Path::new(&socket).exists());
+fn body(socket: &Path, [east, north]: [f64; 2], faster: f64) -> Killed {
+    wait_until("the body port", || socket.exists());
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/body.py");
     let body = Command::new("python3")
         .arg(source)
-        .arg(format!("unix:{socket}"))
+        .arg(format!("unix:{}", socket.display()))
         .args([east, north, faster].map(|number| number.to_string()))
         .stdout(Stdio::null())
         .stderr(Stdio::null())
@@ -48,108 +36,72 @@ fn body(file: &str, [east, north]: [f64; 2], faster: f64) -> Killed {
     Killed(body.unwrap())
 }
 
-impl Street {
-    fn begin(faster: f64, silence_ms: u64) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let port = two_free_ports();
-        let files = [
-            ported(folder.path(), "ARI", 1, port, port + 1),
-            ported(folder.path(), "Go2", 2, port + 1, port),
-        ];
-        let silence = format!("[body]\nsilence_ms = {silence_ms}");
-        for file in &files {
-            edit(file, &[("[body]", &silence)]);
-        }
-        let robots = [0, 1].map(|robot| Killed(start(&files[robot])));
-        let bodies = [
-            body(&files[0], [0.0, -1.5], faster),
-            body(&files[1], [1.0, -1.11], faster),
-        ];
-        let mut street = Self {
-            _folder: folder,
-            files,
-            robots,
-            bodies,
-        };
-        type_to(&mut street.robots[0].0, "wait 1.5\ndetect\n");
-        street
-    }
-
-    /// Waits until the log of a robot has this after this many octets; how long the log is then.
-    fn until(&self, robot: usize, what: &str, from: usize) -> usize {
-        let deadline = Instant::now() + PATIENCE;
-        loop {
-            let log = log_of(&self.files[robot]);
-            if let Some(at) = log.get(from..).and_then(|log| log.find(what)) {
-                return from + at + what.len();
-            }
-            assert!(Instant::now() < deadline, "no '{what}' in:\n{log}");
-            std::thread::sleep(Duration::from_millis(10));
-        }
-    }
-
-    /// Stops everybody in order; the logs, which are valid.
-    fn end(mut self) -> [String; 2] {
-        for robot in &mut self.robots {
-            type_to(&mut robot.0, "quit\n");
-        }
-        for robot in &mut self.robots {
-            assert_eq!(wait_for(&mut robot.0, PATIENCE).code(), Some(0));
-        }
-        let logs = self.files.each_ref().map(|file| log_of(file));
-        for log in &logs {
-            crossguard_judge::validate::one(log.as_bytes()).unwrap();
-        }
-        logs
-    }
+/// ARI, which asks for help soon, and Go2, with a body in Python for each.
+fn begin(faster: f64, silence_ms: u64) -> (Street, [Killed; 2]) {
+    let mut street = Street::new(&[]);
+    let silence = format!("silence_ms = {silence_ms}\n");
+    let sockets = street
+        .configs
+        .each_ref()
+        .map(|file| listens(file, &silence));
+    street.start(&[]);
+    let bodies = [
+        body(&sockets[ARI], [0.0, -1.5], faster),
+        body(&sockets[GO2], [1.0, -1.11], faster),
+    ];
+    street.say(ARI, "wait 1.5\ndetect\n");
+    (street, bodies)
 }
 
-/// The counter of a cause of the body in a robot's last record.
-fn counted(log: &str, reason: &str) -> u64 {
-    let last = records(log).pop().unwrap();
-    last["counters"]["body"][reason].as_u64().unwrap_or(0)
+/// Ends both. Their logs, each of which is valid; together they need not be, as simulated people walk at another pace than
+/// the bodies.
+fn end(street: &mut Street) -> [Vec<Value>; 2] {
+    street.quit();
+    street.configs.each_ref().map(|file| {
+        assert_valid([Path::new(file).with_extension("log")].into_iter());
+        records(&log_of(file))
+    })
 }
 
 /// Whether a robot takes part, by the last state in its log.
-fn availability(log: &str) -> Value {
-    let mut last = records(log).into_iter().rev();
-    let last = last.find_map(|record| record.get("state").cloned());
-    last.unwrap()["availability"].clone()
+fn availability(log: &[Value]) -> &Value {
+    let state = log.iter().rev().find_map(|record| record.get("state"));
+    &state.unwrap()["availability"]
 }
 
 #[test]
 fn two_bodies_in_python_do_a_whole_crossing() {
-    let street = Street::begin(10.0, 5_000);
-    street.until(0, "taskCompleted", 0);
-    let [ari, go2] = street.end();
+    let (mut street, _bodies) = begin(10.0, 5_000);
+    street.until(ARI, "taskCompleted");
+    for log in end(&mut street) {
+        let dropped = ["silent", "not understood"].map(|cause| counted(&log, "body", cause));
+        assert_eq!(dropped, [0, 0]);
+    }
+    let [ari, go2] = [ARI, GO2].map(|robot| street.log(robot));
     assert_eq!(ari.matches("\"corridorOpened\"").count(), 1);
     assert_eq!(go2.matches("\"startManeuver\"").count(), 2);
-    for log in [&ari, &go2] {
-        let dropped = counted(log, "silent") + counted(log, "not understood");
-        assert_eq!(dropped, 0, "{log}");
-    }
 }
 
 /// Loses a body in the middle of the road by this signal, and checks the end of the corridor.
 fn lose(victim: usize, how: &str) {
-    let street = Street::begin(1.5, 500);
-    let opened = street.until(0, "\"corridorOpened\"", 0);
+    let (mut street, bodies) = begin(1.5, 500);
+    street.until(ARI, "\"corridorOpened\"");
     std::thread::sleep(Duration::from_millis(500));
-    signal(&street.bodies[victim].0, how);
-    let closed = street.until(0, "\"corridorClosed\"", opened);
+    signal(&bodies[victim].0, how);
+    street.until(ARI, "\"corridorClosed\"");
     // The robot tells it after half a second of silence, and does not just fall silent itself.
-    let log = log_of(&street.files[0]);
-    assert!(!log[opened..closed].contains("leaseExpired"), "{log}");
-    street.until(victim, "\"unavailable\":\"emergencyStop\"", 0);
-    street.until(0, "sessionEnded", opened);
+    let log = street.log(ARI);
+    let (open, _) = log.split_once("\"corridorClosed\"").unwrap();
+    assert!(!open.contains("leaseExpired"), "{log}");
+    street.until(victim, "\"unavailable\":\"emergencyStop\"");
+    street.until(ARI, "sessionEnded");
     // A body that wakes up, or comes again, does not end the stop.
     if how == "-STOP" {
-        signal(&street.bodies[victim].0, "-CONT");
+        signal(&bodies[victim].0, "-CONT");
     }
     std::thread::sleep(Duration::from_millis(300));
-    let logs = street.end();
-    let stopped = &logs[victim];
-    assert_eq!(counted(stopped, "silent"), 1, "{stopped}");
+    let stopped = &end(&mut street)[victim];
+    assert_eq!(counted(stopped, "body", "silent"), 1);
     assert_eq!(availability(stopped)["unavailable"], "emergencyStop");
 }
 
@@ -168,12 +120,10 @@ fn hears(from: &mut impl BufRead) -> Value {
 
 #[test]
 fn a_body_that_is_not_understood_is_counted_and_a_second_one_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let port = two_free_ports();
-    let go2 = ported(folder.path(), "Go2", 2, port, port + 1);
-    edit(&go2, &[("[body]", "[body]\nsilence_ms = 5000")]);
-    let mut robot = start(&go2);
-    let socket = socket_of(&go2);
+    let street = Street::new(&[]);
+    let go2 = &street.configs[GO2];
+    let socket = listens(go2, "silence_ms = 5000\n");
+    let mut robot = start(go2);
     let mut first = connect(&socket);
     let mut said = BufReader::new(first.try_clone().unwrap());
     assert_eq!(hears(&mut said), json!({"type": "hello", "crossguard": 3}));
@@ -192,19 +142,21 @@ fn a_body_that_is_not_understood_is_counted_and_a_second_one_is_refused() {
     let refused = hears(&mut BufReader::new(second));
     assert_eq!(refused["type"], "refused");
     let fault = r#""layer":"body","cause":"fault""#;
-    wait_until("the fault", || log_of(&go2).contains(fault));
+    street.until(GO2, fault);
     quit(&mut robot);
-    let log = log_of(&go2);
-    let counts = ["not understood", "fault", "silent"].map(|reason| counted(&log, reason));
-    assert_eq!(counts, [4, 1, 0], "{log}");
+    let log = street.log(GO2);
     log.must_have(&["hot motor"]);
-    assert_eq!(availability(&log)["unavailable"], "localFault", "{log}");
+    let log = records(&log);
+    let counts = ["not understood", "fault", "silent"].map(|cause| counted(&log, "body", cause));
+    assert_eq!(counts, [4, 1, 0]);
+    assert_eq!(availability(&log)["unavailable"], "localFault");
 }
 
 #[test]
 fn a_port_that_cannot_be_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = ported(folder.path(), "ARI", 1, 47_000, 47_001);
+    let street = Street::new(&[]);
+    let file = &street.configs[ARI];
+    listens(file, "");
     for row in [
         "unix:ARI.sock => 192.0.2.1:4000 => [body] listen: '192.0.2.1:4000'",
         "192.0.2.1:4000\" => unix:a.sock\"\nsilence_ms = 10 => [body] silence_ms is 10",
@@ -214,7 +166,7 @@ fn a_port_that_cannot_be_is_refused() {
         let [from, to, cause] = row.split(" => ").collect::<Vec<_>>()[..] else {
             panic!("{row}");
         };
-        edit(&file, &[(from, to)]);
-        assert_refused(&run(&["run", "--config", &file]), cause);
+        edit(file, &[(from, to)]);
+        assert_refused(&run(&["run", "--config", file]), cause);
     }
 }

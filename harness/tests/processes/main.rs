@@ -5,3 +5,9 @@ mod body_port;
 mod conform;
 mod embedded;
 mod operator_port;
+#[path = "../robots/street.rs"]
+#[expect(
+    dead_code,
+    reason = "the other program of robots in processes uses the rest"
+)]
+mod street;

@@ -3,17 +3,10 @@
 use std::io::{BufReader, Write};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
-use std::time::Duration;
 
 use crossguard_testkit::command::*;
 
-const PATIENCE: Duration = Duration::from_mins(1);
-
-/// Connects to the operator port of a robot, as soon as it is there.
-fn connect(file: &str) -> BufReader<UnixStream> {
-    let socket = Path::new(file).with_extension("sock");
-    BufReader::new(crossguard_testkit::command::connect(socket))
-}
+use crate::street::{ARI, Street, counted};
 
 const HELLO: &str = r#"{"type": "hello", "crossguard": 1}"#;
 
@@ -23,19 +16,18 @@ fn say(to: &mut BufReader<UnixStream>, line: &str) {
 
 #[test]
 fn a_program_commands_and_watches_a_crossing_whatever_others_say() {
-    let folder = tempfile::tempdir().unwrap();
-    let port = two_free_ports();
-    let ari = robot_file(folder.path(), "ARI", 1, port, port + 1);
-    let go2 = robot_file(folder.path(), "Go2", 2, port + 1, port);
+    let mut street = Street::new(&[]);
     let listen = "[operator]\nlisten = \"unix:ARI.sock\"\n\n[link]";
-    edit(&ari, &[("[link]", listen)]);
-    let mut robots = [start(&ari), start(&go2)];
-    let mut program = connect(&ari);
+    edit(&street.configs[ARI], &[("[link]", listen)]);
+    let socket = Path::new(&street.configs[ARI]).with_extension("sock");
+    let connected = || BufReader::new(connect(&socket));
+    street.start(&[]);
+    let mut program = connected();
     let hello = read_until(&mut program, |line| line["type"] == "hello");
     assert!(hello["robot"] == "ARI" && hello["station"] == 1, "{hello}");
     say(&mut program, HELLO);
     // One that talks nonsense, one whose line has no end, and one that never reads.
-    let mut spoils = [connect(&ari), connect(&ari), connect(&ari)];
+    let mut spoils = [(); 3].map(|()| connected());
     say(&mut spoils[0], "no json");
     // It may be sent away meanwhile.
     let _ = spoils[1].get_mut().write_all(&vec![b'x'; 100_000]);
@@ -55,14 +47,8 @@ fn a_program_commands_and_watches_a_crossing_whatever_others_say() {
     assert_eq!(ended["reason"], "taskCompleted");
     say(&mut program, r#"{"type": "command", "line": "quit"}"#);
     read_until(&mut program, |line| line["type"] == "stopped");
-    type_to(&mut robots[1], "quit\n");
-    for robot in &mut robots {
-        assert_eq!(wait_for(robot, PATIENCE).code(), Some(0));
-    }
-    let log = log_of(&ari);
-    crossguard_judge::validate::one(log.as_bytes()).unwrap();
-    let last = records(&log).pop().unwrap();
+    let [log, _] = street.end();
     // The line without an end, too.
-    assert_eq!(last["counters"]["operator"]["not understood"], 2, "{last}");
-    assert!(!Path::new(&ari).with_extension("sock").exists());
+    assert_eq!(counted(&log, "operator", "not understood"), 2);
+    assert!(!socket.exists());
 }

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant, SystemTime};
 use crossguard_testkit::command::*;
 use serde_json::{Value, json};
 
-use crate::street::{ARI, PATIENCE, Street};
+use crate::street::{ARI, PATIENCE, Street, counted};
 
 /// The crossing between the kerbs of the shipped street, with the pavements behind them.
 const ZONE: &str = "\n[zone]\npavement_m = 2.5\n";
@@ -90,12 +90,6 @@ fn crossing() -> Option<[Vec<Value>; 2]> {
     is_completed.then_some(logs)
 }
 
-/// How many frames a robot dropped for this reason.
-fn dropped(log: &[Value], why: &str) -> u64 {
-    let counters = &log.last().unwrap()["counters"]["perception"];
-    counters[why].as_u64().unwrap_or_default()
-}
-
 /// How often robots begin anew where the machine was so slow that they lost each other: then a session ends in order,
 /// and the crossing is not completed.
 const ATTEMPTS: usize = 3;
@@ -108,7 +102,8 @@ const LINES: &str = "{\"unix_s\": 1, \"people\": [{\"id\": -1, \"position_m\": [
 fn a_person_at_the_kerb_is_helped_across_and_nobody_types() {
     let mut tries = (0..ATTEMPTS).filter_map(|_| crossing());
     let logs = tries.next().expect("no crossing was completed");
-    assert_eq!(logs.each_ref().map(|log| dropped(log, "malformed")), [2, 2]);
+    let malformed = |log: &Vec<Value>| counted(log, "perception", "malformed");
+    assert_eq!(logs.each_ref().map(malformed), [2, 2]);
     let [log, _] = logs;
     let detected = log
         .iter()
