@@ -4,7 +4,7 @@
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use crossguard_harness::metrics;
 use crossguard_judge::sim::{Fuzz, run};
@@ -21,20 +21,9 @@ fn judge(script: &str, arguments: &[&Path], input: &str) {
         .join("judges")
         .join(script);
     let mut command = Command::new(python);
-    command
-        .arg(script)
-        .args(arguments)
-        .stdin(Stdio::piped())
-        .stderr(Stdio::piped());
-    let mut child = command.spawn().expect("Python runs");
-    child
-        .stdin
-        .take()
-        .unwrap()
-        .write_all(input.as_bytes())
-        .unwrap();
-    let output = child.wait_with_output().unwrap();
-    eprintln!("{}", stderr(&output));
+    let output = command::fed(command.arg(script).args(arguments), input.as_bytes());
+    let output = output.expect("Python runs");
+    eprintln!("{}{}", command::stdout(&output), stderr(&output));
     assert!(output.status.success(), "the judge does not agree");
 }
 

@@ -40,14 +40,19 @@ pub fn run_well(line: &str) -> Output {
 
 /// Runs the command with this on its standard input.
 pub fn run_with(arguments: &[&str], input: &[u8]) -> Output {
-    let mut child = crossguard(arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    child.stdin.take().unwrap().write_all(input).unwrap();
-    child.wait_with_output().unwrap()
+    fed(&mut crossguard(arguments), input).unwrap()
+}
+
+/// Runs any command with this on its standard input.
+///
+/// # Errors
+/// When it cannot be started.
+pub fn fed(command: &mut Command, input: &[u8]) -> std::io::Result<Output> {
+    let command = command.stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut child = command.stderr(Stdio::piped()).spawn()?;
+    // One that does not read it may have closed it.
+    let _ = child.stdin.take().unwrap().write_all(input);
+    child.wait_with_output()
 }
 
 pub fn stdout(output: &Output) -> String {

@@ -1,7 +1,6 @@
 //! `crossguard simulate`, as its user runs it.
 
-use std::io::Write;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 
 use crossguard_testkit::command::{self, *};
 use serde_json::Value;
@@ -59,15 +58,10 @@ fn coverage_is_what_python_computes_from_the_same_traces() {
 fn judge(arguments: &[&str], results: &[u8]) -> Option<(Option<i32>, String)> {
     let mut python = Command::new("python3");
     python.current_dir(env!("CARGO_MANIFEST_DIR"));
-    python.args(arguments).stdin(Stdio::piped());
-    let python = python.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
-    let Ok(mut python) = python else {
+    let Ok(said) = fed(python.args(arguments), results) else {
         skipped("there is no python3");
         return None;
     };
-    // One that reads files may have closed it.
-    let _ = python.stdin.take().unwrap().write_all(results);
-    let said = python.wait_with_output().unwrap();
     Some((said.status.code(), stdout(&said) + &stderr(&said)))
 }
 
