@@ -7,8 +7,10 @@ mod parameters;
 
 use std::io::Write;
 use std::path::PathBuf;
-use std::sync::atomic::Ordering;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
+use crossguard_evaluation::behaviour::Behaviour;
 use crossguard_evaluation::coverage::greedy;
 use crossguard_evaluation::matrix::{self, Axes};
 use crossguard_evaluation::messages::Sizes;
@@ -109,101 +111,99 @@ struct SimulateReport<'a, C> {
 }
 
 fn obs(arguments: &Obs) -> Result<(), Failure> {
-    arguments.output.check()?;
-    let interrupted = interrupts();
-    let chosen = arguments.matrix.parameters(None)?;
-    let axes = chosen.axes()?;
-    let traces = chosen.traces(&axes, arguments.output.json)?;
-    let go_on = || !interrupted.load(Ordering::Relaxed);
-    let cells = matrix::obs(&traces, &axes, &chosen.behaviour, go_on);
+    let measured = Measured::from(&arguments.matrix, None, &arguments.output)?;
+    let behaviour = &measured.chosen.behaviour;
+    let go_on = || !measured.was_stopped();
+    let cells = matrix::obs(&measured.traces, &measured.axes, behaviour, go_on);
     // Dispatched robots hear devices.
-    let is_dispatched = axes.stationing.dispatch_interval_s.is_some();
-    let behaviour = is_dispatched.then(|| chosen.behaviour.clone());
-    let parameters = Assumptions::of(&axes, &traces, behaviour);
-    let measured = Measured {
-        chosen: &chosen,
-        axes: &axes,
-        traces: &traces,
-        parameters: &parameters,
-        was_stopped: interrupted.load(Ordering::Relaxed),
-    };
-    measured.tell(&arguments.output, &cells, statements::of_coverage, Ok(()))
+    let is_dispatched = measured.axes.stationing.dispatch_interval_s.is_some();
+    let heard = is_dispatched.then_some(behaviour);
+    measured.tell(heard, &cells, statements::of_coverage, Ok(()))
 }
 
 fn cbr(arguments: &Cbr) -> Result<(), Failure> {
-    arguments.output.check()?;
     destinations::files([&arguments.air.silences])?;
-    let chosen = arguments.matrix.parameters(Some(&arguments.air))?;
-    let interrupted = interrupts();
-    let axes = chosen.axes()?;
-    let traces = chosen.traces(&axes, arguments.output.json)?;
-    let behaviour = chosen.behaviour.clone();
+    let measured = Measured::from(&arguments.matrix, Some(&arguments.air), &arguments.output)?;
+    let behaviour = &measured.chosen.behaviour;
     let sizes = Sizes::measure(behaviour.cam_path_points).map_err(Failure::input)?;
     let bar = progress(arguments.output.json, RUNS);
     let done = |finished: usize, of: usize| {
         bar.set_length(of as u64);
         bar.set_position(finished as u64);
-        !interrupted.load(Ordering::Relaxed)
+        !measured.was_stopped()
     };
-    let cells = matrix::cbr(&traces, &axes, &behaviour, &sizes, done);
+    let cells = matrix::cbr(&measured.traces, &measured.axes, behaviour, &sizes, done);
     bar.finish_and_clear();
     let results = cells.map_err(Failure::input)?;
-    let parameters = Assumptions::of(&axes, &traces, Some(behaviour));
-    let measured = Measured {
-        chosen: &chosen,
-        axes: &axes,
-        traces: &traces,
-        parameters: &parameters,
-        was_stopped: interrupted.load(Ordering::Relaxed),
-    };
     let written = csv::write(arguments.air.silences.as_deref(), &results.silences);
-    measured.tell(
-        &arguments.output,
-        &results.cells,
-        statements::of_load,
-        written,
-    )
+    let (cells, statements) = (&results.cells, statements::of_load);
+    measured.tell(Some(behaviour), cells, statements, written)
 }
 
-/// Inputs of a matrix.
+/// What a matrix is measured from, and where its results go.
 struct Measured<'a> {
-    chosen: &'a Parameters,
-    axes: &'a Axes,
-    traces: &'a [Traces],
-    parameters: &'a Assumptions,
-    was_stopped: bool,
+    output: &'a Output,
+    chosen: Parameters,
+    axes: Axes,
+    traces: Vec<Traces>,
+    interrupted: Arc<AtomicBool>,
 }
 
-impl Measured<'_> {
+impl<'a> Measured<'a> {
+    fn from(matrix: &Matrix, air: Option<&Air>, output: &'a Output) -> Result<Self, Failure> {
+        output.check()?;
+        let interrupted = interrupts();
+        let chosen = matrix.parameters(air)?;
+        let axes = chosen.axes()?;
+        Ok(Self {
+            traces: chosen.traces(&axes, output.json)?,
+            output,
+            chosen,
+            axes,
+            interrupted,
+        })
+    }
+
+    fn was_stopped(&self) -> bool {
+        self.interrupted.load(Ordering::Relaxed)
+    }
+
     /// Writes and prints the cells, and what the paper states of them if all are there. `written` is what became of other files:
     /// where one cannot be written, the figures are printed all the same.
     fn tell<C: Serialize + output::Row>(
         &self,
-        output: &Output,
+        behaviour: Option<&Behaviour>,
         cells: &[C],
         statements: impl Fn(Setting<'_>, &[C]) -> Vec<Comparison>,
         written: Result<(), Failure>,
     ) -> Result<(), Failure> {
-        let written = csv::write(output.csv.as_deref(), &output::by_seed(cells)?).and(written);
-        let statements = if self.was_stopped {
+        let was_stopped = self.was_stopped();
+        let parameters = &Assumptions::of(&self.axes, &self.traces, behaviour.cloned());
+        let path = self.output.csv.as_deref();
+        let written = csv::write(path, &output::by_seed(cells)?).and(written);
+        let statements = if was_stopped {
             Vec::new()
         } else {
-            statements(self.parameters.setting(self.axes), cells)
+            statements(parameters.setting(&self.axes), cells)
         };
-        let seeds = self.parameters.seeds();
-        finish(
-            output,
-            &SimulateReport {
-                preset: self.chosen.preset_of(self.traces),
-                documented: self.chosen.is_documented(self.axes, seeds),
-                parameters: self.parameters,
+        let documented = self.chosen.is_documented(&self.axes, parameters.seeds());
+        if self.output.json {
+            print_json(&SimulateReport {
+                preset: self.chosen.preset_of(&self.traces),
+                documented,
+                parameters,
                 cells,
                 paper: &PAPER,
                 statements: &statements,
-            },
-        )?;
+            })?;
+        } else {
+            let title = "Assumptions, most of which the paper does not state:";
+            output::print_parameters(title, parameters)?;
+            print(output::table(cells))?;
+            output::print_statements(documented, &statements)?;
+        }
         written?;
-        whole_matrix(self.was_stopped)
+        whole_matrix(was_stopped)
     }
 }
 
@@ -218,22 +218,6 @@ fn whole_matrix(was_stopped: bool) -> Result<(), Failure> {
         "crossguard: stopped before it was done; cells with fewer seeds than asked for are left out"
     );
     Err(Failure::Incomplete)
-}
-
-/// Prints the cells and what the paper states, as JSON or as tables under the parameters.
-fn finish<C: Serialize + output::Row>(
-    output: &Output,
-    report: &SimulateReport<'_, C>,
-) -> Result<(), Failure> {
-    if output.json {
-        return print_json(report);
-    }
-    output::print_parameters(
-        "Assumptions, most of which the paper does not state:",
-        report.parameters,
-    )?;
-    print(output::table(report.cells))?;
-    output::print_statements(report.documented, report.statements)
 }
 
 #[derive(Serialize)]
