@@ -1,5 +1,7 @@
 //! `crossguard fuzz`.
 
+use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
@@ -218,23 +220,12 @@ fn tell(totals: &Totals, seconds: Duration) -> Result<(), Failure> {
         totals.steps,
         totals.packets
     ))?;
-    let premises = totals.premises.iter();
-    let premises: Vec<_> = premises.map(|(id, runs)| format!("{id} {runs}")).collect();
     print(format_args!(
-        "Runs in which a property had something to say: {}.",
-        premises.join(", ")
-    ))?;
-    let hazards = totals.hazards.iter();
-    let hazards: Vec<_> = hazards.map(|(it, runs)| format!("{it} {runs}")).collect();
-    print(format_args!(
-        "Runs with each hazard: {}.",
-        hazards.join(", ")
-    ))?;
-    let left_out = totals.left_out.iter();
-    let left_out: Vec<_> = left_out.map(|(it, runs)| format!("{it} {runs}")).collect();
-    print(format_args!(
-        "Runs whose faults leave a property open: {}.",
-        left_out.join(", ")
+        "Runs in which a property had something to say: {}.\nRuns with each hazard: {}.\n\
+         Runs whose faults leave a property open: {}.",
+        runs(&totals.premises),
+        runs(&totals.hazards),
+        runs(&totals.left_out)
     ))?;
     print("Longest times, and what the timers of that run allow:")?;
     for measure in Measure::ALL {
@@ -263,4 +254,9 @@ fn tell(totals: &Totals, seconds: Duration) -> Result<(), Failure> {
         }
     }
     print(format_args!("Violations: {}.", totals.violations))
+}
+
+fn runs<K: Display>(of: &BTreeMap<K, u64>) -> String {
+    let of: Vec<_> = of.iter().map(|(it, runs)| format!("{it} {runs}")).collect();
+    of.join(", ")
 }
