@@ -13,7 +13,7 @@ mod heard;
 mod json;
 mod judges;
 mod release1;
-#[cfg(feature = "security")]
+#[cfg(feature = "issue")]
 mod security;
 mod si;
 mod size;
