@@ -313,12 +313,12 @@ impl Lead {
         self.open(view, out);
     }
 
-    /// A follower has completed its leg.
+    /// A follower has completed its leg, if its RAM have it where that leads.
     fn completed(&mut self, view: &View<'_>, station: StationId, out: &mut Outputs) {
         let Some(seat) = self.seat_of(station) else {
             return;
         };
-        if self.is_elsewhere(seat) {
+        if !self.is(seat, |it| it.presence.is_there()) {
             return self.command(view, seat, out);
         }
         if let Some(it) = self.at(seat) {

@@ -113,6 +113,11 @@ impl Leader {
         self.hear(Notice::ManeuverInPosition(station, ID))
     }
 
+    fn completes_at(&mut self, station: StationId, at: Point) -> String {
+        self.is_at(station, at);
+        self.hear(Notice::ManeuverCompleted(station, ID))
+    }
+
     fn pass(&mut self, ms: u32) -> String {
         let mut out = Outputs::EMPTY;
         self.lead.elapse(self.view.setup, Millis(ms));
@@ -305,14 +310,60 @@ fn a_stage_begins_when_everybody_has_done_their_part_of_the_one_before() {
         followers: 2,
         ..plan([ahead, block])
     });
-    leader.joins(FIRST);
-    let done = |station| Notice::ManeuverCompleted(station, ID);
-    assert_eq!(leader.hear(done(FIRST)), "", "the other has not come yet");
-    leader.joins(SECOND);
-    assert_eq!(leader.hear(done(SECOND)), "order, order");
+    let start = |leader: &mut Leader, station| {
+        leader.joins(station);
+        leader.ordered().expect("an order").1.to
+    };
+    let first = start(&mut leader, FIRST);
+    let said = leader.completes_at(FIRST, first);
+    assert_eq!(said, "", "the other has not come yet");
+    let second = start(&mut leader, SECOND);
+    assert_eq!(leader.completes_at(SECOND, second), "order, order");
     assert_eq!(leader.lead.stage(), 1);
     leader.reports_from(FIRST, PLACE);
     assert_eq!(leader.pass(1_000), "", "one guard is not there");
+}
+
+/// Hazard: a follower says that it has taken its place beside the person who waits, from anywhere. Its escort begins, and go is shown.
+#[test]
+fn a_follower_has_completed_what_its_own_position_confirms() {
+    type Said = fn(&mut Leader);
+    let cases: [(&str, Said, u8); 5] = [
+        ("there", |it| it.is_at(FIRST, PLACE), 1),
+        ("silent about it", |_| (), 0),
+        ("elsewhere", |it| it.is_at(FIRST, Point::new(600, 701)), 0),
+        (
+            "there a second ago",
+            |it| {
+                it.is_at(FIRST, PLACE);
+                it.pass(1_000);
+            },
+            0,
+        ),
+        (
+            "known to 3 m",
+            |it| {
+                let pose = Pose {
+                    at: PLACE,
+                    error_cm: 300,
+                };
+                let View { setup, plan, .. } = it.view;
+                let lead = &mut it.lead;
+                lead.follower_is_at(setup, plan, FIRST, Some(pose), Millis::ZERO);
+            },
+            0,
+        ),
+    ];
+    for (name, says, stage) in cases {
+        let mut leader = Leader::of(plan([
+            Stage::everybody(leg(TaskType::INITIAL_POS, PLACE)),
+            Stage::everybody(leg(TaskType::MOVE, Point::new(600, 1_500))),
+        ]));
+        leader.joins(FIRST);
+        says(&mut leader);
+        assert_eq!(leader.hear(Notice::ManeuverCompleted(FIRST, ID)), "order");
+        assert_eq!(leader.lead.stage(), stage, "{name}");
+    }
 }
 
 /// Hazard: a guard is pushed off its place, or falls back, while an escort has the only part of the last stage. It comes back, and
@@ -367,7 +418,7 @@ fn an_escort_is_commanded_anew_at_the_opening_period_and_not_without_end() {
         if said.contains("order") {
             orders += 1;
             leader.hear(Notice::ManeuverReported(FIRST, ID));
-            leader.hear(Notice::ManeuverCompleted(FIRST, ID));
+            leader.completes_at(FIRST, PLACE);
         }
         said = leader.pass(10);
     }
@@ -375,7 +426,7 @@ fn an_escort_is_commanded_anew_at_the_opening_period_and_not_without_end() {
     // The session lets nobody on the road any more, and ends once nobody is lost.
     leader.view.has_opened = true;
     leader.pass(10_000);
-    leader.hear(Notice::ManeuverCompleted(FIRST, ID));
+    leader.completes_at(FIRST, PLACE);
     assert_eq!(leader.pass(500), "");
     leader.view.nobody_is_lost = true;
     assert_eq!(leader.pass(10), "completed");

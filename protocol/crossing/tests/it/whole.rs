@@ -515,6 +515,29 @@ fn a_guard_that_sees_somebody_holds_whatever_its_leader_says() {
     assert_eq!(team.alone, 0);
 }
 
+/// Hazard: an escort goes to the person who waits, whose place nobody knows, and says that it is there. Go is shown, and they step on
+/// the road without it.
+#[test]
+fn go_is_not_shown_because_an_escort_says_that_it_is_there() {
+    for is_lost in [false, true] {
+        let to = [Point::new(100, -100), Point::new(100, 800)];
+        let [begins, ends] = to;
+        let legs = [
+            leg(TaskType::INITIAL_POS, begins),
+            leg(TaskType::MOVE, ends),
+        ];
+        let mut team = team(plan(&legs), true);
+        team.people = vec![person(1, 100, -100)];
+        team.robots[1].body.is_lost = is_lost;
+        let mut has_shown_go = false;
+        for _ in 0..400 {
+            team.pass(TICK);
+            has_shown_go |= team.shows_go();
+        }
+        assert_eq!(has_shown_go, !is_lost);
+    }
+}
+
 /// A sensor that fails: no go, and the guards stay.
 #[test]
 fn a_blind_leader_closes_the_sign_and_keeps_its_guards() {
