@@ -108,6 +108,8 @@ pub enum Cause {
     OperatorHeld,
     /// A program said again at once what a person says of the road or of the robot: it is taken for a stuck button.
     OperatorRepeats,
+    /// A person said that the road is clear while another robot's sign may show go: it is to be said again.
+    SaidTooEarly,
     /// The next boot counter could not be persisted; the robot keeps the one that it has.
     EpochNotRenewed,
     /// The time could not be persisted; a robot that loses power now may trust a clock that was put back.
@@ -151,7 +153,8 @@ impl Cause {
             | Self::OperatorsFull
             | Self::OperatorStranger
             | Self::OperatorHeld
-            | Self::OperatorRepeats => Layer::Operator,
+            | Self::OperatorRepeats
+            | Self::SaidTooEarly => Layer::Operator,
             Self::EpochNotRenewed | Self::TimeNotKept | Self::RevokedUnread | Self::TicketsEnd => {
                 Layer::Storage
             }
@@ -202,6 +205,7 @@ impl Display for Reason {
             Cause::BodyStranger | Cause::OperatorStranger => "another user",
             Cause::OperatorHeld => "held",
             Cause::OperatorRepeats => "said again",
+            Cause::SaidTooEarly => "said too early",
             Cause::EpochNotRenewed => "boot counter not renewed",
             Cause::TimeNotKept => "time not kept",
             Cause::RevokedUnread => "revocation list not read",

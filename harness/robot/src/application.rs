@@ -248,6 +248,7 @@ impl Application {
                 Output::Dropped(FrameDrop::Malformed) => {}
                 Output::Dropped(why) => self.trouble(Cause::FrameDropped(why.name()), "a frame", 1),
                 Output::Hindered(why) => self.is_hindered(why),
+                Output::SaidTooEarly => self.trouble(Cause::SaidTooEarly, "clear", 1),
             }
         }
     }

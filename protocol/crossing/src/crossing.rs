@@ -79,6 +79,13 @@ struct Obligation {
     said_clear: Millis,
 }
 
+impl Obligation {
+    /// Whether the sign of another robot may still show go. That of a leader whose own session ended does not.
+    fn is_beside_a_sign(&self) -> bool {
+        self.wait > Millis::ZERO && matches!(self.about, About::Duty(Duty::FallingBack(_)))
+    }
+}
+
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 enum About {
     /// The duty of a session or maneuver that ended early.
@@ -204,8 +211,11 @@ impl<const N: usize> Crossing<N> {
             Input::SaidClear => {
                 self.is_person_said = false;
                 self.tracks.resolve(true);
-                if let Some(obligation) = &mut self.obligation {
-                    obligation.said_clear = SAID;
+                match &mut self.obligation {
+                    // People may step on the road yet, and the word is about the road as it was.
+                    Some(it) if it.is_beside_a_sign() => out.put(Output::SaidTooEarly),
+                    Some(it) => it.said_clear = SAID,
+                    None => {}
                 }
             }
         }

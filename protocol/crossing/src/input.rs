@@ -219,6 +219,8 @@ pub enum Output {
     Dropped(FrameDrop),
     /// To the log: why an open corridor is closed, or what besides guards on their way keeps people who wait from crossing.
     Hindered(Hindrance),
+    /// To the log: a person said that the road is clear while another robot's sign may show go. It is to be said again.
+    SaidTooEarly,
 }
 
 /// Capacity for outputs of one step.

@@ -592,6 +592,14 @@ fn road_users_without_numbers_are_as_many_as_are_reported() {
     assert_eq!(on_road.filter(|it| it.is_on_road()).count(), 2);
 }
 
+#[test]
+fn a_word_that_came_too_early_is_counted() {
+    let mut application = watching();
+    application.carry_out(&[Output::SaidTooEarly].into_iter().collect());
+    let (cause, what, _) = application.next_trouble().unwrap();
+    assert_eq!((cause, &*what), (Cause::SaidTooEarly, "clear"));
+}
+
 /// Hazard: a guard whose position is not known passes for one that is at its place.
 #[test]
 fn a_position_that_is_not_known_is_no_pose() {

@@ -164,7 +164,10 @@ impl Team {
                 Output::Wait => member.body.waits = true,
                 Output::GoOn => member.body.waits = false,
                 Output::Release => member.body.holds = false,
-                Output::Ask(..) | Output::Dropped(..) | Output::Hindered(_) => {}
+                Output::Ask(..)
+                | Output::Dropped(..)
+                | Output::Hindered(_)
+                | Output::SaidTooEarly => {}
             }
         }
     }

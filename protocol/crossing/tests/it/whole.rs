@@ -595,6 +595,36 @@ pub(crate) fn left_alone(task: TaskType, sees: bool) -> Team {
     team
 }
 
+/// Until the follower has a duty, and no sign shows go any more that counts on it.
+fn begin_duty(team: &mut Team) {
+    team.pass_until("a duty", |it| it.robots[1].robot.duty().is_some());
+    team.pass(team.robots[1].setup.t_safety.0);
+}
+
+/// Hazard: a guard is taken out of its session, and a person says at once that the road is clear, which it is. Its leader has not heard
+/// that and shows go, and somebody steps on the road.
+#[test]
+fn a_word_frees_no_guard_while_another_robots_sign_may_show_go() {
+    let mut team = team(plan(&[leg(TaskType::BLOCK, POST)]), false);
+    team.people = vec![person(1, 100, -100)];
+    team.pass_until("go", Team::shows_go);
+    team.robots[0].hangs_until = u32::MAX;
+    team.event(1, Event::LeaveRequested);
+    for _ in 0..3 {
+        team.hear(1, Input::SaidClear);
+        team.pass(TICK);
+    }
+    assert!(team.shows_go());
+    team.people[0] = walking(person(1, 100, 0), 0, 140);
+    team.pass(6_000);
+    assert_eq!(team.alone, 0);
+    assert!(team.people[0].at.north_cm() > 700);
+    assert!(team.first(1, |it| *it == Output::SaidTooEarly).is_some());
+    team.hear(1, Input::SaidClear);
+    team.pass(TICK);
+    assert_eq!(team.robots[1].robot.duty(), None);
+}
+
 #[test]
 fn a_guard_that_knows_nothing_of_the_road_waits_for_a_person() {
     for task in [TaskType::BLOCK, TaskType::MOVE] {
@@ -619,7 +649,7 @@ fn a_guard_that_knows_nothing_of_the_road_waits_for_a_person() {
 fn a_word_that_somebody_is_seen_after_frees_no_guard() {
     for sees in [true, false] {
         let mut team = left_alone(TaskType::BLOCK, sees);
-        team.pass_until("a duty", |it| it.robots[1].robot.duty().is_some());
+        begin_duty(&mut team);
         team.hear(1, Input::BodyIsFree(false));
         team.hear(1, Input::SaidClear);
         let who = person(1, 100, 300);
@@ -637,7 +667,7 @@ fn a_word_that_somebody_is_seen_after_frees_no_guard() {
 fn a_word_that_the_road_is_clear_is_about_the_road_as_it_was() {
     for (ms, is_free) in [(9_000, true), (11_000, false)] {
         let mut team = left_alone(TaskType::BLOCK, false);
-        team.pass_until("a duty", |it| it.robots[1].robot.duty().is_some());
+        begin_duty(&mut team);
         team.hear(1, Input::BodyIsFree(false));
         team.hear(1, Input::SaidClear);
         team.pass(ms);
