@@ -9,6 +9,7 @@
 //! `crossguard-crossing` decides about people, guards, vehicles and the plan.
 
 mod bodily;
+mod objects;
 mod senses;
 mod traits;
 
@@ -269,7 +270,7 @@ impl Application {
         });
     }
 
-    /// Tells a person once why nobody may cross any more.
+    /// Tells a person once why nobody may cross any more, or why guards stay.
     fn is_hindered(&mut self, why: Hindrance) {
         if self.hindrance.replace(why) != Some(why) {
             self.untold_hindrance = Some(why);

@@ -26,6 +26,10 @@ const SAID: Millis = Millis(10_000);
 /// later (`T_GenVamMax`, TS 103 300-3).
 const REPORTED: Millis = Millis(5_500);
 
+/// Time for which a report keeps the road of a robot with sensors from being clear: a CPM has everything once a second (TS 103 324),
+/// and one may be lost.
+const HEARD: Millis = Millis(2_000);
+
 /// [`Crossing::stood`] of a robot that has looked at the carriageway on which it found itself, or was beside it.
 const LOOKED: Millis = Millis(u32::MAX);
 
@@ -136,6 +140,8 @@ pub struct Crossing<const N: usize = 64> {
     /// Time since no sign that counts on this robot has shown go any more, saturating.
     quiet: Millis,
     obligation: Option<Obligation>,
+    /// For how long yet somebody counts as on the road whom others report, or something that may be a person.
+    reported: Millis,
     /// Whether the body moves because of a fallback.
     is_falling_back: bool,
     /// Whether the protocol knows that the robot itself sees somebody on the road.
@@ -180,6 +186,7 @@ impl<const N: usize> Crossing<N> {
                 out.put(Output::Dropped(FrameDrop::Malformed));
             }
             Input::Heard(station, sighting, age) => self.heard(setup, station, sighting, age),
+            Input::Object(at) => self.suspect(setup, at, &mut out),
             Input::Vehicle(vehicle, age) => {
                 self.traffic.hear(setup, vehicle, age);
                 self.guard_corridor(setup, &mut out);
@@ -304,6 +311,7 @@ impl<const N: usize> Crossing<N> {
         }
         self.tracks.elapse(setup, time, self.sign > Millis::ZERO);
         self.occupancy.elapse(setup, time);
+        self.reported = self.reported.saturating_sub(time);
         self.traffic.elapse(setup, time);
         self.call_pause = self.call_pause.saturating_sub(time);
         self.wanted = self.wanted.saturating_sub(time);
@@ -433,6 +441,7 @@ impl<const N: usize> Crossing<N> {
             },
         );
         if is_occupied {
+            self.reported = HEARD;
             let linger = setup.sensors.linger;
             self.occupy(if has_sources {
                 linger
@@ -442,9 +451,28 @@ impl<const N: usize> Crossing<N> {
         }
     }
 
+    /// Something without a class may be a person, and the road is not clear. It is nobody to call for, to let across or to wait for:
+    /// it may be a box, and an escort would stand on the road for it.
+    fn suspect(&mut self, setup: &Setup, at: Point, out: &mut Outputs) {
+        // On the road beside the crossing, such things are parked.
+        if !setup.ground.is_road(at) || !setup.is_at_crossing(at, 0) {
+            return;
+        }
+        self.reported = HEARD;
+        self.doubt_word();
+        let keeps_guards = self.has_opened || self.obligation.is_some();
+        if keeps_guards && self.sign == Millis::ZERO {
+            out.put(Output::Hindered(Hindrance::Object));
+        }
+    }
+
     /// A person is on the road, and counts as there for so long. The word of another one that it is clear was said before this.
     fn occupy(&mut self, linger: Millis) {
         self.occupancy.occupy(linger);
+        self.doubt_word();
+    }
+
+    fn doubt_word(&mut self) {
         if let Some(obligation) = &mut self.obligation {
             obligation.said_clear = Millis::ZERO;
         }
@@ -548,7 +576,7 @@ impl<const N: usize> Crossing<N> {
             self.occupancy.start_anew();
             self.quiet = Millis::ZERO;
         } else {
-            is_over = self.occupancy.is_clear(setup);
+            is_over = self.is_clear(setup);
         }
         self.stood = self.stood.saturating_add(time);
         let set_out = setup.t_safety.saturating_add(setup.waiting.step_off);
@@ -762,8 +790,8 @@ impl<const N: usize> Crossing<N> {
             is_wanted: !knows || self.is_wanted(),
             has_opened: self.has_opened,
             has_crossed: self.has_crossed,
-            everybody_is_across: self.occupancy.is_clear(setup) && !self.is_wanted(),
-            nobody_is_lost: self.occupancy.is_clear(setup)
+            everybody_is_across: self.is_clear(setup) && !self.is_wanted(),
+            nobody_is_lost: self.is_clear(setup)
                 && !self.occupancy.was_seen()
                 && !self.tracks.is_somebody_lost(),
             was_seen: self.occupancy.was_seen(),
@@ -840,7 +868,7 @@ impl<const N: usize> Crossing<N> {
             About::Duty(Duty::FallingBack(maneuver)) => !setup.guarding.contains(maneuver.task),
             About::Duty(Duty::Crossing(_)) | About::Clearing => false,
         };
-        let is_seen_clear = !self.is_person_said && self.occupancy.is_clear(setup);
+        let is_seen_clear = !self.is_person_said && self.is_clear(setup);
         let is_clear = obligation.said_clear > Millis::ZERO
             || lets_nobody_cross
             || obligation.wait == Millis::ZERO && is_seen_clear;
@@ -920,6 +948,7 @@ impl<const N: usize> Crossing<N> {
     pub fn come_elsewhere(&mut self) {
         self.tracks = Tracks::default();
         self.occupancy = Occupancy::default();
+        self.reported = Millis::ZERO;
         self.traffic = Traffic::default();
     }
 
@@ -933,6 +962,12 @@ impl<const N: usize> Crossing<N> {
     #[must_use]
     pub const fn occupancy(&self) -> &Occupancy {
         &self.occupancy
+    }
+
+    /// Whether the road is known to be clear: by its sensors, and others report nobody there.
+    #[must_use]
+    pub fn is_clear(&self, setup: &Setup) -> bool {
+        self.reported == Millis::ZERO && self.occupancy.is_clear(setup)
     }
 
     /// For how long yet its sign shows go.

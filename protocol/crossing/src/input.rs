@@ -106,6 +106,8 @@ pub enum Input<'a> {
     BadFrame,
     /// A station reports somebody who is no vehicle, seen so long ago. It may add people, and takes none away but its own.
     Heard(StationId, Sighting, Millis),
+    /// A station reports something there that has no class and is no faster than people walk: it may be a person.
+    Object(Point),
     /// A vehicle was heard or seen, so long ago.
     Vehicle(Vehicle, Millis),
     /// A vehicle answers that it will stop before the crossing, as it was asked the last time; `false`: that it will not.
@@ -177,6 +179,8 @@ pub enum Hindrance {
     Vehicle(u64),
     /// A vehicle that is to be asked has not said that it will stop.
     NoPromise(StationId),
+    /// Something without a class is on the crossing, as another station reports. It keeps the road from being clear.
+    Object,
 }
 
 impl Display for Hindrance {
@@ -189,6 +193,9 @@ impl Display for Hindrance {
             Self::Vehicle(_) => f.write_str("a vehicle can no longer stop comfortably"),
             Self::NoPromise(station) => {
                 write!(f, "vehicle {station} has not said that it will stop")
+            }
+            Self::Object => {
+                f.write_str("something without a class is on the crossing, and may be a person")
             }
         }
     }
@@ -217,7 +224,8 @@ pub enum Output {
     Release,
     /// To the log: a frame was dropped.
     Dropped(FrameDrop),
-    /// To the log: why an open corridor is closed, or what besides guards on their way keeps people who wait from crossing.
+    /// To the log: why an open corridor is closed, or what besides guards on their way keeps people who wait from crossing, or
+    /// guards on the road.
     Hindered(Hindrance),
     /// To the log: a person said that the road is clear while another robot's sign may show go. It is to be said again.
     SaidTooEarly,

@@ -198,7 +198,7 @@ fn setup(source: &mut impl Source) -> Setup {
 
 /// An observation: time, people, vehicles and positions.
 fn observation(source: &mut impl Source) -> Told {
-    Told::Input(match source.number(8, 0) {
+    Told::Input(match source.number(9, 0) {
         0..3 => Input::Elapsed(millis(source, 100)),
         3 | 4 => {
             let look = look(source);
@@ -218,6 +218,7 @@ fn observation(source: &mut impl Source) -> Told {
                 Input::Answered(StationId(key), source.flag())
             }
         }
+        8 => Input::Object(point(source)),
         _ => {
             let station = StationId(source.number(u32::MAX, arbitrary::PEER));
             if source.flag() {
@@ -331,7 +332,7 @@ pub fn repeated(source: &mut impl Source) {
 }
 
 fn is_clear(machine: &Machine, setup: &Setup) -> bool {
-    machine.occupancy().is_clear(setup)
+    machine.is_clear(setup)
 }
 
 /// By all later inputs, `less` has no clear road where `more` has none. An input that one of them would drop
@@ -399,7 +400,7 @@ pub fn late_support(source: &mut impl Source) {
     }
 }
 
-/// A person, a malformed or a stale frame make nothing safer.
+/// A person, something without a class, a malformed or a stale frame make nothing safer.
 pub fn more_against(source: &mut impl Source) {
     let setup = setup(source);
     let without = machine(source, &setup);
@@ -409,10 +410,11 @@ pub fn more_against(source: &mut impl Source) {
         what: RoadUser::Pedestrian,
         ..sighting(source)
     };
-    let against = match source.number(3, 0) {
+    let against = match source.number(4, 0) {
         0 => Told::Frame(look(source), Some(on_road)),
         1 => Told::Input(Input::BadFrame),
         2 => Told::Input(Input::Heard(StationId(0), on_road, millis(source, 100))),
+        3 => Told::Input(Input::Object(on_road.at)),
         _ => {
             let age = setup.sensors.age_max.saturating_add(Millis(1));
             if age == setup.sensors.age_max {

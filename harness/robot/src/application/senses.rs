@@ -273,11 +273,12 @@ impl Application {
             for known in map.of_kind(Kind::Vru).filter(is_news) {
                 self.hear_person(known);
             }
+            self.hear_objects(map, now_ms);
         }
     }
 
     /// Whether somebody comes like a vehicle: is one, a moped or a motorcycle, or is faster than people walk, whatever it is.
-    fn rides(&self, known: &Neighbour) -> bool {
+    pub(super) fn rides(&self, known: &Neighbour) -> bool {
         let user = &known.user;
         let walks_mps = f64::from(self.setup.sensors.speed_max_cmps) / 100.0;
         let is_fast = user.speed.is_some_and(|mps| mps > walks_mps);
@@ -369,8 +370,7 @@ impl Application {
             _ => RoadUser::Pedestrian,
         };
         let seen = heard(known, at, what, None);
-        let (Identity::Station(by) | Identity::Object { by, .. } | Identity::Unnumbered { by, .. }) =
-            known.user.identity;
+        let by = reporter(known.user.identity);
         self.step(Input::Heard(StationId(by), seen, Millis::ZERO));
     }
 
@@ -466,8 +466,15 @@ fn measured_ago(known: &Neighbour, moment: Moment) -> Millis {
     Millis(u32::try_from(ago_ms.min(MEASURED_MS)).unwrap_or(u32::MAX))
 }
 
+/// The station that reports somebody, itself perhaps.
+pub(super) const fn reporter(identity: Identity) -> u32 {
+    let (Identity::Station(by) | Identity::Object { by, .. } | Identity::Unnumbered { by, .. }) =
+        identity;
+    by
+}
+
 /// How long ago somebody was heard.
-fn age(known: &Neighbour, now_ms: u64) -> Millis {
+pub(super) fn age(known: &Neighbour, now_ms: u64) -> Millis {
     Millis(u32::try_from(now_ms.saturating_sub(known.heard_ms)).unwrap_or(u32::MAX))
 }
 

@@ -210,6 +210,49 @@ fn what_others_report_counts_against_a_clear_road_and_never_for_it() {
     assert!(!scene.is_clear());
 }
 
+/// Hazard: a road-side unit has somebody on the road whom the sensors miss, and says so once a second. The guards leave in between.
+#[test]
+fn somebody_whom_others_report_is_on_the_road_until_they_do_not_any_more() {
+    let mut scene = watch();
+    for report in 0..3 {
+        let (at, age) = (person(5, 0, 100), crossguard_protocol::Millis(0));
+        scene.tell(Input::Heard(WITNESS, at, age));
+        for _ in 0..10 {
+            scene.look(100, &[]);
+            assert!(!scene.is_clear(), "{report}");
+        }
+    }
+    (0..10).for_each(|_| drop(scene.look(100, &[])));
+    assert!(scene.is_clear());
+}
+
+/// Hazard: something on the crossing has no class, as a camera with little light reports it, and counts as nobody.
+#[test]
+fn something_without_a_class_on_the_crossing_keeps_the_road_from_being_clear_and_calls_nobody() {
+    for (name, at, expected) in [
+        ("on the crossing", Point::new(100, 300), false),
+        ("beside it, as near as a rider", Point::new(650, 300), false),
+        ("parked along the road", Point::new(2_500, 100), true),
+        ("on the pavement", Point::new(0, -20), true),
+    ] {
+        let mut scene = watch();
+        (0..NEEDED).for_each(|_| drop(scene.look(100, &[])));
+        // A CPM has it once a second.
+        for tick in 0..30 {
+            if tick % 10 == 0 {
+                let out = scene.tell(Input::Object(at));
+                assert!(out.is_empty(), "{name}: nobody waits for a clear road");
+            }
+            assert_eq!(scene.is_clear(), expected, "{name}, {tick}");
+            scene.look(100, &[]);
+        }
+        let occupancy = scene.crossing.occupancy();
+        assert!(!occupancy.was_seen() && !scene.crossing.tracks().is_on_road());
+        (0..20).for_each(|_| drop(scene.look(100, &[])));
+        assert!(scene.is_clear(), "{name}, and gone");
+    }
+}
+
 /// A person waits at the kerb until the road is clear, and says so by a device that knows its place to a metre.
 #[test]
 fn who_waits_at_the_kerb_by_an_inexact_report_does_not_keep_the_road_of_who_sees_occupied() {

@@ -155,7 +155,7 @@ impl Scene {
     }
 
     pub(crate) fn is_clear(&self) -> bool {
-        self.crossing.occupancy().is_clear(&self.setup)
+        self.crossing.is_clear(&self.setup)
     }
 
     /// How often it has told this.

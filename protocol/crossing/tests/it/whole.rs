@@ -515,6 +515,42 @@ fn a_guard_that_sees_somebody_holds_whatever_its_leader_says() {
     assert_eq!(team.alone, 0);
 }
 
+/// Hazard: a road-side unit has somebody on the crossing whom the sensors miss, and does not know what that is. The guards leave. If it
+/// is a box, people with eyes say so.
+#[test]
+fn something_without_a_class_on_the_crossing_keeps_guards_until_it_is_gone_or_a_person_has_looked()
+{
+    for is_box in [false, true] {
+        let mut team = blocking();
+        let report = |team: &mut Team, ms: u32| {
+            for _ in 0..ms / 1_000 {
+                team.pass(1_000);
+                for robot in 0..2 {
+                    team.hear(robot, Input::Object(Point::new(100, 300)));
+                }
+            }
+        };
+        team.pass_until("go", Team::shows_go);
+        walk_across(&mut team);
+        team.robots[0].setup.calls = false;
+        report(&mut team, 30_000);
+        assert!(is_on_road(&team.robots[1].body) && !team.is_idle());
+        let why = Output::Hindered(Hindrance::Object);
+        assert!(team.first(0, |it| *it == why).is_some());
+        for _ in 0..4 {
+            if is_box {
+                team.hear(0, Input::SaidClear);
+                team.hear(1, Input::SaidClear);
+                report(&mut team, 20_000);
+            }
+        }
+        if !is_box {
+            team.pass(10_000);
+        }
+        assert!(team.is_idle(), "is box: {is_box}");
+    }
+}
+
 /// Hazard: an escort goes to the person who waits, whose place nobody knows, and says that it is there. Go is shown, and they step on
 /// the road without it.
 #[test]
@@ -647,18 +683,26 @@ fn a_guard_that_knows_nothing_of_the_road_waits_for_a_person() {
 /// A person says that the road is clear, and the guard sees somebody step on it, or hears of that, before its body is free.
 #[test]
 fn a_word_that_somebody_is_seen_after_frees_no_guard() {
-    for sees in [true, false] {
+    for (sees, has_class) in [(true, true), (false, true), (false, false)] {
         let mut team = left_alone(TaskType::BLOCK, sees);
         begin_duty(&mut team);
         team.hear(1, Input::BodyIsFree(false));
         team.hear(1, Input::SaidClear);
         let who = person(1, 100, 300);
         team.people = vec![who];
-        team.hear(1, Input::Heard(WITNESS, who, Millis(0)));
+        team.hear(
+            1,
+            if has_class {
+                Input::Heard(WITNESS, who, Millis(0))
+            } else {
+                Input::Object(who.at)
+            },
+        );
         team.pass(1_000);
         team.hear(1, Input::BodyIsFree(true));
         team.pass(30_000);
-        assert!(team.robots[1].robot.duty().is_some(), "sees: {sees}");
+        let duty = team.robots[1].robot.duty();
+        assert!(duty.is_some(), "sees: {sees}, {has_class}");
     }
 }
 
