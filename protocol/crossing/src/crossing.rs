@@ -191,6 +191,10 @@ impl<const N: usize> Crossing<N> {
                 self.traffic.hear(setup, vehicle, age);
                 self.guard_corridor(setup, &mut out);
             }
+            Input::Missed(time) => {
+                self.traffic.miss(time);
+                self.guard_corridor(setup, &mut out);
+            }
             Input::Answered(station, promises) => self.traffic.answer(setup, station, promises),
             Input::Pose(pose, age) => self.is_at(setup, pose, age),
             Input::FollowerAt(station, pose, age) => {
@@ -634,6 +638,7 @@ impl<const N: usize> Crossing<N> {
 
     /// Whether the body is to let vehicles pass: at the kerb, on its way on or over the carriageway; where nobody is on the road or it
     /// has no maneuver, also on it, before it steps on another lane. Where somebody is on the road, it does so for those alone that could not stop by hard braking.
+    /// One that may be there and was not heard holds no body on a lane, nor where somebody on the road needs it.
     fn is_held_by_vehicles(&self, setup: &Setup, to: Point) -> bool {
         let (Some(road), Some((pose, _))) = (setup.ground.road, self.pose) else {
             return false;
@@ -651,11 +656,14 @@ impl<const N: usize> Crossing<N> {
                 && road.is_between(pose.at, to)
         };
         let is_urgent = self.tracks.is_on_road();
+        let is_missed =
+            self.traffic.is_missed() && !is_urgent && (self.is_held_at_kerb || !road.has(pose.at));
         let way = [pose.at, to];
         may_be_held
-            && self
-                .traffic
-                .comes_at(setup, way, is_urgent, self.is_held_at_kerb)
+            && (is_missed
+                || self
+                    .traffic
+                    .comes_at(setup, way, is_urgent, self.is_held_at_kerb))
     }
 
     /// Tells the protocol whether a follower itself sees somebody on the road: at once, for its leader may end the session.
@@ -805,6 +813,9 @@ impl<const N: usize> Crossing<N> {
         }
         if let Some(vehicle) = self.traffic.hindrance(setup) {
             return Some(Hindrance::Vehicle(vehicle));
+        }
+        if self.traffic.is_missed() && setup.ground.where_people_cross().is_some() {
+            return Some(Hindrance::Missed);
         }
         let unpromised = self.unpromised(setup);
         unpromised.map(|(station, _)| Hindrance::NoPromise(station))

@@ -110,6 +110,8 @@ pub enum Input<'a> {
     Object(Point),
     /// A vehicle was heard or seen, so long ago.
     Vehicle(Vehicle, Millis),
+    /// Packets were dropped because there were too many: for so long a vehicle may be there that was not heard.
+    Missed(Millis),
     /// A vehicle answers that it will stop before the crossing, as it was asked the last time; `false`: that it will not.
     Answered(StationId, bool),
     /// The position of the robot's own body, measured so long ago; `None` where it is not known.
@@ -177,6 +179,8 @@ pub enum Hindrance {
     NoSight,
     /// A vehicle can no longer stop comfortably: its key.
     Vehicle(u64),
+    /// Packets were dropped: a vehicle may be there that was not heard.
+    Missed,
     /// A vehicle that is to be asked has not said that it will stop.
     NoPromise(StationId),
     /// Something without a class is on the crossing, as another station reports. It keeps the road from being clear.
@@ -191,6 +195,9 @@ impl Display for Hindrance {
             Self::LeaderElsewhere => f.write_str("the leader is not at its place"),
             Self::NoSight => f.write_str("sensors do not cover the carriageway"),
             Self::Vehicle(_) => f.write_str("a vehicle can no longer stop comfortably"),
+            Self::Missed => {
+                f.write_str("packets were dropped, and a vehicle may come that was not heard")
+            }
             Self::NoPromise(station) => {
                 write!(f, "vehicle {station} has not said that it will stop")
             }

@@ -212,10 +212,10 @@ fn observation(source: &mut impl Source) -> Told {
         ),
         7 => {
             let key = source.number(u32::MAX, 1);
-            if source.likely(Some(true)) {
-                Input::Vehicle(vehicle(source, key), millis(source, 100))
-            } else {
-                Input::Answered(StationId(key), source.flag())
+            match source.number(4, 0) {
+                0..3 => Input::Vehicle(vehicle(source, key), millis(source, 100)),
+                3 => Input::Answered(StationId(key), source.flag()),
+                _ => Input::Missed(millis(source, 5_000)),
             }
         }
         8 => Input::Object(point(source)),
@@ -431,16 +431,16 @@ pub fn more_against(source: &mut impl Source) {
     is_never_safer(source, &setup, (with, without));
 }
 
-/// A vehicle that was not known before, and a refusal to stop, hinders or changes nothing.
+/// A vehicle that was not known before, one that may have been missed, and a refusal to stop, hinders or changes nothing.
 pub fn one_more_vehicle(source: &mut impl Source) {
     let setup = setup(source);
     let without = machine(source, &setup);
     let mut with = without.clone();
     let key = 77_777_777;
-    let told = if source.likely(Some(true)) {
-        Input::Vehicle(vehicle(source, key), millis(source, 100))
-    } else {
-        Input::Answered(StationId(source.number(u32::MAX, 1)), false)
+    let told = match source.number(4, 0) {
+        0..3 => Input::Vehicle(vehicle(source, key), millis(source, 100)),
+        3 => Input::Answered(StationId(source.number(u32::MAX, 1)), false),
+        _ => Input::Missed(millis(source, 5_000)),
     };
     with.step(&setup, told);
     assert!(with.hindered(&setup).is_some() || without.hindered(&setup).is_none());

@@ -3,7 +3,8 @@
 //! A vehicle is no hindrance when it stands beside the crossing, has passed with its whole length, passes aside, or is farther away
 //! than it needs to stop: `v * reaction + v² / (2 * deceleration)`. An older report counts as if the vehicle had gone on since. A vehicle that
 //! falls silent counts for `keep`, also where its number is that of another one by now: a vehicle that cannot be where the next
-//! report has it is another one. Vehicles that are neither heard nor seen are the road authority's concern.
+//! report has it is another one. Vehicles that are neither heard nor seen are the road authority's concern, but for those of packets
+//! that the robot itself had to drop: while it may have missed one, go does not begin, and no body leaves the kerb for an empty road.
 //!
 //! A vehicle passes aside if its line does, and if no bend leads it to the crossing: drivers take one with a radius of
 //! `v² / deceleration` at least, for they put up with no more to the side than before them.
@@ -82,6 +83,8 @@ pub struct Traffic {
     vehicles: [Option<Known>; VEHICLES],
     /// There are too many: this one counts as one that cannot stop.
     further: Option<(u64, Millis)>,
+    /// For how long yet one may be there that was not heard.
+    unheard: Millis,
 }
 
 impl Traffic {
@@ -91,6 +94,7 @@ impl Traffic {
             .further
             .map(|(key, left)| (key, left.saturating_sub(time)));
         self.further = left.filter(|(_, left)| *left > Millis::ZERO);
+        self.unheard = self.unheard.saturating_sub(time);
         for slot in &mut self.vehicles {
             if let Some(known) = slot {
                 known.age = known.age.saturating_add(time);
@@ -133,6 +137,16 @@ impl Traffic {
             Some(slot) => *slot = Some(known),
             None => self.further = Some((vehicle.key, setup.traffic.keep)),
         }
+    }
+
+    /// Vehicles may be there for so long that are not heard.
+    pub(crate) fn miss(&mut self, time: Millis) {
+        self.unheard = self.unheard.max(time);
+    }
+
+    /// Whether a vehicle may be there that was not heard.
+    pub(crate) fn is_missed(&self) -> bool {
+        self.unheard > Millis::ZERO
     }
 
     /// Takes in a vehicle's answer to the newest question whether it will stop.

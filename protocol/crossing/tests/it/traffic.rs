@@ -331,11 +331,14 @@ fn a_vehicle_in_a_frame_that_tells_no_velocity_hinders_like_one_that_comes() {
 fn a_sign_that_shows_go_is_turned_before_a_vehicle_that_cannot_stop() {
     let mut setup = street();
     setup.watches = false;
-    for (shows, expected) in [(1_900, true), (0, false)] {
-        let mut scene = Scene::new(setup.clone());
-        scene.tell(Input::CorridorOpen(Millis(shows)));
-        let out = scene.tell(Input::Vehicle(vehicle(-1_900, 200, 1_389, 0), Millis(0)));
-        assert_eq!(out.contains(&Output::Stop), expected, "{shows} ms");
+    let comes = Input::Vehicle(vehicle(-1_900, 200, 1_389, 0), Millis(0));
+    for told in [comes, Input::Missed(Millis(1))] {
+        for (shows, expected) in [(1_900, true), (0, false)] {
+            let mut scene = Scene::new(setup.clone());
+            scene.tell(Input::CorridorOpen(Millis(shows)));
+            let out = scene.tell(told);
+            assert_eq!(out.contains(&Output::Stop), expected, "{shows} ms");
+        }
     }
 }
 
@@ -369,6 +372,50 @@ fn a_body_waits_at_the_kerb_and_not_before_it_or_along_it() {
     assert!(!out.contains(&Output::Wait));
 }
 
+/// Hazard: a guard steps on the lane in a flood of packets, before a car that it does not hear. One that is on a lane does not stay
+/// there for it, nor does one at the kerb that somebody on the road needs.
+#[test]
+fn packets_that_are_dropped_hold_a_body_at_the_kerb_of_an_empty_road() {
+    let mut setup = street();
+    setup.watches = false;
+    for (name, north, people, expected) in [
+        ("at the kerb", -100, &[][..], true),
+        ("on the lane", 100, &[], false),
+        ("for somebody", -100, &[person(1, 100, 300)], false),
+    ] {
+        let mut scene = Scene::new(setup.clone());
+        scene.frame(0, 0, 0b11, people);
+        scene.is_at(0, north, 0);
+        // A shorter time takes nothing from a longer one.
+        for ms in [5_000, 1_000] {
+            scene.tell(Input::Missed(Millis(ms)));
+        }
+        let to = Some(Point::new(0, 200));
+        let out = scene.tell(Input::Started(maneuver(TaskType::BLOCK, 0), to));
+        assert_eq!(out.contains(&Output::Wait), expected, "{name}");
+        for half in 1..=10 {
+            let hindered = scene.crossing.hindered(&scene.setup);
+            assert_eq!(hindered, Some(Hindrance::Missed), "{name}");
+            scene.is_at(0, north, 0);
+            scene.pass(500);
+            let goes_on = scene.out.contains(&Output::GoOn);
+            assert_eq!(goes_on, expected && half == 10, "{name}, {half}");
+        }
+        assert_eq!(scene.crossing.hindered(&scene.setup), None, "{name}");
+    }
+    // Somebody could keep a robot without a part on the lane.
+    let home = Point::new(0, -150);
+    setup.home = Some(home);
+    let mut scene = Scene::new(setup);
+    for north in [-150, 100] {
+        scene.is_at(0, north, 0);
+    }
+    scene.tell(Input::Missed(Millis(5_000)));
+    scene.pass(100);
+    let goes = [Output::WalkTo(home), Output::Wait].map(|it| scene.out.contains(&it));
+    assert_eq!(goes, [true, false]);
+}
+
 #[test]
 fn each_hindrance_has_a_text_of_its_own() {
     let hindrances = [
@@ -377,6 +424,7 @@ fn each_hindrance_has_a_text_of_its_own() {
         Hindrance::LeaderElsewhere,
         Hindrance::NoSight,
         Hindrance::Vehicle(7),
+        Hindrance::Missed,
         Hindrance::NoPromise(StationId(7)),
     ];
     let texts = hindrances.map(|it| it.to_string());
