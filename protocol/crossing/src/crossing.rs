@@ -607,8 +607,11 @@ impl<const N: usize> Crossing<N> {
         self.pose.is_some_and(is_elsewhere) && self.is_looking()
     }
 
-    /// Has the body wait on its way, or go on.
+    /// Has the body wait on its way, or go on. One that waits, and of which nobody knows where it is, waits on.
     fn watch_way(&mut self, setup: &Setup, out: &mut Outputs) {
+        if self.waits && self.pose.is_none() && !self.is_kerbward {
+            return;
+        }
         let is_escort = |task: &Task| setup.escorts().contains(task.maneuver.task);
         let to = self.task.map_or(self.walk, |task| task.place);
         let to = to.filter(|_| !self.is_kerbward);
@@ -616,15 +619,11 @@ impl<const N: usize> Crossing<N> {
         let looks = to.is_some_and(|to| self.is_held_by_look(setup, to));
         let is_on_road = |pose: Pose| setup.ground.is_road(pose.at);
         let is_out = self.pose.is_some_and(|(pose, _)| is_on_road(pose));
-        // A body that does not know where it is any more stays where it was to wait.
-        let stays = self.pose.is_none() && self.waits && to.is_some();
-        self.is_held_at_kerb =
-            is_held && (self.is_held_at_kerb || !is_out) || stays && self.is_held_at_kerb;
+        self.is_held_at_kerb = is_held && (self.is_held_at_kerb || !is_out);
         let waits = if self.is_kerbward {
             self.is_person_apart(setup)
         } else {
             is_held
-                || stays
                 || looks
                 || self.task.as_ref().is_some_and(is_escort) && self.is_person_behind(setup)
         };

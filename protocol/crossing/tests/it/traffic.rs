@@ -372,6 +372,37 @@ fn a_body_waits_at_the_kerb_and_not_before_it_or_along_it() {
     assert!(!out.contains(&Output::Wait));
 }
 
+/// Hazard: a body at the kerb that waits for a vehicle does not know any more where it is, and goes on in front of that vehicle.
+#[test]
+fn a_body_that_waits_does_not_go_on_before_it_is_known_where_it_is() {
+    let mut setup = street();
+    setup.watches = false;
+    let comes = |scene: &mut Scene| {
+        scene.tell(Input::Vehicle(vehicle(-1_900, 200, 1_389, 0), Millis(0)));
+    };
+    for is_told in [true, false] {
+        let mut scene = Scene::new(setup.clone());
+        comes(&mut scene);
+        scene.is_at(0, -100, 0);
+        let to = Some(Point::new(0, 200));
+        scene.tell(Input::Started(maneuver(TaskType::BLOCK, 0), to));
+        if is_told {
+            scene.tell(Input::Pose(None, Millis(0)));
+        }
+        // Its position lasts for a second.
+        for _ in 0..3 {
+            scene.pass(500);
+            comes(&mut scene);
+        }
+        assert!(scene.out.contains(&Output::Wait));
+        assert!(!scene.out.contains(&Output::GoOn), "{is_told}");
+        scene.pass(5_001);
+        scene.is_at(0, -100, 0);
+        scene.pass(1);
+        assert!(scene.out.contains(&Output::GoOn), "{is_told}");
+    }
+}
+
 /// Hazard: a guard steps on the lane in a flood of packets, before a car that it does not hear. One that is on a lane does not stay
 /// there for it, nor does one at the kerb that somebody on the road needs.
 #[test]
