@@ -54,6 +54,8 @@ pub enum Cause {
     NotSent,
     /// The operating system delivers no datagrams any more.
     LinkFailed,
+    /// A datagram arrived while its socket had no room, and the operating system dropped it.
+    SocketFull,
     /// A datagram is not framed as the link's datagrams are.
     Misframed(&'static str),
     /// A datagram waited for longer than `delay_max` between its arrival and its input to the robot.
@@ -130,7 +132,7 @@ impl Cause {
     pub const fn layer(self) -> Layer {
         match self {
             Self::Simulated(_) => Layer::Simulated,
-            Self::NotSent | Self::LinkFailed | Self::Misframed(_) => Layer::Link,
+            Self::NotSent | Self::LinkFailed | Self::SocketFull | Self::Misframed(_) => Layer::Link,
             Self::WaitedTooLong | Self::InboxFull => Layer::Inbox,
             Self::Discarded(_) => Layer::Packet,
             Self::Rejected(_) => Layer::Security,
@@ -180,7 +182,7 @@ impl Display for Reason {
             Cause::Simulated(loss) => loss.name(),
             Cause::NotSent => "not sent",
             Cause::LinkFailed => "failed",
-            Cause::InboxFull | Cause::LogFull | Cause::OutputFull => "full",
+            Cause::SocketFull | Cause::InboxFull | Cause::LogFull | Cause::OutputFull => "full",
             Cause::WaitedTooLong => "waited too long",
             Cause::ClockWentBack => "clock went back",
             Cause::Misframed(why)

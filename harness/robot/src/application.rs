@@ -28,7 +28,7 @@ use crossguard_protocol::{
 };
 
 use self::bodily::Bodily;
-use self::senses::{Said, UNHEARD};
+use self::senses::Said;
 pub use self::traits::Traits;
 use crate::body::{Body, BodyAct, Fallback};
 use crate::plan::{Plan, millis};
@@ -279,12 +279,7 @@ impl Application {
 
     /// Why nobody may cross any more, to be logged.
     pub(crate) fn next_hindrance(&mut self) -> Option<String> {
-        let why = self.untold_hindrance.take()?;
-        Some(if why == Hindrance::Vehicle(UNHEARD) {
-            "packets were dropped, and a vehicle may come that was not heard".to_owned()
-        } else {
-            why.to_string()
-        })
+        Some(self.untold_hindrance.take()?.to_string())
     }
 
     /// Takes in what the protocol knows after a step.

@@ -328,6 +328,8 @@ impl Loop {
                 detail,
                 octets,
             }) => self.drop(Cause::Misframed(cause), detail, octets),
+            // The reader counts it.
+            Ok(Arrival::Overflow(_)) => {}
             Err(cause) => {
                 self.drop(Cause::LinkFailed, cause.to_string(), Vec::new());
             }
@@ -335,10 +337,16 @@ impl Loop {
         self.handle(Stimulus::Time);
     }
 
-    /// Counts what the reader had no place for.
+    /// Counts what the reader and the socket had no place for.
     fn count_overflow(&mut self) {
         for _ in 0..self.waiting.dropped.swap(0, Ordering::Relaxed) {
             self.machine.miss(Cause::InboxFull);
+        }
+        let count = self.waiting.overflowed.swap(0, Ordering::Relaxed);
+        if count > 0 {
+            self.machine.application.miss(Cause::SocketFull);
+            let detail = format!("the socket had no room for {count} datagrams");
+            self.drop_many(Cause::SocketFull, detail, count);
         }
     }
 
@@ -472,11 +480,7 @@ impl Loop {
             self.carry_out(effect);
         }
         while let Some((cause, detail, count)) = self.machine.application.next_trouble() {
-            self.drop(cause, detail.into_owned(), Vec::new());
-            for _ in 1..count {
-                self.machine.endpoint.count(cause);
-                self.sampler.count(&cause.into());
-            }
+            self.drop_many(cause, detail.into_owned(), count);
         }
         if let Some(why) = self.machine.application.next_hindrance() {
             self.log(Entry::Hindered { why });
@@ -522,6 +526,14 @@ impl Loop {
         {
             self.drop(Cause::NotSent, error.to_string(), Vec::new());
         }
+    }
+
+    /// So many were dropped: one record has the details, the others are counted.
+    fn drop_many(&mut self, cause: Cause, detail: String, count: u64) {
+        self.drop(cause, detail, Vec::new());
+        let others = count - 1;
+        (0..others).for_each(|_| self.machine.endpoint.count(cause));
+        self.sampler.count(&cause.into(), others);
     }
 
     fn drop(&mut self, cause: Cause, detail: String, octets: Vec<u8>) {

@@ -174,6 +174,8 @@ pub enum Arrival {
         /// Its content.
         octets: Vec<u8>,
     },
+    /// The socket had no room for so many datagrams.
+    Overflow(u32),
     /// How the channel is, from a transport that measures it.
     Channel(Radio),
     /// A datagram that is not framed as it should be.

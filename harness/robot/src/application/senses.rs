@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use crossguard_codec::security::Rejected;
 use crossguard_codec::{Identity, Kind, Position, TaskParameters};
 use crossguard_crossing::{
-    BodyReport, Coverage, Frame, FrameDrop, Input, Point, Pose, RoadUser, Shape, Sighting, Vehicle,
-    Way, traffic,
+    BodyReport, Coverage, Frame, FrameDrop, Input, Point, Pose, RoadUser, Sighting, Vehicle, Way,
+    traffic,
 };
 use crossguard_endpoint::Moment;
 use crossguard_endpoint::cause::Cause;
@@ -36,9 +36,6 @@ const MOTORCYCLE: u8 = 4;
 
 /// Error of a vehicle's place that its message does not say, in centimetres.
 const UNSAID_ERROR_CM: u16 = 1_000;
-
-/// The key of a vehicle that may be there and was not heard.
-pub(super) const UNHEARD: u64 = 1 << 58;
 
 /// A vehicle that was not heard says again within this time where it is (CAM, EN 302 637-2, `T_GenCamMax`).
 const SAYS_AGAIN: Millis = Millis(1_000);
@@ -334,30 +331,18 @@ impl Application {
         self.step(Input::Vehicle(vehicle, measured_ago(known, moment)));
     }
 
-    /// A packet was dropped for this cause. Where there were too many, a vehicle may be at the crossing that was not heard: while
-    /// the robot leads, it counts as one that cannot stop. Packets wait too long for a robot that was held up for a moment: that
-    /// keeps go from beginning until vehicles have said again where they are, and takes none away that its lease still covers.
+    /// A packet was dropped for this cause. Where there were too many, a vehicle may come that was not heard. Packets wait too long
+    /// for a robot that was held up for a moment: that keeps go from beginning until vehicles have said again where they are, and
+    /// takes none away that its lease still covers.
     pub(crate) fn miss(&mut self, cause: Cause) {
         let is_go = self.crossing.shows_go() > Millis::ZERO;
-        let age = match cause {
-            Cause::InboxFull => Millis::ZERO,
-            Cause::Rejected(why) if why == Rejected::TooManyNew.cause() => Millis::ZERO,
-            Cause::WaitedTooLong if !is_go => self.setup.traffic.keep.saturating_sub(SAYS_AGAIN),
+        let time = match cause {
+            Cause::SocketFull | Cause::InboxFull => self.setup.traffic.keep,
+            Cause::Rejected(why) if why == Rejected::TooManyNew.cause() => self.setup.traffic.keep,
+            Cause::WaitedTooLong if !is_go => SAYS_AGAIN,
             _ => return,
         };
-        let crossing = self.setup.ground.where_people_cross();
-        let Some(at) = crossing.filter(|_| self.counts).map(Shape::middle) else {
-            return;
-        };
-        let vehicle = Vehicle {
-            key: UNHEARD,
-            station: None,
-            at,
-            front_cm: 0,
-            error_cm: 0,
-            velocity: traffic::velocity(&self.setup, at, None, None),
-        };
-        self.step(Input::Vehicle(vehicle, age));
+        self.step(Input::Missed(time));
     }
 
     fn hear_person(&mut self, known: &Neighbour) {

@@ -24,6 +24,8 @@ pub(super) struct Waiting {
     /// How many were dropped and are not counted yet.
     pub(super) dropped: AtomicU64,
     pub(super) dropped_in_all: AtomicU64,
+    /// How many the socket had no room for, which are not counted yet.
+    pub(super) overflowed: AtomicU64,
     /// Robots whose datagrams have places of their own.
     pub(super) partners: Partners,
 }
@@ -62,6 +64,12 @@ impl Reader {
             let Some(arrival) = self.receiver.receive(READER_WAIT).transpose() else {
                 continue;
             };
+            // It takes no place: the datagram that comes with it may be the last one that has one.
+            if let Ok(Arrival::Overflow(count)) = arrival {
+                let overflowed = &self.waiting.overflowed;
+                overflowed.fetch_add(count.into(), Ordering::Relaxed);
+                continue;
+            }
             let has_failed = arrival.is_err();
             if !self.deliver(Delivery::Arrived(arrival)) {
                 return;
@@ -95,16 +103,24 @@ impl Reader {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::VecDeque;
     use std::time::Instant;
 
     use crossguard_codec::geonet::{EgoPosition, Stack};
     use crossguard_codec::{Identifiers, Service};
+    use crossguard_endpoint::cause::Cause;
     use crossguard_protocol::{Config, Decimetres, Heartbeat, SessionNumber, StationId};
     use crossguard_protocol::{Coordination, Event, HelpRequest, Input, Place, Ram, Robot};
     use crossguard_protocol::{TaskSet, UniqueNumber, Urgency};
 
     use super::*;
-    use crate::transport::Source;
+    use crate::application::Application;
+    use crate::body::{Build, Simulated};
+    use crate::journal::{RECORDS, WhenFull};
+    use crate::runtime::Setup;
+    use crate::site::Site;
+    use crate::trace::Entry;
+    use crate::transport::{Halves, NotSent, Sender, Source};
 
     fn from(station: u32) -> Delivery {
         let mut stack = Stack::of_robot(Identifiers::default(), StationId(station));
@@ -158,5 +174,61 @@ mod tests {
         idle.step(&Config::default(), Input::Local(Event::LeaveRequested));
         waiting.partners.follow(&idle, &identifiers);
         assert!(!has_place(DATAGRAMS, 1));
+    }
+
+    /// A link on which these arrive, and nothing after them.
+    struct Given(VecDeque<Arrival>);
+
+    impl Receiver for Given {
+        fn receive(&mut self, at_most: Duration) -> std::io::Result<Option<Arrival>> {
+            let next = self.0.pop_front();
+            if next.is_none() {
+                std::thread::sleep(at_most);
+            }
+            Ok(next)
+        }
+    }
+
+    impl Sender for Given {
+        fn send(&mut self, _: &[u8]) -> Result<(), NotSent> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn datagrams_that_the_socket_had_no_room_for_are_in_log_and_counters() {
+        let Delivery::Arrived(Ok(next)) = from(9) else {
+            panic!("no datagram");
+        };
+        let arrivals = Given([Arrival::Overflow(57), next].into());
+        let (build, site, place) = (
+            Build::Quadruped,
+            Site::default(),
+            crate::site::Place::default(),
+        );
+        let body = Simulated::new(build, site, place, 1.0, 1);
+        let application = Application::new(Box::new(body), None);
+        let link = Halves::of(Given(VecDeque::new()), arrivals);
+        let mut setup = Setup::new("R1", StationId(1), application, link);
+        let (length, lost) = (RECORDS, Cause::OutputFull);
+        let records = setup.journal.reader(length, WhenFull::Skip, lost);
+        let robot = setup.start();
+        let full = Cause::SocketFull.into();
+        let is_told = |entry: &Entry| matches!(entry, Entry::Dropped { cause, detail, .. } if *cause == full && detail.contains("57"));
+        let deadline = Instant::now() + Duration::from_secs(30);
+        let mut told = records.iter().map(|it| is_told(&it.entry));
+        while !told.next().unwrap() {
+            assert!(Instant::now() < deadline, "it is not in the log");
+        }
+        robot.stop().unwrap();
+        let mut counted = [0; 2];
+        for record in records {
+            match &record.entry {
+                Entry::Unrecorded { counters } => counted[0] += counters.of(&full),
+                Entry::Stopped { counters } => counted[1] += counters.of(&full),
+                _ => {}
+            }
+        }
+        assert_eq!(counted, [56, 57]);
     }
 }

@@ -34,13 +34,15 @@ impl Sampler {
             *recorded += 1;
             return true;
         }
-        self.count(cause);
+        self.count(cause, 1);
         false
     }
 
-    /// Counts a drop that has no record of its own.
-    pub(super) fn count(&mut self, cause: &CauseName) {
-        self.unrecorded.add(cause, 1);
+    /// Counts drops that have no records of their own.
+    pub(super) fn count(&mut self, cause: &CauseName, count: u64) {
+        if count > 0 {
+            self.unrecorded.add(cause, count);
+        }
     }
 
     /// The counts of a second that is over at `now_us`, if anything was not recorded in it.

@@ -20,6 +20,18 @@ pub(super) struct Datagrams<S> {
     buffer: Box<[u8; DATAGRAM_MAX]>,
     attention: Attention,
     stamps: Stamps,
+    /// A datagram that waits in the buffer until it is told that others before it were dropped.
+    held: Option<(Source, usize, Instant)>,
+}
+
+/// Something that came off a socket.
+#[derive(Debug)]
+pub(super) enum Taken<'a> {
+    /// A datagram: its sender, its content, and when it arrived.
+    Datagram(Source, &'a [u8], Instant),
+    /// The socket had no room for so many that arrived before the next one. The kernel tells of them with a datagram that arrived
+    /// after them.
+    Overflow(u32),
 }
 
 impl<S: AsFd + AsRawFd> Datagrams<S> {
@@ -29,15 +41,15 @@ impl<S: AsFd + AsRawFd> Datagrams<S> {
             socket,
             buffer: Box::new([0; DATAGRAM_MAX]),
             attention: Attention::new(Instant::now()),
+            held: None,
         }
     }
 
-    /// Waits for the next one, for so long at most: its sender, its content, and when it arrived. Fails by what the
-    /// operating system says and will not go away by itself.
-    pub(super) fn next(
-        &mut self,
-        at_most: Duration,
-    ) -> std::io::Result<Option<(Source, &[u8], Instant)>> {
+    /// Waits for the next one, for so long at most. Fails by what the operating system says and will not go away by itself.
+    pub(super) fn next(&mut self, at_most: Duration) -> std::io::Result<Option<Taken<'_>>> {
+        if let Some((from, length, at)) = self.held.take() {
+            return Ok(Some(Taken::Datagram(from, &self.buffer[..length], at)));
+        }
         let may_wait = self.attention.may_wait(at_most);
         let called = Instant::now();
         let (socket, flags) = (&self.socket, MsgFlags::MSG_DONTWAIT);
@@ -45,10 +57,19 @@ impl<S: AsFd + AsRawFd> Datagrams<S> {
         let received = ready.and_then(|()| self.stamps.receive(socket, &mut *self.buffer, flags));
         let now = Instant::now();
         match received {
-            Ok(Stamped { length, from, age }) => {
+            Ok(Stamped {
+                length,
+                from,
+                age,
+                dropped,
+            }) => {
                 let at = self.attention.took(may_wait, now, age);
                 let from = from.as_ref().map_or(Source::Unknown, source_of);
-                Ok(Some((from, &self.buffer[..length], at)))
+                if dropped > 0 {
+                    self.held = Some((from, length, at));
+                    return Ok(Some(Taken::Overflow(dropped)));
+                }
+                Ok(Some(Taken::Datagram(from, &self.buffer[..length], at)))
             }
             // A UDP peer that is gone answers with ICMP, which shows up as a refused connection.
             Err(Errno::EINTR | Errno::ECONNREFUSED | Errno::ECONNRESET) => Ok(None),
@@ -83,4 +104,50 @@ fn source_of(address: &SockaddrStorage) -> Source {
             .map(|it| SocketAddr::V6((*it).into()))
     };
     v4.or_else(v6).map_or(Source::Unknown, Source::Address)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::net::UdpSocket;
+
+    use socket2::SockRef;
+
+    use super::*;
+
+    /// Hazard: a vehicle's packet finds no room in the socket, nobody counts it, and go begins in front of that vehicle.
+    #[test]
+    fn datagrams_for_which_the_socket_has_no_room_are_counted_before_the_next_one() {
+        let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+        let address = socket.local_addr().unwrap();
+        SockRef::from(&socket).set_recv_buffer_size(4_096).unwrap();
+        let other = UdpSocket::bind("127.0.0.1:0").unwrap();
+        let mut datagrams = Datagrams::of(socket);
+        let (mut taken, mut dropped, mut told) = (0, 0, 0);
+        for round in 0..2 {
+            for _ in 0..100 {
+                other.send_to(&[round; 1_000], address).unwrap();
+            }
+            // One that comes when there is room again.
+            let mut is_sent = false;
+            loop {
+                match datagrams.next(Duration::from_millis(100)).unwrap() {
+                    Some(Taken::Datagram(_, [9], _)) => break,
+                    Some(Taken::Datagram(_, octets, _)) => {
+                        assert_eq!(octets, [round; 1_000]);
+                        taken += 1;
+                    }
+                    Some(Taken::Overflow(count)) => {
+                        dropped += count;
+                        told += 1;
+                    }
+                    None if is_sent => panic!("it did not come"),
+                    None => {
+                        other.send_to(&[9], address).unwrap();
+                        is_sent = true;
+                    }
+                }
+            }
+        }
+        assert_eq!((taken + dropped, told), (200, 2), "{taken} were taken");
+    }
 }

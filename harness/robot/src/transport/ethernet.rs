@@ -14,7 +14,7 @@ use nix::sys::socket::{
     AddressFamily, MsgFlags, SockFlag, SockProtocol, SockType, bind, send, socket,
 };
 
-use super::datagrams::Datagrams;
+use super::datagrams::{Datagrams, Taken};
 use super::error::address_of;
 use super::{Arrival, Halves, LinkError, NotSent, Receiver, Sender, Source};
 
@@ -59,8 +59,10 @@ struct EthernetReceiver {
 
 impl Receiver for EthernetReceiver {
     fn receive(&mut self, at_most: Duration) -> std::io::Result<Option<Arrival>> {
-        let Some((_, frame, at)) = self.frames.next(at_most)? else {
-            return Ok(None);
+        let (frame, at) = match self.frames.next(at_most)? {
+            Some(Taken::Datagram(_, frame, at)) => (frame, at),
+            Some(Taken::Overflow(count)) => return Ok(Some(Arrival::Overflow(count))),
+            None => return Ok(None),
         };
         // A frame that is not for the service is not looked at, and not worth a count.
         Ok(

@@ -1,4 +1,5 @@
-//! Datagrams with the kernel's time stamps of their arrival (`SO_TIMESTAMPNS`).
+//! Datagrams with the kernel's time stamps of their arrival (`SO_TIMESTAMPNS`), and with its count of datagrams for which the socket
+//! had no room before them (`SO_RXQ_OVFL`).
 //!
 //! The stamps are of the wall clock, which may be put. So an age by a stamp counts only while the wall clock has
 //! gone as the monotonic one since the socket was seen empty; what becomes of it is up to
@@ -10,7 +11,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use nix::cmsg_space;
 use nix::errno::Errno;
-use nix::sys::socket::sockopt::ReceiveTimestampns;
+use nix::sys::socket::sockopt::{ReceiveTimestampns, RxqOvfl};
 use nix::sys::socket::{ControlMessageOwned, MsgFlags, SockaddrStorage, recvmsg, setsockopt};
 use nix::sys::time::TimeSpec;
 
@@ -24,12 +25,16 @@ pub(super) struct Stamped {
     pub(super) from: Option<SockaddrStorage>,
     /// How long ago the kernel had it, if that is known.
     pub(super) age: Option<Duration>,
+    /// How many the kernel has dropped since the one before.
+    pub(super) dropped: u32,
 }
 
 /// Takes stamped datagrams off a socket.
 #[derive(Debug)]
 pub(super) struct Stamps {
     control: Vec<u8>,
+    /// How many the kernel had dropped by the last one, modulo 2^32.
+    dropped: u32,
     /// Both clocks at the last look.
     looked: (Instant, SystemTime),
     /// Whether they have gone alike since the socket was seen empty.
@@ -38,12 +43,14 @@ pub(super) struct Stamps {
 
 impl Stamps {
     /// Has the kernel stamp what arrives at this socket; Linux begins with that some milliseconds later, and until
-    /// then stamps when a datagram is taken. A kernel that does not stamp is not worth a failure: then ages are not
-    /// known.
+    /// then stamps when a datagram is taken. A kernel that does not stamp, or count, is not worth a failure: then ages, or drops, are
+    /// not known.
     pub(super) fn of(socket: &impl AsFd) -> Self {
         let _ = setsockopt(socket, ReceiveTimestampns, &true);
+        let _ = setsockopt(socket, RxqOvfl, &1);
         Self {
-            control: cmsg_space!(TimeSpec),
+            control: cmsg_space!(TimeSpec, u32),
+            dropped: 0,
             looked: (Instant::now(), SystemTime::now()),
             is_steady: true,
         }
@@ -59,15 +66,19 @@ impl Stamps {
         let mut into = [IoSliceMut::new(buffer)];
         let control = Some(&mut self.control[..]);
         let received = recvmsg::<SockaddrStorage>(socket.as_raw_fd(), &mut into, control, flags);
-        let (length, from, stamp) = match received {
+        let (mut stamp, mut in_all) = (None, self.dropped);
+        let (length, from) = match received {
             Ok(message) => {
-                let stamp = message.cmsgs().ok().and_then(|mut all| {
-                    all.find_map(|control| match control {
-                        ControlMessageOwned::ScmTimestampns(time) => Some(Duration::from(time)),
-                        _ => None,
-                    })
-                });
-                (message.bytes, message.address, stamp)
+                for control in message.cmsgs().into_iter().flatten() {
+                    match control {
+                        ControlMessageOwned::ScmTimestampns(time) => {
+                            stamp = Some(Duration::from(time));
+                        }
+                        ControlMessageOwned::RxqOvfl(count) => in_all = count,
+                        _ => {}
+                    }
+                }
+                (message.bytes, message.address)
             }
             Err(errno) => {
                 self.look();
@@ -79,7 +90,13 @@ impl Stamps {
         let age = stamp
             .and_then(|stamp| wall.duration_since(UNIX_EPOCH + stamp).ok())
             .filter(|_| self.is_steady);
-        Ok(Stamped { length, from, age })
+        let before = std::mem::replace(&mut self.dropped, in_all);
+        Ok(Stamped {
+            length,
+            from,
+            age,
+            dropped: in_all.wrapping_sub(before),
+        })
     }
 
     /// Compares the clocks; the wall clock.

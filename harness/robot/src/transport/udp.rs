@@ -7,7 +7,7 @@ use std::time::Duration;
 use nix::sys::socket::MsgFlags;
 use socket2::{Domain, InterfaceIndexOrAddress, Protocol, SockRef, Socket, Type};
 
-use super::datagrams::Datagrams;
+use super::datagrams::{Datagrams, Taken};
 use super::error::interface_of;
 use super::{Arrival, Framing, Halves, LinkError, NotSent, Receiver, Sender};
 
@@ -100,8 +100,10 @@ impl Sender for UdpSender {
 
 impl Receiver for UdpReceiver {
     fn receive(&mut self, at_most: Duration) -> std::io::Result<Option<Arrival>> {
-        let Some((from, datagram, at)) = self.datagrams.next(at_most)? else {
-            return Ok(None);
+        let (from, datagram, at) = match self.datagrams.next(at_most)? {
+            Some(Taken::Datagram(from, datagram, at)) => (from, datagram, at),
+            Some(Taken::Overflow(count)) => return Ok(Some(Arrival::Overflow(count))),
+            None => return Ok(None),
         };
         Ok(Some(match self.framing.unwrap(datagram) {
             Ok(packet) => Arrival::Datagram {

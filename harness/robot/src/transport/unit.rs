@@ -10,7 +10,7 @@ use std::time::{Duration, Instant, SystemTime};
 use nix::sys::socket::MsgFlags;
 use socket2::SockRef;
 
-use super::datagrams::Datagrams;
+use super::datagrams::{Datagrams, Taken};
 use super::udp::open_error;
 use super::{Arrival, Halves, LinkError, NotSent, Receiver, Sender, Source};
 use crate::attachment::{Frame, Kind, Radio, Sends, Side, packet_of, payload_of, waited};
@@ -167,14 +167,16 @@ impl Receiver for UnitReceiver {
             return Ok(Some(next));
         }
         self.say_hello();
-        let Some((_, octets, at)) = self.datagrams.next(at_most)? else {
-            if self.heard.elapsed() < SILENCE_MAX {
-                return Ok(None);
+        let (octets, at) = match self.datagrams.next(at_most)? {
+            Some(Taken::Datagram(_, octets, at)) => (octets, at),
+            Some(Taken::Overflow(count)) => return Ok(Some(Arrival::Overflow(count))),
+            None if self.heard.elapsed() < SILENCE_MAX => return Ok(None),
+            None => {
+                self.heard = Instant::now();
+                let (unit, seconds) = (self.unit, SILENCE_MAX.as_secs());
+                let silent = format!("the unit at {unit} has been silent for {seconds} s");
+                return Err(Error::new(ErrorKind::TimedOut, silent));
             }
-            self.heard = Instant::now();
-            let (unit, seconds) = (self.unit, SILENCE_MAX.as_secs());
-            let silent = format!("the unit at {unit} has been silent for {seconds} s");
-            return Err(Error::new(ErrorKind::TimedOut, silent));
         };
         self.heard = Instant::now();
         match Frame::decode(octets, Side::Unit) {
