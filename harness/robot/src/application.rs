@@ -359,6 +359,10 @@ impl Application {
             self.wishes.push_back(wish);
         } else {
             self.trouble(Cause::WishesFull, "an event or a command", 1);
+            // A person waits: it is called again.
+            if let Stimulus::Event(Event::PedestrianDetected(_)) = wish {
+                self.step(Input::CallIgnored);
+            }
         }
     }
 

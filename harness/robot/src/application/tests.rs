@@ -7,6 +7,7 @@ use crossguard_codec::{
     ConfidenceEllipse, Identity, Kind, Position, RoadUser, RobotState, TaskParameters,
 };
 use crossguard_endpoint::Moment;
+use crossguard_endpoint::ras::area::Area;
 use crossguard_endpoint::ras::clustering::{PerceivedVru, VruClass};
 use crossguard_endpoint::station::LocalDynamicMap;
 use crossguard_protocol::{Robot, StationId, StopReason, TaskType};
@@ -118,6 +119,36 @@ fn a_wish_that_is_repeated_takes_one_place_and_one_that_is_dropped_is_counted() 
     assert_eq!(wishes(&mut application).len(), WISHES);
     let (cause, _, count) = application.next_trouble().unwrap();
     assert_eq!((cause, count), (Cause::WishesFull, 5));
+}
+
+/// Hazard: a person waits while the queue is full, and the call for help is dropped. The robot takes it for made, and calls nobody.
+#[test]
+fn a_call_that_is_dropped_is_made_again() {
+    let strip = |south, north| {
+        Area::Polygon([[-3.0, south], [5.0, south], [5.0, north], [-3.0, north]].into())
+    };
+    let zone = Zone {
+        waiting: Some(strip(-2.5, 9.5)),
+        ..Zone::of_road(strip(0.0, 7.0))
+    };
+    let mut application = watching().on(Road::Watched(zone));
+    let told = [Event::CloseCorridor, Event::LeaveRequested].map(Stimulus::Event);
+    let mut calls = Vec::new();
+    let person = SensorFrame::of(&[PerceivedVru::pedestrian(1, [1.0, -1.0])]);
+    for tenth in 1..=50_i64 {
+        // Until then it is full.
+        if tenth <= 20 {
+            (0..WISHES).for_each(|number| application.wish(told[number % 2]));
+        }
+        let taken_ms = 10_000 + 100 * tenth;
+        let at_s = 10.0 + f64::from(i32::try_from(tenth).unwrap()) / 10.0;
+        application.look_at(at_s, &person, taken_ms);
+        let is_call =
+            |it: &Stimulus<'_>| matches!(it, Stimulus::Event(Event::PedestrianDetected(_)));
+        let wished = wishes(&mut application);
+        calls.extend(wished.iter().filter(|it| is_call(it)).map(|_| tenth));
+    }
+    assert_eq!(calls.len(), 1, "{calls:?}");
 }
 
 /// Hazard: a body that is there and has a fault counts as available, since both are told in one turn.
