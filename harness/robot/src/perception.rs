@@ -23,7 +23,7 @@ use std::io::{BufRead, BufReader};
 use std::os::unix::fs::FileTypeExt as _;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 
 use crossguard_codec::core::cdd::VruClusterInformation;
@@ -344,10 +344,15 @@ impl Newest {
     }
 }
 
+/// For how long a frame of a sensor source by one program keeps the number of that source from others.
+pub(crate) const OF_SOURCE: Duration = Duration::from_secs(2);
+
 /// A file, or a pipe, of observations that are told one after the other, each at its time.
 #[derive(Clone, Debug)]
 pub struct Feed {
     told: Arc<Mutex<Receiver<Order>>>,
+    /// When it told the newest frame of each source.
+    sources: Arc<Mutex<BTreeMap<u8, Instant>>>,
 }
 
 impl Feed {
@@ -375,14 +380,34 @@ impl Feed {
             let lines = observed(path)?;
             std::thread::spawn(move || tell_in_time(lines, &tell, true));
         }
-        Ok(Self { told })
+        let sources = Arc::default();
+        Ok(Self { told, sources })
     }
 
     /// What a robot is to be told by now.
     #[must_use]
     pub fn due(&self) -> Vec<Order> {
         let told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
-        told.try_iter().take(AHEAD).collect()
+        let due: Vec<_> = told.try_iter().take(AHEAD).collect();
+        let now = Instant::now();
+        let frames = due.iter().filter_map(|order| match order {
+            Order::Looked(frame, _) => Some((frame.source, now)),
+            _ => None,
+        });
+        self.sources().extend(frames);
+        due
+    }
+
+    /// Whether it tells frames of this source now.
+    #[must_use]
+    pub fn has(&self, source: u8) -> bool {
+        let newest = self.sources().get(&source).copied();
+        newest.is_some_and(|at| at.elapsed() < OF_SOURCE)
+    }
+
+    fn sources(&self) -> MutexGuard<'_, BTreeMap<u8, Instant>> {
+        let sources = self.sources.lock();
+        sources.unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -201,6 +201,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             trusts_ros_graph: file.trust_ros_graph || arguments.security.mode() != Mode::Enforce,
             site: file.site,
             planned: file.plan().map(|plan| plan.request()),
+            feed: perceived.clone(),
         };
         desk.serve(port.port, port.records, running.orders(), clock)
     });

@@ -26,7 +26,7 @@ use serde_json::{Map, Value};
 
 use self::lines::{Fields, ToOperator, condition, said};
 use super::{Line, parse};
-use crate::perception::{self, Observation, Taken, instant_of};
+use crate::perception::{self, Feed, OF_SOURCE, Observation, Taken, instant_of};
 use crate::port::{Heard, Listening, Stream};
 use crate::runtime::{Clock, Order, Orders};
 use crate::site::Site;
@@ -60,9 +60,6 @@ const WAITED_US: u64 = 100_000;
 /// How soon a person does not say again what only a person says.
 const AGAIN_US: u64 = 3_000_000;
 
-/// For how long a frame of a sensor source at one connection keeps the number of that source from others.
-const OF_SOURCE_US: u64 = 2_000_000;
-
 /// The place of `available` among the words that only a person says.
 const AVAILABLE: usize = 2;
 
@@ -81,6 +78,8 @@ pub struct Desk {
     pub site: Site,
     /// Request of `detect` alone.
     pub planned: Option<HelpRequest>,
+    /// The feed that tells the robot of people as well: its sources are no program's at the port.
+    pub feed: Option<Feed>,
 }
 
 impl Desk {
@@ -367,14 +366,15 @@ impl<O: Obeys> Counter<O> {
         last_us.is_some_and(|last_us| now_us.saturating_sub(last_us) < AGAIN_US)
     }
 
-    /// Whether another connection says the frames of this source now. Frames of two detectors would count as those of one: the
+    /// Whether another connection, or the feed, says the frames of this source now. Frames of two detectors would count as those of one: the
     /// one whose clock is behind would be dropped, with the people that it has.
     fn is_of_another(&mut self, source: u8, number: u64, now_us: u64) -> bool {
         let newest = self.sources.get(&source);
-        let is_taken = newest.is_some_and(|(of, at_us)| {
-            let is_fresh = now_us.saturating_sub(*at_us) < OF_SOURCE_US;
-            *of != number && is_fresh && self.clients.contains_key(of)
+        let is_said = newest.is_some_and(|(of, at_us)| {
+            let age = Duration::from_micros(now_us.saturating_sub(*at_us));
+            *of != number && age < OF_SOURCE && self.clients.contains_key(of)
         });
+        let is_taken = is_said || self.desk.feed.as_ref().is_some_and(|feed| feed.has(source));
         if !is_taken {
             self.sources.insert(source, (number, now_us));
         }

@@ -41,6 +41,7 @@ fn counter() -> (Counter<Told>, Told) {
         trusts_ros_graph: true,
         site: Site::default(),
         planned: None,
+        feed: None,
     };
     (Counter::new(desk, told.clone()), told)
 }
@@ -367,7 +368,7 @@ fn a_source_is_of_one_program_at_a_time() {
         let now_s = now_s.as_secs_f64();
         json!({"type": "frame", "source": source, "unix_s": now_s, "people": []}).to_string()
     };
-    let late_us = OF_SOURCE_US + 300_000;
+    let late_us = 2_300_000;
     for (number, source, at_us, is_refused) in [
         (0, 0, 0, false),
         (1, 0, 100_000, true),
@@ -401,6 +402,30 @@ fn a_source_is_of_one_program_at_a_time() {
         "another program says the frames of source 0: give each detector a 'source' of its own";
     let refused = json!({"type": "refused", "line": 2, "why": why});
     has(&heard(&mut second), &refused);
+}
+
+/// Hazard: a detector at the port has the number of the one that writes to the pipe of `--perceived`: frames of both count as those of
+/// one.
+#[test]
+fn a_source_of_the_feed_is_of_no_program_at_the_port() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("people.jsonl");
+    std::fs::write(&path, r#"{"at_s": 0, "source": 1, "people": []}"#).unwrap();
+    let feed = Feed::open(&path).unwrap();
+    let (mut counter, told, _lines) = greeted();
+    counter.desk.feed = Some(feed.clone());
+    let mut is_taken = |source| {
+        let now_s = SystemTime::now().duration_since(UNIX_EPOCH).unwrap();
+        let now_s = now_s.as_secs_f64();
+        let frame = json!({"type": "frame", "source": source, "unix_s": now_s, "people": []});
+        say(&mut counter, 0, &frame.to_string());
+        matches!(told.take()[..], [Order::Looked(..)])
+    };
+    assert_eq!([0, 1].map(&mut is_taken), [true, true]);
+    while feed.due().is_empty() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    assert_eq!([0, 1].map(is_taken), [true, false]);
 }
 
 /// Hazard: `ros2 topic pub` without `--once`, or a button that sticks, says on and on that the road is clear. The next guard whose
