@@ -488,7 +488,7 @@ impl RobotTable {
             .zone
             .map(|zone| zone.check(&layout, confidence_min, autopilot));
         let (zone, kerbs) = zone.transpose()?.unzip();
-        check_people(self.body.as_ref(), !autopilot || zone.is_some())?;
+        check_people(self.body.as_ref(), autopilot, zone.is_some())?;
         let config = Config::new(self.protocol)?;
         if config.settings().holding.contains(TaskType::MOVE) {
             return Err(Impossibility::EscortHolds);
@@ -561,10 +561,13 @@ impl RobotTable {
     }
 }
 
-/// A real body that leads wants sensors for people, or the word of its file that they are simulated.
-fn check_people(body: Option<&BodyTable>, sees: bool) -> Result<(), NoBody> {
-    let is_fine = sees || body.is_none_or(|body| body.simulated_people);
-    is_fine.then_some(()).ok_or(NoBody::SeesNobody)
+/// A real body that leads wants sensors for people, or else the word of its file that they are simulated.
+fn check_people(body: Option<&BodyTable>, leads: bool, sees: bool) -> Result<(), NoBody> {
+    match body.map(|body| body.simulated_people) {
+        Some(true) if sees => Err(NoBody::TwoPeoples),
+        Some(false) if leads && !sees => Err(NoBody::SeesNobody),
+        _ => Ok(()),
+    }
 }
 
 /// A road of a zone's own has all of its site's crossing.

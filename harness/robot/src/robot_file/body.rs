@@ -46,6 +46,11 @@ pub enum NoBody {
          the road when simulated people are across; for a trial without people say 'simulated_people = true' under [body]"
     )]
     SeesNobody,
+    /// People are said to be simulated, and sensors see people.
+    #[error(
+        "'simulated_people = true' beside [zone]: a robot with a zone goes by the people in frames of its sensors; leave one of the two out"
+    )]
+    TwoPeoples,
 }
 
 impl BodyTable {

@@ -178,6 +178,11 @@ fn a_real_body_leads_people_whom_it_sees_or_none() {
         (leads, "[body]\nsimulated_people = false", refused),
         (leads, "[body]\nsimulated_people = true", None),
         (leads, &format!("{zone}\n[body]"), None),
+        (
+            leads,
+            &format!("{zone}\n[body]\nsimulated_people = true"),
+            Some("'simulated_people = true' beside [zone]"),
+        ),
         ("", "[body]", None),
     ] {
         let text = format!(
