@@ -9,7 +9,8 @@
 //!
 //! The body sends at least a line in each `silence`, and so does the kit. A body that falls silent is an emergency
 //! stop of its robot; that ends by the word of a person, and not by a body that connects again. So is a body that says
-//! more than is taken in for as long: its last line would wait behind the others.
+//! more than is taken in for as long: its last line would wait behind the others. A body that was lost stands still, also when it
+//! connects again: what it was to do is over.
 
 mod lines;
 
@@ -166,7 +167,7 @@ impl Ported {
         stream.close();
         self.known_s = 0.0;
         if self.presence == Presence::Here {
-            self.presence = Presence::Silent;
+            (self.presence, self.fallback) = (Presence::Silent, None);
             self.reports.push(Report::Silent(why.to_owned()));
         } else {
             self.misunderstand(format!("no hello: {why}"));
@@ -245,9 +246,13 @@ impl Ported {
                 crossguard: VERSION,
                 ..
             } => {
-                if self.presence != Presence::Here {
-                    self.presence = Presence::Here;
+                let before = std::mem::replace(&mut self.presence, Presence::Here);
+                if before != Presence::Here {
                     self.reports.push(Report::Here);
+                }
+                // It may not have noticed that it was lost.
+                if before == Presence::Silent {
+                    self.mention(&ToBody::Halt);
                 }
             }
             FromBody::Hello { crossguard, .. } => {
@@ -357,7 +362,8 @@ impl Body for Ported {
                     FallbackPolicy::HoldUntilClear => Fallback::Holding,
                     _ => Fallback::UnderWay,
                 };
-                self.fallback = Some((maneuver.id, begun));
+                let is_lost = self.presence == Presence::Silent;
+                self.fallback = Some((maneuver.id, begun)).filter(|_| !is_lost);
                 let id = maneuver.id.to_string();
                 let policy = policy(how);
                 ToBody::FallBack { id, policy }

@@ -155,6 +155,34 @@ fn a_body_that_falls_back_is_on_its_way_until_it_says_that_it_is_not_or_is_lost(
     }
 }
 
+/// Hazard: a body is lost as it falls back, or before, and connects again. It stands on the lane, and its robot takes it to be on its
+/// way: nobody's word ends the duty, and the robot does not end when it is told to stop.
+#[test]
+fn a_body_that_was_lost_stands_still_and_is_on_no_way_when_it_connects_again() {
+    let escort = maneuver(TaskType::MOVE);
+    let fall_back = BodyAct::FallBack(escort, FallbackPolicy::EscortToKerb);
+    for falls_back_first in [true, false] {
+        let (mut body, other, folder) = open(HELLO);
+        assert_eq!(report(&mut body), Some(Report::Here));
+        if falls_back_first {
+            body.act(fall_back).unwrap();
+        }
+        drop(other);
+        assert_eq!(report(&mut body), Some(silent("closed its connection")));
+        if !falls_back_first {
+            assert_eq!(body.act(fall_back), Ok(()));
+        }
+        let mut again = UnixStream::connect(folder.path().join("body.sock")).unwrap();
+        writeln!(again, "{HELLO}").unwrap();
+        assert_eq!(report(&mut body), Some(Report::Here));
+        assert_eq!((body.fallback(), body.walks_back()), (None, false));
+        let mut lines = BufReader::new(again);
+        let said = std::iter::repeat_with(|| heard(&mut lines)["type"].clone());
+        let said: Vec<_> = said.filter(|it| it != "beat").take(2).collect();
+        assert_eq!(said, ["hello", "halt"]);
+    }
+}
+
 /// The word of a body that its fallback from a maneuver is finished.
 fn fallen_back(from: Maneuver) -> String {
     format!(r#"{{"type": "fallen-back", "id": "{}"}}"#, from.id)
