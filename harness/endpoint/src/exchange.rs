@@ -8,6 +8,7 @@
 //!  time ────────────────────────────────────┘                   └─► stepped (for the log)
 //! ```
 
+mod accepted;
 mod entitled;
 mod host;
 mod parameters;
@@ -24,6 +25,7 @@ use crossguard_protocol::{
     RequestId, Rmcm, Robot, SessionId, StateMachine, StationId, TaskType, UniqueNumber, Verdict,
 };
 
+pub use self::accepted::Accepted;
 pub use self::entitled::NotEntitled;
 use self::entitled::check_entitled;
 pub use self::host::{Host, Moment, Outgoing};
@@ -47,8 +49,7 @@ pub struct Exchange<P = Robot> {
     generation: Generation,
     parameters: Parameters,
     pins: Pins,
-    /// The newest command that the robot took on, and its parameters.
-    accepted: Option<(Command, Option<TaskParameters>)>,
+    accepted: Accepted,
     asked: Option<Command>,
 }
 
@@ -65,7 +66,7 @@ impl<P: StateMachine> Exchange<P> {
             generation: Generation::default(),
             parameters: Parameters::default(),
             pins: Pins::default(),
-            accepted: None,
+            accepted: Accepted::default(),
             asked: None,
         }
     }
@@ -257,7 +258,8 @@ impl<P: StateMachine> Exchange<P> {
         }
         host.heard(me, &heard, message, arrived_ms);
         for input in heard.inputs.iter() {
-            if self.is_another_command(input, heard.parameters) {
+            let me = self.protocol.robot();
+            if self.accepted.is_contradicted(me, input, heard.parameters) {
                 let cause = Cause::Contradictory("another command under its requestID");
                 let detail =
                     "a command that differs from one that was accepted takes the next requestID";
@@ -269,41 +271,10 @@ impl<P: StateMachine> Exchange<P> {
                 continue;
             }
             self.step(host, *input, heard.parameters);
-            self.accept(input, heard.parameters);
+            let me = self.protocol.robot();
+            self.accepted.learn(me, input, heard.parameters);
         }
         self.pins.keep(self.protocol.robot(), heard.from, signer);
-    }
-
-    /// Whether this is a command with the requestID of the one that the robot took on, and says something else: it is no
-    /// repetition, and the leader must not hear that it was accepted. How long a command is valid may run down in repetitions.
-    fn is_another_command(&self, input: &Input, parameters: Option<TaskParameters>) -> bool {
-        let timeless = |with: Option<TaskParameters>| {
-            with.map(|with| TaskParameters {
-                validity: None,
-                ..with
-            })
-        };
-        let (Input::Rmcm(Rmcm::Command(command)), Some((known, with))) = (input, self.accepted)
-        else {
-            return false;
-        };
-        (known.session, known.request) == (command.session, command.request)
-            && command.to == self.protocol.robot().station()
-            && (known.task != command.task || timeless(with) != timeless(parameters))
-    }
-
-    /// Remembers a command that the robot has just taken on, with its parameters.
-    fn accept(&mut self, input: &Input, parameters: Option<TaskParameters>) {
-        if let (Input::Rmcm(Rmcm::Command(command)), Phase::Following(following)) =
-            (input, self.protocol.robot().phase())
-            && command.to == self.protocol.robot().station()
-            && following.session == command.session
-            && following
-                .job
-                .is_some_and(|job| job.request == command.request)
-        {
-            self.accepted = Some((*command, parameters));
-        }
     }
 
     /// Sends a RAM outside of a session, where the protocol does not say when, if the generation rules do.

@@ -2,12 +2,13 @@
 
 use std::collections::VecDeque;
 
-use crossguard_codec::{Identifiers, Service};
+use crossguard_codec::{Heard, Identifiers, Position, Service, TaskParameters};
 #[cfg(feature = "foreign")]
 use crossguard_codec::{Unheard, its::ItsMessage};
 use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::counters::{CauseName, Counts};
-use crossguard_endpoint::station::listen::overhear;
+use crossguard_endpoint::exchange::Accepted;
+use crossguard_endpoint::station::listen::{message_of, overhear};
 #[cfg(feature = "foreign")]
 use crossguard_endpoint::station::service_of;
 use crossguard_protocol::{
@@ -45,6 +46,9 @@ pub(super) struct Follow {
     targets: Targets,
     /// Last question of the robot to a vehicle.
     asked: Option<Command>,
+    accepted: Accepted,
+    /// Parameters of the command to the robot in the message that it heard last.
+    parameters: Option<TaskParameters>,
 }
 
 impl Follow {
@@ -70,6 +74,8 @@ impl Follow {
             counted: Counts::default(),
             targets: Targets::default(),
             asked: None,
+            accepted: Accepted::default(),
+            parameters: None,
         })
     }
 
@@ -119,6 +125,7 @@ impl Follow {
                 _ => {}
             }
         }
+        self.accepted.learn(&self.robot, &told, self.parameters);
         if is_accepted {
             self.targets.told(told)?;
         }
@@ -127,6 +134,7 @@ impl Follow {
 
     /// Takes in the next message that was heard, which has to be this input.
     fn take_in(&mut self, input: Input) -> Result<(), Fault> {
+        self.leave_out_contradictions();
         let heard = self.heard.pop_front();
         if heard.map(without_distance) == Some(without_distance(input)) {
             return Ok(());
@@ -138,7 +146,17 @@ impl Follow {
         })
     }
 
-    fn settle_hearing(&self) -> Result<(), Fault> {
+    /// Commands that contradict the one that the robot took on are dropped, and no step takes them in.
+    fn leave_out_contradictions(&mut self) {
+        let (accepted, me, parameters) = (&self.accepted, &self.robot, self.parameters);
+        let is_dropped = |input: &Input| accepted.is_contradicted(me, input, parameters);
+        while self.heard.front().is_some_and(is_dropped) {
+            self.heard.pop_front();
+        }
+    }
+
+    fn settle_hearing(&mut self) -> Result<(), Fault> {
+        self.leave_out_contradictions();
         match self.heard.front() {
             Some(heard) => Err(Fault::NotTakenIn(heard.to_string())),
             None => Ok(()),
@@ -238,10 +256,13 @@ impl Follow {
             let is_it = self.of_etsi(octets)? == (Some(kind), from);
             return is_it.then_some(()).ok_or_else(other);
         }
-        let message = overhear(&self.identifiers, octets).map_err(Fault::NoMessage)?;
+        let (me, nowhere) = (self.robot.station(), Position::default());
+        let message = Heard::of(&self.identifiers, me, &nowhere, message_of(octets));
+        let message = message.map_err(Fault::NoMessage)?;
         if (message.service, message.from) != (kind, from) {
             return Err(other());
         }
+        self.parameters = message.parameters;
         let heard = message.inputs.iter().copied();
         self.heard = heard.filter(|it| !self.answers_question(it)).collect();
         Ok(())
@@ -279,7 +300,7 @@ impl Follow {
     }
 
     /// The robot has stopped. How many records are missing by its own account.
-    pub(super) fn stopped(&self, counters: &Counts) -> Result<u64, Fault> {
+    pub(super) fn stopped(&mut self, counters: &Counts) -> Result<u64, Fault> {
         self.settle_hearing()?;
         self.settle_sending()?;
         let missing = counters.of(&Cause::LogFull.into());

@@ -1,6 +1,9 @@
 //! Logs of simulated robots are valid; with one record altered they are not.
 
+use crossguard_codec::{Heard, Identifiers, Position, encode, rmcm_from_commands};
+use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::counters::Counts;
+use crossguard_protocol::{Rmcm, TaskType};
 use crossguard_robot::trace;
 
 use super::*;
@@ -133,4 +136,107 @@ fn what_a_killed_robot_sent_last_is_beyond_its_log_although_it_boots_again() {
     let cut = together(&logs).unwrap();
     assert!(cut.beyond_logs > 0);
     assert!(cut.cut_off.contains(&"R1".to_owned()));
+}
+
+/// A command to this robot in a record, and its octets with another speed or as they are.
+fn commanded(record: &Record, station: StationId, other_speed: bool) -> Option<Vec<u8>> {
+    let (ids, nowhere) = (Identifiers::default(), Position::default());
+    let Entry::Heard { octets, .. } = &record.entry else {
+        return None;
+    };
+    let heard = Heard::of(&ids, station, &nowhere, octets).ok()?;
+    let command = heard.inputs.iter().find_map(|input| match input {
+        Input::Rmcm(Rmcm::Command(command)) if command.to == station => Some(*command),
+        _ => None,
+    })?;
+    let mut parameters = heard.parameters?;
+    if command.task == TaskType::BLOCK && other_speed {
+        parameters.maximum_speed = Some(0.3);
+    }
+    let rmcm = rmcm_from_commands(&ids, &nowhere, &[(command, parameters)], 0);
+    Some(encode(&ids, &rmcm.unwrap()).unwrap())
+}
+
+/// Hazard: somebody says another command under a requestID that a guard has accepted. The guard refuses it, and its log counts as made
+/// up.
+#[test]
+fn a_command_that_was_refused_because_of_its_request_id_is_taken_in_by_no_step() {
+    let mut judged = 0;
+    for seed in 1..=12 {
+        let records = records(seed);
+        let names: BTreeSet<_> = records.iter().map(|record| &record.robot).collect();
+        for name in names {
+            let of_robot = records.iter().filter(|record| &record.robot == name);
+            let log: Vec<_> = of_robot.cloned().collect();
+            for (other_speed, is_valid) in [(true, true), (false, false)] {
+                let Some(log) = with_a_command_more(&log, other_speed) else {
+                    continue;
+                };
+                let found = validated(&log);
+                assert_eq!(found.is_ok(), is_valid, "seed {seed}, {name}: {found:?}");
+                judged += 1;
+            }
+        }
+    }
+    assert!(judged > 1, "{judged}");
+}
+
+/// A log of one robot that hears a command to block again, with another speed or as it was, and drops it.
+fn with_a_command_more(log: &[Record], other_speed: bool) -> Option<Vec<Record>> {
+    let Entry::Started { station, .. } = log[0].entry else {
+        panic!("{:?}", log[0]);
+    };
+    let starts = |record: &Record| {
+        let Entry::Step { outputs, .. } = &record.entry else {
+            return false;
+        };
+        outputs.iter().any(|it| {
+            let is_block = |it: &crossguard_protocol::Maneuver| it.task == TaskType::BLOCK;
+            matches!(it, crossguard_protocol::Output::StartManeuver(it) if is_block(it))
+        })
+    };
+    let started = log.iter().position(starts)?;
+    let octets = commanded(&log[started - 1], station, other_speed)?;
+    let is_heard = |record: &Record| matches!(record.entry, Entry::Heard { .. });
+    let next = started + log[started..].iter().position(is_heard)?;
+    let Entry::Heard {
+        message,
+        from,
+        reception,
+        ..
+    } = &log[started - 1].entry
+    else {
+        return None;
+    };
+    let Entry::Heard { reception: now, .. } = &log[next].entry else {
+        return None;
+    };
+    let mut log = log.to_vec();
+    let refused = Cause::Contradictory("another command under its requestID");
+    let heard = Entry::Heard {
+        message: *message,
+        from: *from,
+        reception: now.or(*reception),
+        octets: octets.clone(),
+    };
+    let dropped = Entry::Dropped {
+        cause: refused.into(),
+        detail: String::new(),
+        octets,
+    };
+    for entry in [dropped, heard] {
+        let record = Record {
+            entry,
+            ..log[next].clone()
+        };
+        log.insert(next, record);
+    }
+    // It is counted, too.
+    for record in &mut log[next..] {
+        if let Entry::Stopped { counters } = &mut record.entry {
+            counters.add(&refused.into(), 1);
+            break;
+        }
+    }
+    Some(log)
 }
