@@ -82,7 +82,7 @@ pub enum Cause {
     NotYielding,
     /// The application had more for the state machine at once than waits for it.
     WishesFull,
-    /// Another robot asks for help at a crossing that is not this robot's.
+    /// Another robot asks for help, or leads, at a crossing that is not this robot's.
     OtherCrossing,
     /// The robot perceived people and does not know its own position.
     Unplaced,
@@ -197,7 +197,7 @@ impl Display for Reason {
             Cause::Ignored(why) => return why.fmt(f),
             Cause::NotYielding => "another leader does not yield",
             Cause::WishesFull => "too many wishes of the application",
-            Cause::OtherCrossing => "help for another crossing",
+            Cause::OtherCrossing => "another crossing",
             Cause::Unplaced => "own position unknown",
             Cause::BodySilent => "silent",
             Cause::BodyFault => "fault",

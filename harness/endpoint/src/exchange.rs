@@ -21,8 +21,8 @@ use crossguard_codec::{
     TaskParameters, ViewError, encode_into, ram_from, rmcm_from_answer, rmcm_from_commands,
 };
 use crossguard_protocol::{
-    Command, Config, Coordination, Event, HelpRequest, Input, Millis, Output, Outputs, Phase,
-    RequestId, Rmcm, Robot, SessionId, StateMachine, StationId, TaskType, UniqueNumber, Verdict,
+    Command, Config, Coordination, Event, Input, Millis, Output, Outputs, Phase, Place, RequestId,
+    Rmcm, Robot, SessionId, StateMachine, StationId, TaskType, UniqueNumber, Verdict,
 };
 
 pub use self::accepted::Accepted;
@@ -250,10 +250,11 @@ impl<P: StateMachine> Exchange<P> {
             let why = NotEntitled::Unpinned(heard.from);
             return host.dropped(why.into(), &why, octets);
         }
-        if let Some(request) = asked_for(me, &heard)
-            && !host.helps(&request, &heard)
+        if let Some((place, leads)) = claimed(me, &heard)
+            && !host.is_here(place, leads, &heard)
         {
-            let detail = format_args!("station {} asks at {}", heard.from, request.place);
+            let does = if leads { "leads" } else { "asks" };
+            let detail = format_args!("station {} {does} at {place}", heard.from);
             return host.dropped(Cause::OtherCrossing, &detail, octets);
         }
         host.heard(me, &heard, message, arrived_ms);
@@ -435,16 +436,24 @@ impl<P: StateMachine> Exchange<P> {
     }
 }
 
-/// The help that a message asks a robot for that may offer it.
-fn asked_for(me: &Robot, heard: &Heard) -> Option<HelpRequest> {
-    if !matches!(me.phase(), Phase::Idle | Phase::Requesting(_)) {
-        return None;
-    }
-    heard.inputs.iter().find_map(|input| match input {
-        Input::Ram { ram, .. } => match ram.coordination {
-            Coordination::NeedHelp { request, .. } => Some(request),
+/// The crossing that a message is about, by which it may make this robot help or withdraw: it asks for help there, or leads there
+/// (`true`).
+fn claimed(me: &Robot, heard: &Heard) -> Option<(Place, bool)> {
+    let claim = |input: &Input| match input {
+        Input::Ram { ram, .. } => match (ram.coordination, me.phase()) {
+            (Coordination::NeedHelp { request, .. }, Phase::Idle | Phase::Requesting(_)) => {
+                Some((request.place, false))
+            }
+            // One that lists this robot is answered, wherever it leads.
+            (
+                Coordination::Leader {
+                    place, followers, ..
+                },
+                Phase::Requesting(_) | Phase::Leading(_),
+            ) if followers.iter().all(|it| it.station != me.station()) => Some((place, true)),
             _ => None,
         },
-        _ => None,
-    })
+        Input::Rmcm(_) | Input::Elapsed(_) | Input::Expired(_) | Input::Local(_) => None,
+    };
+    heard.inputs.iter().find_map(claim)
 }

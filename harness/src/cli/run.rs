@@ -26,6 +26,7 @@ use std::time::{Duration, Instant};
 
 use crossguard_codec::Service;
 use crossguard_endpoint::cause::{Cause, Layer};
+use crossguard_endpoint::counters::CauseName;
 use crossguard_endpoint::station::Mode;
 use crossguard_endpoint::station::listen::overhear;
 use crossguard_model_check::names::Names;
@@ -376,6 +377,12 @@ struct Console<'a> {
     missing: u64,
 }
 
+/// Whether drops of a cause are many, and all the same; others differ by what is in them.
+fn is_frequent(cause: &CauseName) -> bool {
+    let many = [Cause::SocketFull, Cause::OtherCrossing].map(CauseName::from);
+    matches!(cause.layer, Layer::Inbox | Layer::Perception) || many.contains(cause)
+}
+
 /// Time or state that the next line waits for.
 enum Hold {
     Time(Instant),
@@ -496,9 +503,7 @@ impl Console<'_> {
             Entry::Dropped { cause, detail, .. }
                 if cause.layer != Layer::Simulated
                     && !cause.is_own_packet()
-                    // Others differ by what is in them.
-                    && (!matches!(cause.layer, Layer::Inbox | Layer::Perception)
-                        || self.drops.is_news(record.at_us, cause)) =>
+                    && (!is_frequent(cause) || self.drops.is_news(record.at_us, cause)) =>
             {
                 texts.push(format!("dropped, {cause}: {detail}"));
             }

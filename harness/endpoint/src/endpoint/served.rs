@@ -22,4 +22,11 @@ impl Served {
         let off_m = f64::from(distance(&self.middle, from).0) / 10.0;
         is_named || self.place.may_be(place) && off_m <= self.within_m + from.error_m()
     }
+
+    /// Whether a robot that leads at `place`, which may be this crossing by its name, is known to be far away from it. One that does
+    /// not say where it is may be here: two leaders at one crossing settle which of them goes on.
+    pub(super) fn is_elsewhere(&self, place: Place, from: &Position) -> bool {
+        let is_known = from.latitude.is_some() && from.longitude.is_some();
+        is_known && self.place.may_be(place) && !self.is_meant(place, from)
+    }
 }

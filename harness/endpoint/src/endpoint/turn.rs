@@ -6,7 +6,7 @@ use crossguard_codec::core::ram::RAM;
 use crossguard_codec::geonet::{Address, Indication, PACKET_LEN_MAX, Signer};
 use crossguard_codec::{Heard, RobotState, Service, TaskParameters};
 use crossguard_protocol::{
-    Coordination, Event, HelpRequest, Ignored, Input, Output, Outputs, Phase, Robot, StationId,
+    Coordination, Event, Ignored, Input, Output, Outputs, Phase, Place, Robot, StationId,
 };
 
 use super::{Around, Effect, Served, others};
@@ -143,14 +143,21 @@ impl Host for Turn<'_> {
             .push(Effect::VehicleAnswered(vehicle, promises));
     }
 
-    fn helps(&mut self, request: &HelpRequest, heard: &Heard) -> bool {
+    fn is_here(&mut self, place: Place, leads: bool, heard: &Heard) -> bool {
         let from = heard.state.as_ref().map(|state| state.position);
-        let is_meant = |served: Served| served.is_meant(request.place, &from.unwrap_or_default());
-        let helps = self.around.served.is_none_or(is_meant);
-        if !helps {
+        let from = from.unwrap_or_default();
+        let is_meant = |served: Served| {
+            if leads {
+                !served.is_elsewhere(place, &from)
+            } else {
+                served.is_meant(place, &from)
+            }
+        };
+        let is_here = self.around.served.is_none_or(is_meant);
+        if !is_here {
             self.observe(heard);
         }
-        helps
+        is_here
     }
 
     fn heard(&mut self, me: &Robot, heard: &Heard, message: &[u8], arrived_ms: u64) {

@@ -5,7 +5,7 @@ use core::fmt::Display;
 use crossguard_codec::core::ram::RAM;
 use crossguard_codec::geonet::{Address, EgoPosition, Indication, Request, Signer};
 use crossguard_codec::{Heard, RobotState, Service, TaskParameters};
-use crossguard_protocol::{HelpRequest, Input, Output, Outputs, Robot, StationId};
+use crossguard_protocol::{Input, Output, Outputs, Place, Robot, StationId};
 
 use crate::cause::Cause;
 use crate::ras::generation::Trigger;
@@ -75,9 +75,9 @@ pub trait Host {
     /// A vehicle answers the newest question whether it will stop.
     fn answered(&mut self, _vehicle: StationId, _promises: bool) {}
 
-    /// Whether the robot helps at the crossing of this request, which a robot makes that was heard. Who makes it is around
-    /// in any case.
-    fn helps(&mut self, _request: &HelpRequest, _heard: &Heard) -> bool {
+    /// Whether the crossing at this place, for which a robot that was heard asks for help, or at which it leads, may be that of this
+    /// robot. The other robot is around in any case.
+    fn is_here(&mut self, _place: Place, _leads: bool, _heard: &Heard) -> bool {
         true
     }
 
