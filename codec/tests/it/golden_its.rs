@@ -16,59 +16,46 @@ use crossguard_codec::{Dictionary, Identifiers, Identity, Kind, distance};
 use crossguard_protocol::Decimetres;
 use serde_json::{Value, json};
 
-fn vectors() -> Vec<(&'static str, Identifiers, Vec<u8>)> {
-    its_vectors().collect()
+fn vector(name: &str) -> (Identifiers, Vec<u8>) {
+    let vector = its_vectors().find(|(it, ..)| *it == name);
+    let (_, identifiers, octets) = vector.expect(name);
+    (identifiers, octets)
 }
 
 fn message(name: &str) -> ItsMessage {
-    let all = vectors();
-    let (_, identifiers, octets) = all.iter().find(|(n, ..)| *n == name).expect("a vector");
-    let received = ItsMessage::decode(identifiers, octets).expect(name);
+    let (identifiers, octets) = vector(name);
+    let received = ItsMessage::decode(&identifiers, &octets).expect(name);
     assert_eq!(received.extended, 0);
     received.message
 }
 
 #[test]
-fn every_vector_comes_back_bit_for_bit() {
-    let all = vectors();
-    assert_eq!(all.len(), 10 + 11);
-    for (name, identifiers, octets) in all {
-        let received = ItsMessage::decode(&identifiers, &octets).expect(name);
-        assert_eq!(received.extended, 0, "{name}");
-        let again = received.message.encode(&identifiers).unwrap();
-        assert_eq!(again, octets, "{name}");
-        let sender = received.message.header().station_id.0;
-        assert_eq!(sender, 123_456_789, "{name}");
-    }
-}
-
-/// Stations on the road encode otherwise than the kit does: that is read, and told.
-#[test]
-fn padding_that_is_not_zero_is_read() {
-    let all = vectors();
-    let (_, identifiers, octets) = all.iter().find(|(name, ..)| *name == "C1").unwrap();
-    let mut padded = octets.clone();
-    *padded.last_mut().unwrap() |= 1;
-    let received = ItsMessage::decode(identifiers, &padded).unwrap();
-    assert!(!received.is_canonical);
-    assert_eq!(received.message, message("C1"));
-}
-
-#[test]
-fn every_vector_comes_back_from_json() {
-    for (name, ..) in vectors() {
+fn every_vector_comes_back_bit_for_bit_and_from_json() {
+    assert_eq!(its_vectors().count(), 10 + 11);
+    for (name, identifiers, octets) in its_vectors() {
         let message = message(name);
+        assert_eq!(message.encode(&identifiers).unwrap(), octets, "{name}");
+        assert_eq!(message.header().station_id.0, 123_456_789, "{name}");
         let json = serde_json::to_string(&message).unwrap();
         let again: ItsMessage = serde_json::from_str(&json).expect(name);
         assert_eq!(again, message, "{name}");
     }
 }
 
+/// Stations on the road encode otherwise than the kit does: that is read, and told.
+#[test]
+fn padding_that_is_not_zero_is_read() {
+    let (identifiers, mut padded) = vector("C1");
+    *padded.last_mut().unwrap() |= 1;
+    let received = ItsMessage::decode(&identifiers, &padded).unwrap();
+    assert!(!received.is_canonical);
+    assert_eq!(received.message, message("C1"));
+}
+
 #[test]
 fn every_vector_has_the_values_that_it_was_made_of() {
-    let all: Vec<_> = vectors()
-        .iter()
-        .map(|(name, ..)| (*name, json(&message(name))))
+    let all: Vec<_> = its_vectors()
+        .map(|(name, ..)| (name, json(&message(name))))
         .collect();
     let rows = include_str!("values.txt").lines();
     for row in rows.filter(|row| !row.starts_with('#')) {
@@ -91,8 +78,7 @@ fn json(message: &ItsMessage) -> Value {
 
 #[test]
 fn a_cause_beyond_those_of_release_2_is_kept_in_a_cam() {
-    let vectors = vectors();
-    let (_, identifiers, octets) = vectors.iter().find(|(name, ..)| *name == "C3").unwrap();
+    let (identifiers, octets) = vector("C3");
     for cause in [128, 200, 255] {
         let ItsMessage::Cam(mut cam) = message("C3") else {
             panic!("not a CAM")
@@ -102,9 +88,9 @@ fn a_cause_beyond_those_of_release_2_is_kept_in_a_cam() {
             panic!("not an emergency vehicle")
         };
         emergency.incident_indication = Some(CauseCodeV2::new(cause, 1));
-        let with_cause = crossguard_codec::encode(identifiers, &*cam).unwrap();
+        let with_cause = crossguard_codec::encode(&identifiers, &*cam).unwrap();
         assert!(with_cause.len() > octets.len());
-        let again = crossguard_codec::decode::<CAM>(identifiers, &with_cause).unwrap();
+        let again = crossguard_codec::decode::<CAM>(&identifiers, &with_cause).unwrap();
         assert_eq!(again.message, *cam, "cause {cause}");
     }
 }
@@ -112,9 +98,8 @@ fn a_cause_beyond_those_of_release_2_is_kept_in_a_cam() {
 #[test]
 fn a_dictionary_makes_other_bits_of_the_same_road_user() {
     // W2 is an ordinary pedestrian. Read with the other dictionary, it is a road worker: no header tells.
-    let all = vectors();
-    let (_, _, octets) = all.iter().find(|(name, ..)| *name == "W2").unwrap();
-    let misread = ItsMessage::decode(&on(Dictionary::V2_4_1), octets).unwrap();
+    let (_, octets) = vector("W2");
+    let misread = ItsMessage::decode(&on(Dictionary::V2_4_1), &octets).unwrap();
     let slow = &json(&misread.message)["vam"]["vamParameters"]["vruLowFrequencyContainer"];
     assert_eq!(slow["profileAndSubprofile"], json!({ "pedestrian": 2 }));
 }
