@@ -1,6 +1,6 @@
 //! A leader and its followers, each a robot of the protocol with a crossing machine, and the channel between them.
 
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::VecDeque;
 use std::fmt;
 
 use crossguard_crossing::{BodyReport, Input, Leg, Output, Outputs, Point, Pose};
@@ -12,6 +12,7 @@ use crossguard_protocol::{
 use super::Watch;
 use super::rules::{FOLLOWING, HOMES, LEADING, Machine, POSTS, Rules, pose};
 use super::street::{Cut, Guard, Sensed, Sign, TICK};
+use crate::canonical::{Names, Ranks};
 
 /// The place of the leader among members. Followers come after it.
 const LEADER: usize = 0;
@@ -331,24 +332,54 @@ impl Team {
     /// Takes absolute numbers out. The protocol asks of two heartbeats of one session, and of two numbers of one station,
     /// which is newer, and of two sessions whether they are the same, so states that differ in such a renaming alone do
     /// the same. Numbers in the machines are those of the follower's maneuver and duty: they and all older ones stay as
-    /// they are, until there is neither.
+    /// they are, until there is neither. Limits that are far away stay so: no run is as long as they are.
     pub(super) fn canonicalize(&mut self) {
-        let mut names = Names::default();
-        for member in &self.members {
-            let _ = member.robot.renamed(&mut names);
-            let duty = member.robot.duty().map(|duty| match duty {
+        let mut names = Gathered::default();
+        let mut held: Option<UniqueNumber> = None;
+        for Member { robot, .. } in &mut self.members {
+            let duty = robot.duty().map(|duty| match duty {
                 Duty::FallingBack(maneuver) => maneuver.id.session,
                 Duty::Crossing(session) => session,
             });
-            let task = match member.robot.phase() {
+            let task = match robot.phase() {
                 Phase::Following(following) => following.executing().map(|it| it.id.session),
                 _ => None,
             };
-            let held = duty.into_iter().chain(task).map(|it| it.number.0.count);
-            names.held = names.held.max(held.max());
+            held = held.max(duty.into_iter().chain(task).map(|it| it.number.0).max());
+            *robot = robot.renamed(&mut names);
         }
-        for member in &mut self.members {
-            member.robot = member.robot.renamed(&mut Renamed(&names));
+        if let Some(held) = held {
+            for count in 0..=held.count {
+                names.0.number(LEADING, UniqueNumber { count, ..held });
+            }
+        }
+        let mut ranks = Ranks::default();
+        ranks.add(&names.0);
+        if ranks.rank_keeping_distances() {
+            for Member { robot, .. } in &mut self.members {
+                *robot = robot.renamed(&mut &ranks);
+            }
+        }
+    }
+}
+
+/// The names of robots, whose limits it holds at what they began with.
+#[derive(Default)]
+struct Gathered(Names);
+
+impl Renaming for Gathered {
+    fn heartbeat(&mut self, session: SessionId, heartbeat: Heartbeat) -> Heartbeat {
+        self.0.heartbeat(session, heartbeat)
+    }
+
+    fn number(&mut self, owner: StationId, number: UniqueNumber) -> UniqueNumber {
+        self.0.number(owner, number)
+    }
+
+    fn countdown(&mut self, timer: Timer, left: Millis) -> Millis {
+        match timer {
+            Timer::IdentityLock | Timer::Execution(_) => Millis(60_000),
+            _ => left,
         }
     }
 }
@@ -357,58 +388,6 @@ impl Body {
     fn leave_task(&mut self, holds: bool) {
         (self.task, self.to) = (None, None);
         (self.holds, self.waits) = (holds, false);
-    }
-}
-
-#[derive(Default)]
-struct Names {
-    newest: BTreeMap<SessionId, Heartbeat>,
-    numbers: BTreeMap<StationId, BTreeSet<u16>>,
-    /// The newest number of the leader that a machine may have.
-    held: Option<u16>,
-}
-
-impl Renaming for Names {
-    fn heartbeat(&mut self, session: SessionId, heartbeat: Heartbeat) -> Heartbeat {
-        let newest = self.newest.entry(session).or_insert(heartbeat);
-        if heartbeat.is_newer_than(*newest) {
-            *newest = heartbeat;
-        }
-        heartbeat
-    }
-
-    fn number(&mut self, owner: StationId, number: UniqueNumber) -> UniqueNumber {
-        self.numbers.entry(owner).or_default().insert(number.count);
-        number
-    }
-}
-
-/// Heartbeats counted from the newest of their session, numbers in their order without gaps, and limits that are far away as
-/// they were: no run is as long as they are.
-struct Renamed<'a>(&'a Names);
-
-impl Renaming for Renamed<'_> {
-    fn heartbeat(&mut self, session: SessionId, heartbeat: Heartbeat) -> Heartbeat {
-        let newest = self.0.newest[&session];
-        Heartbeat(1_000_u16.wrapping_add(heartbeat.0).wrapping_sub(newest.0))
-    }
-
-    fn number(&mut self, owner: StationId, number: UniqueNumber) -> UniqueNumber {
-        let held = self.0.held.filter(|_| owner == LEADING);
-        if held.is_some_and(|held| number.count <= held) {
-            return number;
-        }
-        let first = held.map_or(0, |held| held + 1);
-        let between = self.0.numbers[&owner].range(first..number.count).count();
-        let count = first + u16::try_from(between).unwrap_or_default();
-        UniqueNumber { count, ..number }
-    }
-
-    fn countdown(&mut self, timer: Timer, left: Millis) -> Millis {
-        match timer {
-            Timer::IdentityLock | Timer::Execution(_) => Millis(60_000),
-            _ => left,
-        }
     }
 }
 
