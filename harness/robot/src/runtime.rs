@@ -531,7 +531,7 @@ impl Loop {
     /// So many were dropped: one record has the details, the others are counted.
     fn drop_many(&mut self, cause: Cause, detail: String, count: u64) {
         self.drop(cause, detail, Vec::new());
-        let others = count - 1;
+        let others = count.saturating_sub(1);
         (0..others).for_each(|_| self.machine.endpoint.count(cause));
         self.sampler.count(&cause.into(), others);
     }
