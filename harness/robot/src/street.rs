@@ -214,6 +214,7 @@ impl Street {
                 error_cm: 0,
                 gap_max: Millis(60_000),
                 linger: Millis(10),
+                heard: Millis(10),
                 ..Sensors::default()
             },
             ..Zone::of_road(strip(-PAVEMENT_M, HALF_ROAD_M))

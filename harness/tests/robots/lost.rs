@@ -36,7 +36,8 @@ const ROWS: [Row; 6] = [
         lose: |street| {
             street.signal(ARI, "-KILL");
             street.until(GO2, "contactLost");
-            street.say(GO2, "until idle 30\nclear\n");
+            // Its word is about a road on which nobody sets out any more.
+            street.say(GO2, "until idle 30\nwait 2.5\nclear\n");
             street.boot(ARI);
             street.say(ARI, CROSS);
             street.until(ARI, "taskCompleted");

@@ -26,10 +26,6 @@ const SAID: Millis = Millis(10_000);
 /// later (`T_GenVamMax`, TS 103 300-3).
 const REPORTED: Millis = Millis(5_500);
 
-/// Time for which a report keeps the road of a robot with sensors from being clear: a CPM has everything once a second (TS 103 324),
-/// and one may be lost.
-const HEARD: Millis = Millis(2_000);
-
 /// [`Crossing::stood`] of a robot that has looked at the carriageway on which it found itself, or was beside it.
 const LOOKED: Millis = Millis(u32::MAX);
 
@@ -445,7 +441,7 @@ impl<const N: usize> Crossing<N> {
             },
         );
         if is_occupied {
-            self.reported = HEARD;
+            self.reported = setup.sensors.heard;
             let linger = setup.sensors.linger;
             self.occupy(if has_sources {
                 linger
@@ -462,7 +458,7 @@ impl<const N: usize> Crossing<N> {
         if !setup.ground.is_road(at) || !setup.is_at_crossing(at, 0) {
             return;
         }
-        self.reported = HEARD;
+        self.reported = setup.sensors.heard;
         self.doubt_word();
         let keeps_guards = self.has_opened || self.obligation.is_some();
         if keeps_guards && self.sign == Millis::ZERO {

@@ -26,6 +26,9 @@ pub struct Sensors {
     /// For how long a person on the road counts as wanting the corridor after they were seen there last; 1 s by
     /// default.
     pub linger: Millis,
+    /// For how long a report by another station keeps the road from being clear; 2 s by default: a CPM has everything once a second
+    /// (TS 103 324), and one may be lost.
+    pub heard: Millis,
 }
 
 impl Default for Sensors {
@@ -37,6 +40,7 @@ impl Default for Sensors {
             age_max: Millis(500),
             gap_max: Millis(500),
             linger: Millis(1_000),
+            heard: Millis(2_000),
         }
     }
 }

@@ -38,6 +38,9 @@ const JUMP_CM: u64 = 500;
 /// How much slower a vehicle may be than it was, in cm/s, beyond 10 m/s² of braking.
 const SLOWER_CMPS: u64 = 200;
 
+/// How far before its middle the front of a car is, in centimetres.
+const FRONT_CM: u16 = 250;
+
 /// The key of a vehicle whose number is that of another one by now.
 const RENUMBERED: u64 = 1 << 60;
 
@@ -278,7 +281,7 @@ pub fn seen(setup: &Setup, key: u64, sighting: &Sighting) -> Vehicle {
         station: None,
         at: sighting.at,
         front_cm: match sighting.what {
-            RoadUser::Vehicle => setup.traffic.length_cm / 2,
+            RoadUser::Vehicle => FRONT_CM,
             _ => 0,
         },
         error_cm: sighting.error_cm,

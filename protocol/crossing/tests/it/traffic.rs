@@ -219,13 +219,13 @@ fn vehicles_of_two_sources_and_two_of_one_are_two() {
 
 /// A sensor tells where the middle of a vehicle is, also in a frame that comes too late for people.
 #[test]
-fn a_vehicle_in_a_frame_is_half_its_length_nearer() {
+fn a_vehicle_in_a_frame_is_half_a_car_nearer() {
     for (age, east, expected) in [
-        (0, -1_651, false),
-        (0, -1_650, true),
-        (600, -1_651, true),
-        (600, -1_831, false),
-        (5_001, -1_650, false),
+        (0, -1_301, false),
+        (0, -1_300, true),
+        (600, -1_301, true),
+        (600, -1_481, false),
+        (5_001, -1_300, false),
     ] {
         let mut scene = Scene::new(street());
         scene.setup.watches = false;

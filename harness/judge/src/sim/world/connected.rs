@@ -194,7 +194,7 @@ impl World<'_> {
         near.map(|it| {
             let is_back = it.draw.arrival.comes_back;
             let east_mps = if is_back { -it.speed_mps } else { it.speed_mps };
-            (station(it.number).0, it.place(), east_mps)
+            (station(it.number).0, it.middle(), east_mps)
         })
     }
 }

@@ -84,10 +84,20 @@ pub(super) struct Driver {
 }
 
 impl Driver {
+    /// Where its front is, as a CAM says.
     pub(super) fn place(&self) -> Place {
+        self.at(self.front_m)
+    }
+
+    /// Where its middle is, as a sensor sees it.
+    pub(super) fn middle(&self) -> Place {
+        self.at(self.front_m - CAR_M / 2.0)
+    }
+
+    fn at(&self, along_m: f64) -> Place {
         let lane = usize::from(self.draw.arrival.comes_back);
         let sign = if lane == 0 { 1.0 } else { -1.0 };
-        Place::new(CROSSING_EAST + sign * self.front_m, LANES[lane])
+        Place::new(CROSSING_EAST + sign * along_m, LANES[lane])
     }
 
     /// The acceleration with an obstacle so far ahead that moves that fast.
