@@ -99,7 +99,8 @@ class Robot:
         folder, space = street.folder, f"/{name}/crossguard"
         tables = README.split("```toml\n")[1].split("```")[0].replace("go2", name)
         # All may lead, and most have no zone.
-        tables = tables.replace("[body]", f"[body]\nsimulated_people = true\nsilence_ms = {1000 * SILENCE_S:.0f}")
+        people = "" if zone else "simulated_people = true\n"
+        tables = tables.replace("[body]", f"[body]\n{people}silence_ms = {1000 * SILENCE_S:.0f}")
         self.log, config = folder / f"{name}.jsonl", folder / f"{name}.toml"
         config.write_text(
             f'{lines}\nname = "{name}"\nstation = {station}\nbuild = "{build}"\nboot_file = "{name}.boot"\n'
