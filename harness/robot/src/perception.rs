@@ -467,21 +467,20 @@ fn tell_in_time(
         Ok(due)
     };
     for observation in observations {
-        let told = match observation {
-            Ok(Observation::Frame(frame, Taken::At(at_s))) => match wait(at_s) {
-                Ok(taken) => Order::Looked(Arc::new(frame), taken),
-                Err(why) => Order::LookedInVain(why),
-            },
-            Ok(Observation::Frame(frame, Taken::Unix(unix_s))) => match instant_of(unix_s) {
-                Ok(taken) => Order::Looked(Arc::new(frame), taken),
-                Err(why) => Order::LookedInVain(why),
-            },
-            Ok(Observation::Person(vru, at_s)) => match wait(at_s.unwrap_or(0.0)) {
-                Ok(_) => Order::Perceived(vru),
-                Err(why) => Order::LookedInVain(why),
-            },
-            Err(why) => Order::LookedInVain(why),
-        };
+        let told = observation.and_then(|it| match it {
+            Observation::Frame(frame, taken) => {
+                let taken = match taken {
+                    Taken::At(at_s) => wait(at_s),
+                    Taken::Unix(unix_s) => instant_of(unix_s),
+                };
+                Ok(Order::Looked(Arc::new(frame), taken?))
+            }
+            Observation::Person(vru, at_s) => {
+                wait(at_s.unwrap_or(0.0))?;
+                Ok(Order::Perceived(vru))
+            }
+        });
+        let told = told.unwrap_or_else(Order::LookedInVain);
         if tell.send(told).is_err() {
             return;
         }
