@@ -136,7 +136,7 @@ pub struct Crossing<const N: usize = 64> {
     /// Time since no sign that counts on this robot has shown go any more, saturating.
     quiet: Millis,
     obligation: Option<Obligation>,
-    /// For how long yet somebody counts as on the road whom others report, or something that may be a person.
+    /// For how long yet a report by others keeps the road from being clear.
     reported: Millis,
     /// Whether the body moves because of a fallback.
     is_falling_back: bool,
@@ -603,7 +603,7 @@ impl<const N: usize> Crossing<N> {
         self.pose.is_some_and(is_elsewhere) && self.is_looking()
     }
 
-    /// Has the body wait on its way, or go on. One that waits, and of which nobody knows where it is, waits on.
+    /// Has the body wait on its way, or go on. A body that waits and loses its pose waits on, unless it falls back to the kerb.
     fn watch_way(&mut self, setup: &Setup, out: &mut Outputs) {
         if self.waits && self.pose.is_none() && !self.is_kerbward {
             return;
@@ -631,28 +631,25 @@ impl<const N: usize> Crossing<N> {
         self.waits = waits;
     }
 
-    /// Whether the body is to let vehicles pass: at the kerb, on its way on or over the carriageway; where nobody is on the road or it
-    /// has no maneuver, also on it, before it steps on another lane. Where somebody is on the road, it does so for those alone that could not stop by hard braking.
-    /// One that may be there and was not heard holds no body on a lane, nor where somebody on the road needs it.
+    /// Whether the body is to let vehicles pass: at the kerb, on its way on or over the carriageway, and on the carriageway before
+    /// another lane, while nobody is on the road or it has no maneuver. Where somebody is on the road, it lets those alone pass that
+    /// could not stop by hard braking. A vehicle that may have been missed holds no body on a lane, nor one that somebody needs.
     fn is_held_by_vehicles(&self, setup: &Setup, to: Point) -> bool {
         let (Some(road), Some((pose, _))) = (setup.ground.road, self.pose) else {
             return false;
         };
+        let is_urgent = self.tracks.is_on_road();
+        let is_out = road.has(pose.at);
         // A body that is told to stand at the kerb may roll over it.
-        let may_be_held = if road.has(pose.at) {
+        let may_be_held = if is_out {
             // Nobody needs a guard at once before people are on the road.
-            let is_early = || {
-                !self.tracks.is_on_road()
-                    && pose.at.distance_cm(to) > setup.position.tolerance_cm.into()
-            };
-            self.task.is_none() || self.is_held_at_kerb || is_early()
+            let is_under_way = pose.at.distance_cm(to) > setup.position.tolerance_cm.into();
+            self.task.is_none() || self.is_held_at_kerb || !is_urgent && is_under_way
         } else {
             road.distance_cm(pose.at) <= KERB_CM.saturating_add(pose.error_cm.into())
                 && road.is_between(pose.at, to)
         };
-        let is_urgent = self.tracks.is_on_road();
-        let is_missed =
-            self.traffic.is_missed() && !is_urgent && (self.is_held_at_kerb || !road.has(pose.at));
+        let is_missed = self.traffic.is_missed() && !is_urgent && (self.is_held_at_kerb || !is_out);
         let way = [pose.at, to];
         may_be_held
             && (is_missed
