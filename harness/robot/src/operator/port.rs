@@ -366,8 +366,8 @@ impl<O: Obeys> Counter<O> {
         last_us.is_some_and(|last_us| now_us.saturating_sub(last_us) < AGAIN_US)
     }
 
-    /// Whether another connection, or the feed, says the frames of this source now. Frames of two detectors would count as those of one: the
-    /// one whose clock is behind would be dropped, with the people that it has.
+    /// Whether another connection, or the feed, says the frames of this source now. Frames of two detectors would count as those of
+    /// one detector: the kit would drop those whose clock is behind, with their people.
     fn is_of_another(&mut self, source: u8, number: u64, now_us: u64) -> bool {
         let newest = self.sources.get(&source);
         let is_said = newest.is_some_and(|(of, at_us)| {

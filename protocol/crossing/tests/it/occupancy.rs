@@ -210,7 +210,8 @@ fn what_others_report_counts_against_a_clear_road_and_never_for_it() {
     assert!(!scene.is_clear());
 }
 
-/// Hazard: a road-side unit has somebody on the road whom the sensors miss, and says so once a second. The guards leave in between.
+/// Hazard: the sensors miss a person on the road. A road-side unit reports that person once a second, and the guards leave between two
+/// reports.
 #[test]
 fn somebody_whom_others_report_is_on_the_road_until_they_do_not_any_more() {
     let mut scene = watch();

@@ -515,8 +515,8 @@ fn a_guard_that_sees_somebody_holds_whatever_its_leader_says() {
     assert_eq!(team.alone, 0);
 }
 
-/// Hazard: a road-side unit has somebody on the crossing whom the sensors miss, and does not know what that is. The guards leave. If it
-/// is a box, people with eyes say so.
+/// Hazard: the sensors miss a person on the crossing. A road-side unit reports that person as an object without a class, and the guards
+/// leave. An operator frees them if the object is a box.
 #[test]
 fn something_without_a_class_on_the_crossing_keeps_guards_until_it_is_gone_or_a_person_has_looked()
 {
