@@ -84,6 +84,8 @@ pub enum Cause {
     WishesFull,
     /// Another robot asks for help, or leads, at a crossing that is not this robot's.
     OtherCrossing,
+    /// A robot offers help that cannot do what every follower of the plan is to do.
+    Unfit,
     /// The robot perceived people and does not know its own position.
     Unplaced,
     /// A sensor source delivered no usable frame, for this reason.
@@ -143,6 +145,7 @@ impl Cause {
             | Self::NotYielding
             | Self::WishesFull
             | Self::OtherCrossing
+            | Self::Unfit
             | Self::ClockWentBack => Layer::Protocol,
             Self::Unplaced | Self::FrameDropped(_) => Layer::Perception,
             Self::BodySilent
@@ -198,6 +201,7 @@ impl Display for Reason {
             Cause::NotYielding => "another leader does not yield",
             Cause::WishesFull => "too many wishes of the application",
             Cause::OtherCrossing => "another crossing",
+            Cause::Unfit => "offer without a task of the plan",
             Cause::Unplaced => "own position unknown",
             Cause::BodySilent => "silent",
             Cause::BodyFault => "fault",

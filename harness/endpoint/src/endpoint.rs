@@ -14,7 +14,7 @@ mod turn;
 use crossguard_codec::{Identifiers, RobotState, Service, TaskParameters};
 use crossguard_protocol::{
     Config, Event, Identity, Ignored, Input, Output, Outputs, Robot, StateMachine, StationId,
-    TaskType,
+    TaskSet, TaskType,
 };
 
 use self::answers::Answers;
@@ -140,6 +140,8 @@ struct Around {
     counters: Counters,
     /// The crossing at which the robot helps; without one, at any.
     served: Option<Served>,
+    /// The tasks that each follower of its plan is to do.
+    needs: TaskSet,
 }
 
 impl<P: StateMachine> Endpoint<P> {
@@ -156,6 +158,7 @@ impl<P: StateMachine> Endpoint<P> {
                 answers: Answers::default(),
                 counters: Counters::default(),
                 served: None,
+                needs: TaskSet::EMPTY,
             },
             exchange: Exchange::new(protocol, config, identifiers, now_ms),
             pseudonyms: Pseudonyms::default(),
@@ -176,6 +179,11 @@ impl<P: StateMachine> Endpoint<P> {
     /// From now on the robot helps at this crossing alone; without one, at any. Requests for another one are dropped.
     pub const fn serve(&mut self, served: Option<Served>) {
         self.around.served = served;
+    }
+
+    /// From now on offers to help count that have each of these tasks, where it was asked for.
+    pub const fn needs(&mut self, needs: TaskSet) {
+        self.around.needs = needs;
     }
 
     /// Congestion control says that two CAM, or two RAM outside of a session, are at least this many ms apart.

@@ -22,7 +22,7 @@ use crossguard_codec::{
 };
 use crossguard_protocol::{
     Command, Config, Coordination, Event, Input, Millis, Output, Outputs, Phase, Place, RequestId,
-    Rmcm, Robot, SessionId, StateMachine, StationId, TaskType, UniqueNumber, Verdict,
+    Rmcm, Robot, SessionId, StateMachine, StationId, TaskSet, TaskType, UniqueNumber, Verdict,
 };
 
 pub use self::accepted::Accepted;
@@ -267,6 +267,12 @@ impl<P: StateMachine> Exchange<P> {
                 host.dropped(cause, &detail, message);
                 continue;
             }
+            let lacking = lacking(me, input, host.needs());
+            if !lacking.is_empty() {
+                let detail = format_args!("station {} cannot {lacking}", heard.from);
+                host.dropped(Cause::Unfit, &detail, message);
+                continue;
+            }
             if let Some(promises) = self.answers_question(input) {
                 host.answered(heard.from, promises);
                 continue;
@@ -456,4 +462,21 @@ fn claimed(me: &Robot, heard: &Heard) -> Option<(Place, bool)> {
         Input::Rmcm(_) | Input::Elapsed(_) | Input::Expired(_) | Input::Local(_) => None,
     };
     heard.inputs.iter().find_map(claim)
+}
+
+/// The tasks that a robot lacks which offers to help this one, of the ones that every follower is to do and that were asked for.
+fn lacking(me: &Robot, input: &Input, needs: TaskSet) -> TaskSet {
+    if let Phase::Requesting(requesting) = me.phase()
+        && let Input::Ram { ram, .. } = input
+        && let Coordination::OfferHelp {
+            session,
+            capabilities,
+            ..
+        } = ram.coordination
+        && session == SessionId::of(me.station(), requesting.number)
+    {
+        let asked = requesting.request.tasks;
+        return needs.intersection(asked).without(capabilities);
+    }
+    TaskSet::EMPTY
 }

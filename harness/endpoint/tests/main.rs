@@ -7,6 +7,7 @@ mod clock_that_goes_back;
 mod groups;
 mod made_up_sessions;
 mod other_crossing;
+mod partial_offer;
 mod receive_path;
 mod same_request;
 mod state_after_the_step;

@@ -24,7 +24,7 @@ use crossguard_endpoint::cause::Cause;
 use crossguard_endpoint::{Effect, Served, Stimulus};
 use crossguard_protocol::{
     self as protocol, Availability, Config, Duty, Event, Millis, Notice, Phase, Robot, StationId,
-    Unavailability,
+    TaskSet, Unavailability,
 };
 
 use self::bodily::Bodily;
@@ -179,6 +179,11 @@ impl Application {
             middle: self.site.position(place(crossing.middle())),
             within_m: f64::from(crossing.reach_cm()) / 100.0 + ASKS_WITHIN_M,
         })
+    }
+
+    /// The tasks that every follower of its plan is to do.
+    pub(crate) fn needs(&self) -> TaskSet {
+        self.plan.as_ref().map_or(TaskSet::EMPTY, Plan::needs)
     }
 
     /// Its sign.

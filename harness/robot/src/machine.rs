@@ -34,6 +34,7 @@ impl<P: StateMachine> Machine<P> {
     #[must_use]
     pub fn new(mut endpoint: Endpoint<P>, application: Application) -> Self {
         endpoint.serve(application.served());
+        endpoint.needs(application.needs());
         Self {
             endpoint,
             application,

@@ -206,6 +206,16 @@ impl Plan {
         }
     }
 
+    /// The tasks that every follower is to do: all of them, where no role is told from another.
+    #[must_use]
+    pub fn needs(&self) -> TaskSet {
+        if self.roles.is_empty() {
+            self.request().tasks
+        } else {
+            TaskSet::EMPTY
+        }
+    }
+
     /// Request of a leader with this plan.
     #[must_use]
     pub fn request(&self) -> HelpRequest {

@@ -6,7 +6,7 @@ use crossguard_codec::core::ram::RAM;
 use crossguard_codec::geonet::{Address, Indication, PACKET_LEN_MAX, Signer};
 use crossguard_codec::{Heard, RobotState, Service, TaskParameters};
 use crossguard_protocol::{
-    Coordination, Event, Ignored, Input, Output, Outputs, Phase, Place, Robot, StationId,
+    Coordination, Event, Ignored, Input, Output, Outputs, Phase, Place, Robot, StationId, TaskSet,
 };
 
 use super::{Around, Effect, Served, others};
@@ -158,6 +158,10 @@ impl Host for Turn<'_> {
             self.observe(heard);
         }
         is_here
+    }
+
+    fn needs(&self) -> TaskSet {
+        self.around.needs
     }
 
     fn heard(&mut self, me: &Robot, heard: &Heard, message: &[u8], arrived_ms: u64) {

@@ -5,7 +5,7 @@ use core::fmt::Display;
 use crossguard_codec::core::ram::RAM;
 use crossguard_codec::geonet::{Address, EgoPosition, Indication, Request, Signer};
 use crossguard_codec::{Heard, RobotState, Service, TaskParameters};
-use crossguard_protocol::{Input, Output, Outputs, Place, Robot, StationId};
+use crossguard_protocol::{Input, Output, Outputs, Place, Robot, StationId, TaskSet};
 
 use crate::cause::Cause;
 use crate::ras::generation::Trigger;
@@ -79,6 +79,11 @@ pub trait Host {
     /// robot. The other robot is around in any case.
     fn is_here(&mut self, _place: Place, _leads: bool, _heard: &Heard) -> bool {
         true
+    }
+
+    /// The tasks that every follower is to do; an offer without one of them does not count.
+    fn needs(&self) -> TaskSet {
+        TaskSet::EMPTY
     }
 
     /// The robot `me` understood a message, which arrived then.
