@@ -336,6 +336,11 @@ impl Application {
         waits
     }
 
+    /// Somebody else than the application tells the protocol this.
+    pub(crate) fn say(&mut self, event: Event) {
+        self.step(Input::Said(event));
+    }
+
     /// Whether its body moves by no fallback.
     fn is_body_free(&self) -> bool {
         match self.body.fallback() {

@@ -45,6 +45,9 @@ impl<P: StateMachine> Machine<P> {
     /// concerns body and application is carried out; every effect is returned.
     pub fn handle(&mut self, moment: Moment, now_s: f64, stimulus: Stimulus<'_>) -> Vec<Effect> {
         self.application.advance(now_s);
+        if let Stimulus::Event(event) = stimulus {
+            self.application.say(event);
+        }
         let mut effects = self.turn(moment, stimulus);
         for _ in 0..WISHES_PER_TURN {
             let Some(wish) = self.application.next_wish() else {

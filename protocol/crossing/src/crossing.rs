@@ -142,8 +142,10 @@ pub struct Crossing<const N: usize = 64> {
     is_falling_back: bool,
     /// Whether the protocol knows that the robot itself sees somebody on the road.
     is_person_told: bool,
-    /// Whether it knows that by somebody else's word, which this robot's own sensors do not take back.
+    /// Whether a person has said that somebody is on the road, and not yet that it is clear.
     is_person_said: bool,
+    /// Whether a person has closed the corridor, and not opened it again.
+    is_kept_closed: bool,
     task: Option<Task>,
     /// Whether the body's fallback takes it to the kerb, beside a person.
     is_kerbward: bool,
@@ -215,6 +217,7 @@ impl<const N: usize> Crossing<N> {
             // In a session of its own somebody else called a second time.
             Input::CallIgnored if !self.is_own() => self.end_call(),
             Input::CallIgnored => {}
+            Input::Said(event) => self.said(event),
             Input::SaidClear => {
                 self.is_person_said = false;
                 self.tracks.resolve(true);
@@ -259,7 +262,6 @@ impl<const N: usize> Crossing<N> {
             _ => Corridor::Clear,
         };
         let is_told = matches!(robot.phase(), Phase::Following(following) if following.sees_people);
-        self.is_person_said |= is_told && !self.is_person_told && !self.occupancy.owes();
         self.is_person_told = is_told;
         self.is_kerbward &= robot.duty().is_some();
         // The end of a maneuver is told once.
@@ -275,8 +277,23 @@ impl<const N: usize> Crossing<N> {
             };
         }
         self.learn_obligation(setup, robot, &mut out);
-        self.is_person_said &= self.is_person_told || self.obligation.is_some();
+        self.is_person_said &= !self.has_no_part();
         out
+    }
+
+    /// A person or another application tells the protocol something. Sensors of this robot do not take it back: they may miss what a
+    /// person sees.
+    fn said(&mut self, event: Event) {
+        match event {
+            Event::PersonOnRoad => {
+                self.is_person_said = true;
+                self.doubt_word();
+            }
+            Event::RoadClear => self.is_person_said = false,
+            Event::CloseCorridor => self.is_kept_closed = self.is_own(),
+            Event::OpenCorridor => self.is_kept_closed = false,
+            _ => {}
+        }
     }
 
     fn learn_obligation(&mut self, setup: &Setup, robot: &Robot, out: &mut Outputs) {
@@ -663,10 +680,7 @@ impl<const N: usize> Crossing<N> {
         if self.standing == Standing::Following && self.occupancy.has_sources() {
             if self.occupancy.owes() && !self.is_person_told {
                 out.tell(Event::PersonOnRoad);
-            } else if self.is_person_told
-                && !self.is_person_said
-                && !self.sees_somebody(setup)
-                && self.obligation.is_none()
+            } else if self.is_person_told && !self.sees_somebody(setup) && self.obligation.is_none()
             {
                 out.tell(Event::RoadClear);
             }
@@ -696,7 +710,7 @@ impl<const N: usize> Crossing<N> {
         }
     }
 
-    /// Whether the robot itself has somebody on the road, or cannot tell any more. Without sensors: whether others say so,
+    /// Whether the robot itself has somebody on the road, a person says so, or it cannot tell any more. Without sensors: whether others say so,
     /// or said so of somebody and fell silent.
     fn sees_somebody(&self, setup: &Setup) -> bool {
         let knows_nothing = if self.occupancy.has_sources() {
@@ -704,7 +718,7 @@ impl<const N: usize> Crossing<N> {
         } else {
             self.tracks.is_on_road()
         };
-        self.occupancy.was_seen() || knows_nothing
+        self.is_person_said || self.occupancy.was_seen() || knows_nothing
     }
 
     /// Whether the robot sees somebody on the road who is too far from the body for it to go on to the kerb. Whom it has lost, it
@@ -726,15 +740,16 @@ impl<const N: usize> Crossing<N> {
     /// Whether somebody who is escorted is too far behind the body: on the road, or at the kerb for as long as nobody
     /// was on the road. Go may be over by then, and an escort that waited for the next one would stand on the road.
     fn is_person_behind(&self, setup: &Setup) -> bool {
-        let (Some(task), Some((pose, _))) = (&self.task, self.pose) else {
+        let Some((task, target)) = self.task.as_ref().and_then(|it| Some((it, it.place?))) else {
             return false;
         };
-        let Some(target) = task.place else {
-            return false;
+        // A body that does not know where it is may be ahead of everybody.
+        let is_behind = |at: Point| {
+            self.pose.is_none_or(|(pose, _)| {
+                let own = pose.at.distance_cm(target);
+                at.distance_cm(target) > own.saturating_add(u32::from(setup.position.ahead_cm))
+            })
         };
-        let own = pose.at.distance_cm(target);
-        let limit = own.saturating_add(u32::from(setup.position.ahead_cm));
-        let is_behind = |at: Point| at.distance_cm(target) > limit;
         // Sensors that cover the road have a person themselves whose own reports are lost.
         let is_covered = self.occupancy.is_covered(setup);
         let is_somebody = |it: &&Track| {
@@ -800,6 +815,9 @@ impl<const N: usize> Crossing<N> {
 
     /// The cause that keeps people from crossing, besides the plan.
     fn hindrance(&self, setup: &Setup) -> Option<Hindrance> {
+        if self.is_kept_closed {
+            return Some(Hindrance::KeptClosed);
+        }
         if setup.watches && !self.occupancy.is_watched(setup) {
             return Some(Hindrance::NoSight);
         }
@@ -871,10 +889,9 @@ impl<const N: usize> Crossing<N> {
             About::Duty(Duty::FallingBack(maneuver)) => !setup.guarding.contains(maneuver.task),
             About::Duty(Duty::Crossing(_)) | About::Clearing => false,
         };
-        let is_seen_clear = !self.is_person_said && self.is_clear(setup);
         let is_clear = obligation.said_clear > Millis::ZERO
             || lets_nobody_cross
-            || obligation.wait == Millis::ZERO && is_seen_clear;
+            || obligation.wait == Millis::ZERO && self.is_clear(setup);
         if is_clear && !self.is_falling_back {
             out.tell(Event::RoadClear);
         }
@@ -943,7 +960,7 @@ impl<const N: usize> Crossing<N> {
     /// The call is over, or had no effect.
     fn end_call(&mut self) {
         (self.is_called, self.has_opened, self.has_crossed) = (false, false, false);
-        self.turned = false;
+        (self.turned, self.is_kept_closed) = (false, false);
         self.call_pause = CALL_PERIOD;
     }
 
@@ -967,10 +984,10 @@ impl<const N: usize> Crossing<N> {
         &self.occupancy
     }
 
-    /// Whether the road is known to be clear: by its sensors, and others report nobody there.
+    /// Whether the road is known to be clear: by its sensors, and neither others nor a person report somebody there.
     #[must_use]
     pub fn is_clear(&self, setup: &Setup) -> bool {
-        self.reported == Millis::ZERO && self.occupancy.is_clear(setup)
+        self.reported == Millis::ZERO && !self.is_person_said && self.occupancy.is_clear(setup)
     }
 
     /// For how long yet its sign shows go.

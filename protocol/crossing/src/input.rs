@@ -136,6 +136,9 @@ pub enum Input<'a> {
     CorridorClosed,
     /// A call for help had no effect.
     CallIgnored,
+    /// The protocol is told this, and not by the crossing machine: a person says that somebody is on the road, or that the corridor
+    /// is to be closed, or opened again.
+    Said(Event),
     /// A person says that the road is clear.
     SaidClear,
 }
@@ -183,6 +186,8 @@ pub enum Hindrance {
     Missed,
     /// A vehicle that is to be asked has not said that it will stop.
     NoPromise(StationId),
+    /// A person has closed the corridor, and has not opened it again.
+    KeptClosed,
     /// Something without a class is on the crossing, as another station reports. It keeps the road from being clear.
     Object,
 }
@@ -201,6 +206,7 @@ impl Display for Hindrance {
             Self::NoPromise(station) => {
                 write!(f, "vehicle {station} has not said that it will stop")
             }
+            Self::KeptClosed => f.write_str("somebody has closed the corridor, until they open it"),
             Self::Object => {
                 f.write_str("something without a class is on the crossing, and may be a person")
             }

@@ -198,7 +198,7 @@ fn setup(source: &mut impl Source) -> Setup {
 
 /// An observation: time, people, vehicles and positions.
 fn observation(source: &mut impl Source) -> Told {
-    Told::Input(match source.number(9, 0) {
+    Told::Input(match source.number(10, 0) {
         0..3 => Input::Elapsed(millis(source, 100)),
         3 | 4 => {
             let look = look(source);
@@ -248,7 +248,7 @@ fn calm(source: &mut impl Source, step: u32) -> Told {
 
 /// Anything.
 fn anything(source: &mut impl Source) -> Told {
-    Told::Input(match source.number(9, 0) {
+    Told::Input(match source.number(10, 0) {
         0 => Input::Body(match source.number(2, 0) {
             0 => BodyReport::InPosition(Any::any(source)),
             1 => BodyReport::Completed(Any::any(source)),
@@ -262,6 +262,7 @@ fn anything(source: &mut impl Source) -> Told {
         6 => Input::CorridorOpen(millis(source, 1_900)),
         7 => Input::CorridorClosed,
         8 => Input::CallIgnored,
+        9 => Input::Said(Any::any(source)),
         _ => Input::SaidClear,
     })
 }

@@ -114,7 +114,7 @@ pub(super) const COMMANDS: &[Command] = &[
     .on_road("the corridor closes; a person who is on the road crosses without this guard in its place"),
     Command::new(
         "person-on-road",
-        "this robot itself sees somebody on the road: it stays until 'clear', however the session ends",
+        "somebody is on the road: this robot stays until 'clear', whatever its sensors say and however the session ends",
         |words, _| event(words, Event::PersonOnRoad),
     )
     .on_road("this robot guards the person until 'clear'"),
@@ -132,9 +132,11 @@ pub(super) const COMMANDS: &[Command] = &[
         event(words, Event::OpenCorridor)
     })
     .on_road("the sign shows go while every guard is engaged: people step on the road"),
-    Command::new("close", "close the corridor", |words, _| {
-        event(words, Event::CloseCorridor)
-    })
+    Command::new(
+        "close",
+        "close the corridor: it stays closed until 'open', or the end of the session",
+        |words, _| event(words, Event::CloseCorridor),
+    )
     .on_road("the sign shows stop; the guards stay for people who are on the road"),
     Command::new(
         "task-completed",

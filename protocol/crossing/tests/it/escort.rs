@@ -254,6 +254,21 @@ fn an_escort_stays_with_its_person() {
     assert_eq!(team.alone, 0);
 }
 
+/// Hazard: its driver does not know any more where the body is; it walks on, and the person stands on the road alone.
+#[test]
+fn an_escort_that_does_not_know_where_it_is_stays_with_its_person() {
+    let mut team = escorting(OVER_THERE, true);
+    team.robots[1].body.at = Point::new(0, -100);
+    team.pass_until("go", Team::shows_go);
+    team.people[0] = walking(team.people[0], 0, 40);
+    team.pass(5_000);
+    team.people[0] = walking(team.people[0], 0, 0);
+    team.robots[1].body.is_lost = true;
+    team.pass(10_000);
+    let ahead = team.robots[1].body.at.north_cm() - team.people[0].at.north_cm();
+    assert!((0..=250).contains(&ahead), "{ahead} cm");
+}
+
 /// The body of an escort has reached the other side, and somebody stands on the road close behind it.
 #[test]
 fn an_escort_is_not_done_under_the_eyes_of_people() {

@@ -28,6 +28,45 @@ fn a_persons_word_that_somebody_is_on_the_road_stands_until_a_person_takes_it_ba
     assert!(!team.robots[1].body.holds);
 }
 
+/// Hazard: a person sees a child whom the sensors miss, beside somebody whom they have. The protocol knows of one already, the word is
+/// lost, and guard and leader go when the other one is across.
+#[test]
+fn the_word_stands_also_where_sensors_have_somebody_else() {
+    for robot in [0, 1] {
+        let mut team = blocking();
+        team.pass_until("go", Team::shows_go);
+        team.people[0].at = Point::new(100, 200);
+        team.pass(1_000);
+        team.event(robot, Event::PersonOnRoad);
+        team.people.clear();
+        team.pass(30_000);
+        assert!(!team.is_idle(), "the word of robot {robot}");
+        team.hear(robot, Input::SaidClear);
+        team.pass_until("idle", Team::is_idle);
+    }
+}
+
+/// Hazard: an operator closes the corridor before an ambulance that no message tells of, and the leader opens it after 3 s for people
+/// who wait.
+#[test]
+fn a_corridor_that_a_person_has_closed_stays_closed_until_a_person_opens_it() {
+    let mut team = blocking();
+    team.pass_until("go", Team::shows_go);
+    team.event(0, Event::CloseCorridor);
+    for _ in 0..200 {
+        team.pass(100);
+        assert!(!team.shows_go());
+    }
+    let why = Output::Hindered(Hindrance::KeptClosed);
+    assert!(team.robots[0].log.contains(&why));
+    team.event(0, Event::OpenCorridor);
+    team.pass_until("go", Team::shows_go);
+    // The word is for one session.
+    team.event(0, Event::CloseCorridor);
+    team.event(0, Event::LeaveRequested);
+    team.pass_until("go in the next one", Team::shows_go);
+}
+
 /// Hazard: the escort walks from the other kerb, because people once came from there.
 #[test]
 fn a_plan_begins_where_people_are_and_not_where_they_were_in_the_session_before() {

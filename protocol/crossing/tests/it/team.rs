@@ -137,6 +137,7 @@ impl Team {
 
     /// Events from a robot's application besides its crossing machine.
     pub(crate) fn event(&mut self, robot: usize, event: Event) {
+        self.tell(robot, Input::Said(event));
         self.queue.push_back(Item::Protocol(
             robot,
             crossguard_protocol::Input::Local(event),
