@@ -73,8 +73,11 @@ pub struct RoadUser {
     pub position: Position,
     /// Speed over ground in m/s.
     pub speed: Option<f64>,
-    /// Direction of motion in degrees clockwise from north.
+    /// Direction of motion in degrees clockwise from north. That of a vehicle is known while it says that it drives forward.
     pub heading: Option<f64>,
+    /// How long it is at least, in metres, if a CAM or a CPM tells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length: Option<f64>,
     /// How many it stands for: more than one, or 0 for an unknown number, of a VRU cluster's leader.
     pub cardinality: u8,
     /// The signals that it shows to people, if a RAM tells.
@@ -101,6 +104,7 @@ impl RoadUser {
             position: state.position,
             speed: state.speed.map(|speed| speed.value),
             heading: state.heading.map(|heading| heading.value),
+            length: None,
             cardinality: 1,
             signals: state.slow.as_ref().and_then(|slow| slow.signals),
             measured_its,

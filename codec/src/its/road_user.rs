@@ -1,10 +1,15 @@
 //! Road users that messages of other stations tell of, in SI units.
 
 use super::{CPM, CpmContainer, ItsMessage};
-use crate::asn1::cam::{CAM, HighFrequencyContainer};
-use crate::asn1::cdd::{BasicContainer, Shape, Speed, Wgs84AngleValue};
+use crate::asn1::cam::{
+    BasicVehicleContainerHighFrequency, CAM, HighFrequencyContainer, VehicleLength,
+    VehicleLengthConfidenceIndication,
+};
+use crate::asn1::cdd::{BasicContainer, DriveDirection, Shape, Speed, Wgs84AngleValue};
 use crate::asn1::cdd211::ObjectClass211;
-use crate::asn1::cpm::{CartesianPosition3dWithConfidence, ObjectClass, Velocity3dWithConfidence};
+use crate::asn1::cpm::{
+    CartesianPosition3dWithConfidence, ObjectClass, ObjectDimension, Velocity3dWithConfidence,
+};
 use crate::containers;
 use crate::distance::moved;
 use crate::road_user::{Identity, Kind, RoadUser, identity_of, middle_of};
@@ -54,6 +59,7 @@ macro_rules! of_vam {
             ),
             speed: speed_of(&motion.speed),
             heading: heading_of(&motion.heading.value),
+            length: None,
             measured_its: si::rebuild_timestamp($now, $vam.vam.generation_delta_time.0),
             position: cluster_position(
                 &parameters.basic_container,
@@ -107,28 +113,54 @@ fn cluster_position(container: &BasicContainer, shape: Option<&Shape>) -> Positi
 fn of_cam(cam: &CAM, now: u64) -> RoadUser {
     let parameters = &cam.cam.cam_parameters;
     let station_type = parameters.basic_container.station_type.0;
-    let (kind, speed, heading) = match &parameters.high_frequency_container {
-        HighFrequencyContainer::basicVehicleContainerHighFrequency(motion) => (
-            match kind_of(station_type) {
-                Kind::Vru => Kind::Vru,
-                _ => Kind::Vehicle,
-            },
-            speed_of(&motion.speed),
-            si::angle_degrees(motion.heading.heading_value.0),
-        ),
-        HighFrequencyContainer::rsuContainerHighFrequency(_) => (Kind::RoadSideUnit, None, None),
-    };
-    RoadUser {
+    let user = RoadUser {
         identity: Identity::Station(cam.header.station_id.0),
-        kind,
+        kind: Kind::RoadSideUnit,
         station_type: Some(station_type),
         position: position_of(&parameters.basic_container),
-        speed,
-        heading,
+        speed: None,
+        heading: None,
+        length: None,
         cardinality: 1,
         signals: None,
         measured_its: si::rebuild_timestamp(now, cam.cam.generation_delta_time.0),
+    };
+    match &parameters.high_frequency_container {
+        HighFrequencyContainer::basicVehicleContainerHighFrequency(motion) => RoadUser {
+            kind: match kind_of(station_type) {
+                Kind::Vru => Kind::Vru,
+                _ => Kind::Vehicle,
+            },
+            speed: speed_of(&motion.speed),
+            heading: direction_of(motion),
+            length: length_of(&motion.vehicle_length),
+            ..user
+        },
+        HighFrequencyContainer::rsuContainerHighFrequency(_) => user,
     }
+}
+
+/// The direction in which a vehicle moves. Its heading is that of its movement (EN 302 637-2, annex B), but stations of which
+/// the speed is negative while it backs say where its front points. So it is known only of one that says that it drives forward.
+fn direction_of(motion: &BasicVehicleContainerHighFrequency) -> Option<f64> {
+    match motion.drive_direction {
+        DriveDirection::forward => si::angle_degrees(motion.heading.heading_value.0),
+        DriveDirection::backward | DriveDirection::unavailable => None,
+    }
+}
+
+/// How long a trailer is at most, in metres (Directive 96/53/EC).
+const TRAILER_M: f64 = 12.0;
+
+/// How long a vehicle is with the trailer that it has or may have.
+fn length_of(length: &VehicleLength) -> Option<f64> {
+    use VehicleLengthConfidenceIndication as Trailer;
+    let trailer_m = match length.vehicle_length_confidence_indication {
+        Trailer::noTrailerPresent | Trailer::trailerPresentWithKnownLength => 0.0,
+        _ => TRAILER_M,
+    };
+    let value = length.vehicle_length_value.0;
+    (value != 1_023).then(|| f64::from(value) / 10.0 + trailer_m)
 }
 
 /// The kind that an object most probably is.
@@ -162,6 +194,7 @@ macro_rules! objects {
                 position: $frame.position(&object.position),
                 speed,
                 heading,
+                length: longest([&object.object_dimension_x, &object.object_dimension_y]),
                 cardinality,
                 signals: None,
                 measured_its: $frame.time.saturating_add_signed(measured),
@@ -251,6 +284,13 @@ fn of_cpm(cpm: &CPM) -> Vec<RoadUser> {
         }
     }
     frame.users
+}
+
+/// How long an object is, whichever way it stands.
+fn longest(dimensions: [&Option<ObjectDimension>; 2]) -> Option<f64> {
+    let known = dimensions.into_iter().flatten();
+    let known = known.map(|it| it.value.0).filter(|value| *value != 256);
+    known.max().map(|value| f64::from(value) / 10.0)
 }
 
 /// Speed in m/s, and its direction clockwise from north.

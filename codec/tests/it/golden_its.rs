@@ -2,17 +2,20 @@
 //! systematically, `foreign.rs` at random.
 
 use crate::support::{its_vectors, on};
-use crossguard_codec::asn1::cam::{CAM, CauseCodeV2, SpecialVehicleContainer};
+use crossguard_codec::asn1::cam::{
+    BasicVehicleContainerHighFrequency, CAM, CauseCodeV2, HighFrequencyContainer,
+    SpecialVehicleContainer, VehicleLength, VehicleLengthConfidenceIndication, VehicleLengthValue,
+};
 use crossguard_codec::asn1::cdd::{
-    HeadingValue, Identifier2B, PosConfidenceEllipse, PositionConfidenceEllipse, SemiAxisLength,
-    Wgs84AngleValue,
+    DriveDirection, HeadingValue, Identifier2B, ObjectDimensionValue, PosConfidenceEllipse,
+    PositionConfidenceEllipse, SemiAxisLength, Wgs84AngleValue,
 };
 use crossguard_codec::asn1::cpm::{
     CardinalNumber3b, CoordinateConfidence, ManagementContainer, MessageSegmentationInfo,
-    OrdinalNumber3b, PerceivedObject,
+    ObjectDimension, ObjectDimensionConfidence, OrdinalNumber3b, PerceivedObject,
 };
 use crossguard_codec::its::{CpmContainer, ItsMessage};
-use crossguard_codec::{Dictionary, Identifiers, Identity, Kind, distance};
+use crossguard_codec::{Dictionary, Identifiers, Identity, Kind, RoadUser, distance};
 use crossguard_protocol::Decimetres;
 use serde_json::{Value, json};
 
@@ -139,6 +142,71 @@ fn road_users_are_where_their_messages_say() {
     assert_eq!(object.heading.map(f64::round), Some(153.0));
     let speed_cmps = object.speed.map(|speed| (speed * 100.0).round());
     assert_eq!(speed_cmps, Some(224.0));
+}
+
+/// The road user of C1, changed: heading 90°, 4.2 m long, without a trailer.
+fn car(change: impl FnOnce(&mut BasicVehicleContainerHighFrequency)) -> RoadUser {
+    let ItsMessage::Cam(mut cam) = message("C1") else {
+        panic!("not a CAM")
+    };
+    let fast = &mut cam.cam.cam_parameters.high_frequency_container;
+    let HighFrequencyContainer::basicVehicleContainerHighFrequency(motion) = fast else {
+        panic!("not a vehicle")
+    };
+    change(motion);
+    ItsMessage::Cam(cam).road_users(694_694_401_000)[0]
+}
+
+/// Hazard: a car backs to the crossing, and its station says where its front points.
+#[test]
+fn the_direction_is_known_of_a_vehicle_that_drives_forward_alone() {
+    for (direction, heading) in [
+        (DriveDirection::forward, Some(90.0)),
+        (DriveDirection::backward, None),
+        (DriveDirection::unavailable, None),
+    ] {
+        let car = car(|motion| motion.drive_direction = direction);
+        assert_eq!((car.heading, car.speed), (heading, Some(13.89)));
+    }
+}
+
+#[test]
+fn a_vehicle_is_as_long_as_it_says_with_its_trailer() {
+    use VehicleLengthConfidenceIndication as Trailer;
+    for (value, trailer, length) in [
+        (42, Trailer::noTrailerPresent, Some(4.2)),
+        (188, Trailer::trailerPresentWithKnownLength, Some(18.8)),
+        (42, Trailer::trailerPresentWithUnknownLength, Some(16.2)),
+        (42, Trailer::trailerPresenceIsUnknown, Some(16.2)),
+        (42, Trailer::unavailable, Some(16.2)),
+        (1_022, Trailer::noTrailerPresent, Some(102.2)),
+        (1_023, Trailer::noTrailerPresent, None),
+    ] {
+        let said = VehicleLength::new(VehicleLengthValue(value), trailer);
+        let car = car(|motion| motion.vehicle_length = said);
+        assert_eq!(car.length, length, "{value}, {trailer:?}");
+    }
+    let dimension = |value| {
+        let confidence = ObjectDimensionConfidence(1);
+        Some(ObjectDimension::new(
+            ObjectDimensionValue(value),
+            confidence,
+        ))
+    };
+    for (along, across, length) in [
+        (dimension(180), dimension(25), Some(18.0)),
+        (dimension(25), dimension(180), Some(18.0)),
+        (dimension(255), None, Some(25.5)),
+        (dimension(256), dimension(25), Some(2.5)),
+        (dimension(256), None, None),
+    ] {
+        let seen = cpm(|_, objects| {
+            objects[0].object_dimension_x = along.clone();
+            objects[0].object_dimension_y = across.clone();
+        });
+        let length_said = seen.road_users(694_694_401_000)[0].length;
+        assert_eq!(length_said, length);
+    }
 }
 
 /// P2 with other objects, and changed otherwise.

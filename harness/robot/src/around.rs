@@ -124,6 +124,7 @@ mod tests {
             position,
             speed: None,
             heading: None,
+            length: None,
             cardinality: 1,
             signals: None,
             measured_its: 0,

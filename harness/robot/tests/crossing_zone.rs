@@ -202,6 +202,7 @@ fn a_person_who_tells_of_themselves_by_vam_is_called_for() {
             position: Site::default().position(Place::new(1.0, -0.8)),
             speed: Some(0.0),
             heading: None,
+            length: None,
             cardinality: 1,
             signals: None,
             measured_its: BEGAN_ITS + u64::from(now_ms),

@@ -7,7 +7,7 @@ use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 use crossguard_codec::geonet::{EgoPosition, Stack};
-use crossguard_codec::{Heard, Identifiers, Measurement, RobotState, Service};
+use crossguard_codec::{DriveDirection, Heard, Identifiers, Measurement, RobotState, Service};
 use crossguard_endpoint::ras::cam::{CamGeneration, cam};
 use crossguard_endpoint::station::vehicle::{Question, passenger_car};
 use crossguard_protocol::{Coordination, Input, StationId};
@@ -117,6 +117,7 @@ impl Drive {
             position: self.site.position(middle.towards(ahead, self.front_m)),
             heading: exactly(middle.bearing(ahead)),
             speed: exactly(self.speed_mps),
+            drive_direction: DriveDirection::Forward,
             ..RobotState::default()
         }
     }

@@ -440,11 +440,13 @@ fn vehicle(metres: u8) -> Vehicle {
         station: Some(VEHICLE),
         at: Point::new(-300 - 100 * i32::from(metres), 200),
         front_cm: 0,
+        length_cm: 1_200,
         error_cm: 0,
         velocity: Way {
             east_cm: 1_389,
             north_cm: 0,
         },
+        goes_anywhere: false,
     }
 }
 

@@ -69,10 +69,14 @@ pub struct Vehicle {
     pub at: Point,
     /// How far its front is before that place, in centimetres: sensors and CPM say where the middle is, CAM where the front is.
     pub front_cm: u16,
+    /// How long it is, in centimetres, by [`traffic::length_cm`](crate::traffic::length_cm).
+    pub length_cm: u16,
     /// Error of the place, in centimetres.
     pub error_cm: u16,
     /// Its velocity, in cm/s: where not all of it is known, by [`traffic::velocity`](crate::traffic::velocity).
     pub velocity: Way,
+    /// True if its direction is not known: it may come to any place.
+    pub goes_anywhere: bool,
 }
 
 /// Where a body is, as it says.

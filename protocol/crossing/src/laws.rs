@@ -123,8 +123,10 @@ fn vehicle(source: &mut impl Source, key: u32) -> Vehicle {
         station: source.flag().then_some(StationId(key)),
         at: point(source),
         front_cm: source.u16(600),
+        length_cm: source.u16(1_200),
         error_cm: source.u16(10),
         velocity: way(source),
+        goes_anywhere: source.flag(),
     }
 }
 

@@ -231,8 +231,8 @@ impl Traffic {
         counts: impl Fn(&Vehicle, &Motion) -> bool,
     ) -> Option<u64> {
         let hinders = |it: &&Known| {
-            let ahead =
-                ahead(setup, place, &it.vehicle).filter(|motion| counts(&it.vehicle, motion));
+            let vehicle = towards(setup, &it.vehicle, place.middle());
+            let ahead = ahead(setup, place, &vehicle).filter(|motion| counts(&vehicle, motion));
             ahead.is_some_and(|motion| !motion.can_stop(rules, it.age))
         };
         let key = self.vehicles.iter().flatten().find(hinders);
@@ -264,6 +264,12 @@ pub fn velocity(setup: &Setup, at: Point, speed_cmps: Option<u32>, direction: Op
     direction.part(speed, length)
 }
 
+/// How long a vehicle is taken to be: as long as it says, and as long as the rules say at least.
+#[must_use]
+pub fn length_cm(setup: &Setup, said_cm: Option<u16>) -> u16 {
+    said_cm.unwrap_or(0).max(setup.traffic.length_cm)
+}
+
 /// Whether somebody comes like a vehicle: is one, or is faster than people walk.
 #[must_use]
 pub fn rides(setup: &Setup, sighting: &Sighting) -> bool {
@@ -284,8 +290,10 @@ pub fn seen(setup: &Setup, key: u64, sighting: &Sighting) -> Vehicle {
             RoadUser::Vehicle => FRONT_CM,
             _ => 0,
         },
+        length_cm: length_cm(setup, None),
         error_cm: sighting.error_cm,
         velocity: sighting.velocity.unwrap_or_else(unsaid),
+        goes_anywhere: sighting.velocity.is_none(),
     }
 }
 
@@ -297,11 +305,25 @@ fn may_hinder(setup: &Setup, vehicle: &Vehicle) -> bool {
         .is_some_and(|crossing| ahead(setup, crossing, vehicle).is_some())
 }
 
+/// A vehicle as it comes to a place, if its direction is not known.
+fn towards(setup: &Setup, vehicle: &Vehicle, place: Point) -> Vehicle {
+    if !vehicle.goes_anywhere {
+        return *vehicle;
+    }
+    let speed = Some(vehicle.velocity.length_cm());
+    let direction = Some(vehicle.at.to(place));
+    Vehicle {
+        velocity: velocity(setup, vehicle.at, speed, direction),
+        ..*vehicle
+    }
+}
+
 /// How a vehicle comes to a place, if it moves on a line or a bend that comes near it, and has not passed it with its whole length.
 fn ahead(setup: &Setup, place: &Shape, vehicle: &Vehicle) -> Option<Motion> {
     let rules = &setup.traffic;
-    let speed_cmps = vehicle.velocity.length_cm();
     let middle: Point = place.middle();
+    let vehicle = &towards(setup, vehicle, middle);
+    let speed_cmps = vehicle.velocity.length_cm();
     let half = place.reach_cm();
     // It may be anywhere within its error.
     let error_cm = u32::from(vehicle.error_cm);
@@ -312,7 +334,7 @@ fn ahead(setup: &Setup, place: &Shape, vehicle: &Vehicle) -> Option<Motion> {
     let distance_cm = place.distance_cm(front);
     let left_cm = if vehicle.velocity.dot(front.to(middle)) > 0 {
         distance_cm
-    } else if distance_cm <= u32::from(rules.length_cm).saturating_add(error_cm) {
+    } else if distance_cm <= u32::from(vehicle.length_cm).saturating_add(error_cm) {
         0
     } else {
         return None;

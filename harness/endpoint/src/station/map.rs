@@ -122,6 +122,7 @@ mod tests {
             position: Position::at(49.0, 8.4),
             speed: Some(1.0),
             heading: None,
+            length: None,
             cardinality: 1,
             signals: None,
             measured_its,

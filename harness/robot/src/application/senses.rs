@@ -304,10 +304,13 @@ impl Application {
             Some(_) => seen.error_cm,
             None => UNSAID_ERROR_CM,
         };
-        // A CAM says where the front is, a CPM where the middle of the bounding box (`PerceivedObject`, TS 102 894-2).
+        let length_cm = traffic::length_cm(&self.setup, user.length.map(centimetres));
+        // A CAM says where the front is, a CPM where the middle of the bounding box (`PerceivedObject`, TS 102 894-2). The rear
+        // of a vehicle that may back comes first.
         let front_cm = match user.identity {
+            _ if user.kind == Kind::Vehicle && user.heading.is_none() => length_cm,
             Identity::Station(_) => 0,
-            _ => self.setup.traffic.length_cm / 2,
+            _ => length_cm / 2,
         };
         let vehicle = Vehicle {
             key: match user.identity {
@@ -325,8 +328,10 @@ impl Application {
             },
             at,
             front_cm,
+            length_cm,
             error_cm,
             velocity,
+            goes_anywhere: direction.is_none(),
         };
         self.step(Input::Vehicle(vehicle, measured_ago(known, moment)));
     }
@@ -435,13 +440,17 @@ fn heard(known: &Neighbour, at: Point, what: RoadUser, velocity: Option<Way>) ->
 }
 
 /// Error of a position, in centimetres.
+fn error_cm(position: &Position) -> u16 {
+    centimetres(position.error_m())
+}
+
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "casts of numbers saturate"
 )]
-fn error_cm(position: &Position) -> u16 {
-    (position.error_m() * 100.0).ceil() as u16
+fn centimetres(metres: f64) -> u16 {
+    (metres * 100.0).ceil() as u16
 }
 
 /// How long before this moment somebody was measured, as their message says. A report that seems older than an object of a CPM can be

@@ -317,6 +317,7 @@ fn vehicle(east: f64, (speed, heading): (f64, f64)) -> RoadUser {
         },
         speed: Some(speed),
         heading: Some(heading),
+        length: None,
         cardinality: 1,
         signals: None,
         measured_its: BEGAN_ITS + 10_000,
@@ -522,6 +523,45 @@ fn what_a_vehicle_does_not_say_makes_nothing_safer() {
         let what = format!("{user:?}");
         hears_of(&mut application, user, 10_000);
         application.advance(10.0);
+        let hindered = application.crossing.hindered(&application.setup);
+        assert_eq!(hindered.is_some(), expected, "{what}: {hindered:?}");
+    }
+}
+
+/// Hazard: a car backs to the crossing with its rear, which is its length before the place that it says, and is taken to go away.
+#[test]
+fn the_rear_of_a_vehicle_that_may_back_comes_first_in_any_direction() {
+    let [comes, goes] = [90.0, 270.0].map(|heading| vehicle(-25.0, (3.0, heading)));
+    let backs = |user| RoadUser {
+        heading: None,
+        ..user
+    };
+    let long = |user| RoadUser {
+        length: Some(18.0),
+        ..user
+    };
+    let object = RoadUser {
+        identity: Identity::Object { by: 9, number: 1 },
+        ..comes
+    };
+    let person = RoadUser {
+        kind: Kind::Vru,
+        ..comes
+    };
+    // It needs 7.5 m. The crossing begins 17 m before it, less 1 m that its place is inexact.
+    for (user, expected) in [
+        (comes, false),
+        (goes, false),
+        (backs(goes), true),
+        (backs(person), false),
+        (long(comes), false),
+        (long(goes), true),
+        (object, false),
+        (long(object), true),
+    ] {
+        let mut application = watching();
+        let what = format!("{user:?}");
+        hears_of(&mut application, user, 10_000);
         let hindered = application.crossing.hindered(&application.setup);
         assert_eq!(hindered.is_some(), expected, "{what}: {hindered:?}");
     }

@@ -17,8 +17,10 @@ fn vehicle(east: i32, north: i32, east_cms: i32, north_cms: i32) -> Vehicle {
         station: None,
         at: Point::new(east, north),
         front_cm: 0,
+        length_cm: 1_200,
         error_cm: 0,
         velocity,
+        goes_anywhere: false,
     }
 }
 
@@ -62,6 +64,26 @@ fn a_vehicle_hinders_that_can_no_longer_stop_comfortably() {
     ] {
         assert_eq!(hinders(vehicle, 0, 0), expected, "{name}");
     }
+}
+
+/// Hazard: the rear of a bus with a joint, or of a train of carriages, is on the crossing yet.
+#[test]
+fn a_vehicle_that_is_longer_than_assumed_has_passed_when_its_rear_has() {
+    for (length_cm, east, expected) in [
+        (1_200, 1_750, false),
+        (1_875, 1_750, true),
+        (1_875, 2_375, true),
+        (1_875, 2_400, false),
+    ] {
+        let vehicle = Vehicle {
+            length_cm,
+            ..vehicle(east, 200, 1_389, 0)
+        };
+        assert_eq!(hinders(vehicle, 0, 0), expected, "{length_cm} at {east}");
+    }
+    let setup = street();
+    let lengths = [None, Some(450), Some(1_875)].map(|said| traffic::length_cm(&setup, said));
+    assert_eq!(lengths, [1_200, 1_200, 1_875]);
 }
 
 /// Arcs of 90° at most that end on the crossing in any direction, with 3 m/s² to the side at most.

@@ -240,11 +240,13 @@ pub(crate) fn car(east: i32) -> Vehicle {
         station: Some(StationId(7)),
         at: Point::new(east, 200),
         front_cm: 0,
+        length_cm: 1_200,
         error_cm: 0,
         velocity: Way {
             east_cm: 1_389,
             north_cm: 0,
         },
+        goes_anywhere: false,
     }
 }
 
@@ -355,6 +357,32 @@ fn a_guard_steps_behind_a_vehicle_and_before_one_that_stands() {
         pass_beside(&mut team, 1, vehicle, 8_000);
         let body = &team.robots[1].body;
         assert_eq!(is_on_road(body), is_going, "{east} at {speed} cm/s");
+    }
+}
+
+/// Hazard: a car that backs, or does not say its direction, is between the crossing and the place of a guard, and comes to that.
+#[test]
+fn a_guard_waits_for_a_vehicle_that_may_go_anywhere() {
+    for (goes_anywhere, east, waits) in [
+        (false, -1_500, false),
+        (true, -1_500, true),
+        (true, 300, false),
+    ] {
+        let mut team = team(plan(&[leg(TaskType::BLOCK, Point::new(-2_900, 200))]), true);
+        team.robots[1].body.at = Point::new(-2_900, -200);
+        team.people = vec![person(1, 100, -100)];
+        let vehicle = Vehicle {
+            goes_anywhere,
+            velocity: Way {
+                east_cm: 800,
+                north_cm: 0,
+            },
+            ..car(east)
+        };
+        pass_beside(&mut team, 1, vehicle, 6_000);
+        let body = &team.robots[1].body;
+        assert_eq!(body.waits, waits, "{:?}", body.at);
+        assert_eq!(is_on_road(body), !waits, "{:?}", body.at);
     }
 }
 

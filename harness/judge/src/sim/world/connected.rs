@@ -113,6 +113,7 @@ impl World<'_> {
             position: seat.draw.plan.site.position(at),
             speed: Some(speed_mps),
             heading: Some(if is_westward { 270.0 } else { 90.0 }),
+            length: None,
             cardinality: 1,
             signals: None,
             measured_its: moment.timestamp_its,
