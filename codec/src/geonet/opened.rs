@@ -34,19 +34,13 @@ impl Permits {
         station: None,
     };
 
-    /// The permissions of these bits, the first being the most significant.
-    #[must_use]
-    pub const fn of_bits(bits: u16) -> Self {
+    /// The permissions of these bits, the first being the most significant, for the station with this id alone if there is one.
+    #[cfg(any(test, feature = "security"))]
+    pub(super) const fn new(bits: u16, station: Option<StationId>) -> Self {
         Self {
             bits: Some(bits),
-            station: None,
+            station,
         }
-    }
-
-    /// The same for the station with this id alone, if there is one.
-    #[must_use]
-    pub const fn only_as(self, station: Option<StationId>) -> Self {
-        Self { station, ..self }
     }
 
     /// The station id that a sender with this ticket goes by.
@@ -91,7 +85,7 @@ mod tests {
 
     #[test]
     fn bits_are_counted_from_the_front() {
-        let permits = Permits::of_bits(0xc001);
+        let permits = Permits::new(0xc001, None);
         let allowed: Vec<_> = (0..32).filter(|bit| permits.allows(*bit)).collect();
         assert_eq!(allowed, [0, 1, 15]);
         assert!((0..32).all(|bit| Permits::EVERYTHING.allows(bit)));

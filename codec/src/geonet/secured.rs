@@ -172,7 +172,7 @@ fn permits(ssp: &Ssp) -> Permits {
         Ssp::Bitmap(octets) => Part::named_in(octets),
         Ssp::Default | Ssp::Opaque(_) => None,
     };
-    Permits::of_bits(ssp.bits(SSP_VERSION)).only_as(named)
+    Permits::new(ssp.bits(SSP_VERSION), named)
 }
 
 const fn now(ego: &EgoPosition) -> Time64 {
