@@ -136,7 +136,7 @@ impl SecondOpinion {
             .iter()
             .map(|id| {
                 let path = discoveries.remove(id.name())?;
-                Some(chart(model, model.real_run(path.into_vec())))
+                Some(charted(model, path.into_vec()))
             })
             .collect();
         Self {
@@ -218,8 +218,7 @@ impl Findings<'_> {
     }
 
     fn run_into(&self, state: u32) -> Vec<ChartStep> {
-        let run = self.graph.run_into(state);
-        chart(self.model, self.model.real_run(run))
+        charted(self.model, self.graph.run_into(state))
     }
 
     /// A fair run that breaks a liveness property, and how many steps of it come before its cycle.
@@ -282,6 +281,12 @@ fn assumed(scenario: &Scenario, options: &Options, states: usize) -> Vec<String>
         assumed.push("runs were not judged: only states and steps were asked for".to_owned());
     }
     assumed
+}
+
+/// A run through states that stand for their classes, as the steps of a chart of real robots.
+#[must_use]
+pub fn charted(model: &Model, path: Vec<(ModelState, Option<Action>)>) -> Vec<ChartStep> {
+    chart(model, model.real_run(path))
 }
 
 /// Assumptions of the verdicts on a scenario; `compared` tells how states are compared.

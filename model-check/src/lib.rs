@@ -35,7 +35,6 @@
 //! - [`odds`] are probabilities and expected times under loss, from the same transition function.
 //! - [`sequence`] draws counterexamples, [`replay`] follows them again, [`walk`] goes through a scenario step by
 //!   step.
-//! - [`model::portable`] takes states from one process to another, for `crossguard-workers`.
 //! - [`monitor`] judges running robots by the same rules; [`universe`], [`transitions`] and [`fsm`] are one
 //!   robot against everything, and the diagram of that.
 //! - [`paper`] is the paper's text as it stands, which fails.

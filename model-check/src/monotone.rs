@@ -63,12 +63,6 @@ impl Sets {
         slots.filter_map(|slot| slot.transmission())
     }
 
-    pub(crate) fn of(&self, sent: &[Transmission], robots: &Robots) -> u32 {
-        let mut slots: Vec<_> = sent.iter().copied().map(PackedTransmission::of).collect();
-        slots.sort_unstable();
-        self.number(slots.into(), robots)
-    }
-
     pub(crate) fn names(&self, set: u32) -> u32 {
         self.known.names(set)
     }

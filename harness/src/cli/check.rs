@@ -40,7 +40,7 @@ pub(super) struct Arguments {
     all: bool,
     /// Check the large ones of the shipped scenarios instead, with as many workers as there are processors unless --workers
     /// says otherwise. Takes two hours on two cores and 15 GB. States and steps are judged, and no runs.
-    #[arg(long, conflicts_with_all = ["scenarios", "all", "hosts", "threads"])]
+    #[arg(long, conflicts_with_all = ["scenarios", "all", "threads"])]
     large: bool,
     /// List the shipped scenarios and check nothing.
     #[arg(long)]
@@ -69,38 +69,14 @@ pub(super) struct Arguments {
     /// Say what each verdict rests on: what is assumed of the robots, of the channel, and of each message's sender.
     #[arg(short, long)]
     verbose: bool,
-    #[command(flatten)]
-    workers: WorkersArguments,
-    /// Print the results as JSON, and nothing else.
-    #[arg(long)]
-    json: bool,
-}
-
-#[derive(clap::Args)]
-struct WorkersArguments {
     /// Explore with this number of workers, each with the states of its share of fingerprints: 15 bytes per state, and
     /// no graph of them. Properties that need the graph (L) are not judged, and named.
     #[arg(long, value_name = "N", value_parser = threads,
         conflicts_with_all = ["all", "threads"])]
     workers: Option<NonZeroUsize>,
-    /// The addresses of all processes of the check, one HOST:PORT a line, where it has several. Each runs the same
-    /// command with another --process.
-    #[arg(long, value_name = "FILE", requires = "process",
-        conflicts_with_all = ["all", "threads"])]
-    hosts: Option<PathBuf>,
-    /// The number of this process among --hosts, from 0.
-    #[arg(long, value_name = "K", requires = "hosts")]
-    process: Option<usize>,
-    /// Seconds to wait for the other processes at the beginning.
-    #[arg(long, value_name = "SECONDS", default_value_t = 60, requires = "hosts")]
-    patience: u32,
-}
-
-impl WorkersArguments {
-    /// Whether workers are asked for.
-    const fn are_given(&self) -> bool {
-        self.workers.is_some() || self.hosts.is_some()
-    }
+    /// Print the results as JSON, and nothing else.
+    #[arg(long)]
+    json: bool,
 }
 
 #[derive(Serialize)]
@@ -112,7 +88,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
         return list();
     }
-    if arguments.large || arguments.workers.are_given() {
+    if arguments.large || arguments.workers.is_some() {
         #[cfg(feature = "full")]
         return workers::run(arguments);
         #[cfg(not(feature = "full"))]

@@ -1,6 +1,7 @@
 //! The state that stands for all states that differ in names, or in which of the symmetric robots is
 //! which.
 
+use rustc_hash::FxHashSet;
 use smallvec::SmallVec;
 
 use super::{Action, Draft, Model, ModelState};
@@ -80,8 +81,28 @@ impl Model {
         chosen.unwrap_or(draft)
     }
 
+    /// How many states differ from a state only in which of the symmetric robots is which, itself among them.
+    #[must_use]
+    pub fn class_size(&self, state: &ModelState) -> usize {
+        if self.0.symmetry.is_trivial() {
+            return 1;
+        }
+        let images = self.node_images(state);
+        let draft = Draft {
+            state: state.clone(),
+            network: self.network(state),
+        };
+        let exchanges = self.0.symmetry.exchanges.iter().enumerate();
+        let class = exchanges.map(|(i, exchange)| {
+            let nodes = exchanged(&draft.state.nodes, &images, i, exchange);
+            let Draft { state, network } = self.image(&draft, nodes, i);
+            (state, network)
+        });
+        class.collect::<FxHashSet<_>>().len()
+    }
+
     /// The images of the nodes of all robots.
-    pub(super) fn node_images(&self, state: &ModelState) -> NodeImages<'_> {
+    fn node_images(&self, state: &ModelState) -> NodeImages<'_> {
         let symmetry = &self.0.symmetry;
         let nodes = state.nodes[..self.0.scenario.robots.len()].iter();
         let images = nodes.map(|&node| {
@@ -94,7 +115,7 @@ impl Model {
     }
 
     /// Image of a state under an exchange, after which its nodes are these.
-    pub(super) fn image(&self, draft: &Draft, nodes: [u32; MAX_ROBOTS], exchange: usize) -> Draft {
+    fn image(&self, draft: &Draft, nodes: [u32; MAX_ROBOTS], exchange: usize) -> Draft {
         let (robots, symmetry) = (self.robots(), &self.0.symmetry);
         let history = symmetry.images(&symmetry.histories, draft.state.history, |mut exchange| {
             let histories = &self.0.histories;
@@ -163,10 +184,10 @@ impl Draft {
 }
 
 /// The images of a node, by robot.
-pub(super) type NodeImages<'a> = SmallVec<[&'a Images; MAX_ROBOTS]>;
+type NodeImages<'a> = SmallVec<[&'a Images; MAX_ROBOTS]>;
 
 /// The nodes after the exchange of this number.
-pub(super) fn exchanged(
+fn exchanged(
     nodes: &[u32; MAX_ROBOTS],
     images: &NodeImages<'_>,
     number: usize,

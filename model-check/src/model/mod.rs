@@ -9,7 +9,6 @@ mod canonical;
 mod forget;
 mod lies;
 mod parts;
-pub mod portable;
 mod reachable;
 mod successor;
 mod system;

@@ -1,64 +1,22 @@
 //! One worker: it keeps the states that it owns, and expands them.
 
-use std::collections::{BTreeMap, HashMap};
-use std::sync::Arc;
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
 use crossguard_model_check::check::ExplorationLimits;
-use crossguard_model_check::model::portable::{
-    Class, Fingerprints, PackedState, Packer, Part, Unpacker,
-};
 use crossguard_model_check::model::{Action, Model, ModelState};
 use crossguard_model_check::properties::PropertyId;
 use crossguard_model_check::report::CutOff;
-use serde::{Deserialize, Serialize};
 
 use crate::report::whole;
 use crate::table::{Fingerprint, Hint, Table};
 use crate::waiting::Queue;
 
-/// A state on its way to the worker that owns it.
-#[derive(Clone, Serialize, Deserialize)]
+/// A state that was found, with its fingerprint and a hint at the state that it was found from.
 pub(crate) struct Found {
-    sighting: Sighting,
-    sender: u32,
-    cargo: Cargo,
-}
-
-#[derive(Clone, Copy, Serialize, Deserialize)]
-struct Sighting {
+    state: ModelState,
     fingerprint: Fingerprint,
     from: Hint,
-    /// How many states it stands for.
-    class: u16,
-}
-
-impl Sighting {
-    /// Of a class that was found from the state that this hint means.
-    fn of(class: &Class, from: Hint) -> Self {
-        Self {
-            fingerprint: Fingerprint::of(class.fingerprint),
-            from,
-            class: class.size,
-        }
-    }
-}
-
-impl Found {
-    /// The number that decides which worker it goes to.
-    pub(crate) const fn share(&self) -> u64 {
-        self.sighting.fingerprint.share()
-    }
-}
-
-#[derive(Clone, Serialize, Deserialize)]
-enum Cargo {
-    /// To another process, with the parts that were not sent there before.
-    Abroad(Box<(PackedState, Vec<Part>)>),
-    /// Within the process, where all share the numbers of parts. The last one: serde numbers variants that it
-    /// skips when it writes, and not when it reads.
-    #[serde(skip)]
-    Here(ModelState),
 }
 
 pub(crate) struct Common {
@@ -66,7 +24,7 @@ pub(crate) struct Common {
     /// Properties that states and steps can be judged by.
     pub(crate) judged: Vec<PropertyId>,
     pub(crate) workers: usize,
-    /// When the workers of this process give up.
+    /// When the workers give up.
     pub(crate) limits: ExplorationLimits,
     pub(crate) counters: Counters,
 }
@@ -78,8 +36,7 @@ pub(crate) struct Counters {
     pub(crate) table_bytes: AtomicU64,
 }
 
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Debug, Default)]
 pub(crate) struct Told {
     pub(crate) states: u64,
     /// The states that these stand for.
@@ -87,8 +44,6 @@ pub(crate) struct Told {
     pub(crate) transitions: u64,
     pub(crate) depth: u32,
     pub(crate) table_bytes: u64,
-    /// Of the judged properties: whether the premise was met in this process.
-    pub(crate) premises: Vec<bool>,
     /// Of the judged properties: the first state that breaks it.
     pub(crate) broken: Vec<Option<(u32, Fingerprint)>>,
     pub(crate) cut_off: Option<CutOff>,
@@ -103,41 +58,32 @@ pub(crate) const BITE: usize = 2_000;
 /// Of how many states the successors are looked up together.
 const TOGETHER: usize = 20;
 
-pub(crate) struct Explorer {
-    common: Arc<Common>,
+pub(crate) struct Explorer<'a> {
+    common: &'a Common,
     index: usize,
-    peers: usize,
-    fingerprints: Fingerprints,
-    pub(crate) table: Table,
+    table: Table,
     /// States that wait to be expanded, by level.
     waiting: BTreeMap<u32, Queue>,
-    packers: HashMap<usize, Packer>,
-    unpackers: HashMap<u32, Unpacker>,
     sent_last: Vec<Option<Fingerprint>>,
     told: Told,
     /// How many of its states all threads know of.
     counted: u64,
     actions: Vec<Action>,
     /// States that come after others.
-    successors: Vec<(ModelState, Sighting)>,
+    successors: Vec<Found>,
 }
 
-impl Explorer {
-    pub(crate) fn new(common: &Arc<Common>, index: usize, peers: usize) -> Self {
+impl<'a> Explorer<'a> {
+    pub(crate) fn new(common: &'a Common, index: usize) -> Self {
         let told = Told {
-            premises: vec![false; common.judged.len()],
             broken: vec![None; common.judged.len()],
             ..Told::default()
         };
         Self {
-            common: Arc::clone(common),
+            common,
             index,
-            peers,
-            fingerprints: Fingerprints::default(),
             table: Table::new(),
             waiting: BTreeMap::new(),
-            packers: HashMap::new(),
-            unpackers: HashMap::new(),
             sent_last: vec![None; REMEMBERED],
             told,
             counted: 0,
@@ -148,83 +94,47 @@ impl Explorer {
 
     /// Begins with the state in which every run begins, if it owns that one.
     pub(crate) fn begin(&mut self) {
-        let model = &self.common.model;
-        let class = self.fingerprints.class(model, model.initial());
-        let from = Fingerprint::of(class.fingerprint).hint();
-        let sighting = Sighting::of(&class, from);
-        if self.owner(sighting) == self.index {
-            self.add(class.state, sighting, 0);
+        let state = self.common.model.initial();
+        let fingerprint = Fingerprint::of(&state);
+        let from = fingerprint.hint();
+        if self.owner(fingerprint) == self.index {
+            let first = Found {
+                state,
+                fingerprint,
+                from,
+            };
+            self.add(first, 0);
         }
     }
 
-    fn owner(&self, sighting: Sighting) -> usize {
-        usize::try_from(sighting.fingerprint.share() % self.peers as u64)
-            .expect("less than the peers")
+    fn owner(&self, fingerprint: Fingerprint) -> usize {
+        usize::try_from(fingerprint.share() % self.common.workers as u64)
+            .expect("less than the workers")
     }
 
-    fn on_its_way(&mut self, state: ModelState, sighting: Sighting, owner: usize) -> Found {
-        let is_here = owner / self.common.workers == self.index / self.common.workers;
-        let cargo = if is_here {
-            Cargo::Here(state)
-        } else {
-            let mut news = Vec::new();
-            let packer = self.packers.entry(owner).or_default();
-            let state = packer.pack(&self.common.model, &state, &mut news);
-            Cargo::Abroad(Box::new((state, news)))
-        };
-        Found {
-            sighting,
-            sender: u32::try_from(self.index).expect("few workers"),
-            cargo,
-        }
-    }
-
-    /// Takes in states that were found at this level. Panics where one cannot be read, since another process sent
-    /// nonsense: that ends the check as incomplete.
-    pub(crate) fn receive(&mut self, found: &mut Vec<Found>, level: u32) {
+    /// Takes in states that were found for this level.
+    pub(crate) fn receive(&mut self, found: Vec<Found>, level: u32) {
         self.table
-            .fetch(found.iter().map(|found| found.sighting.fingerprint));
-        for found in found.drain(..) {
-            self.receive_one(found, level);
+            .fetch(found.iter().map(|found| found.fingerprint));
+        for found in found {
+            self.add(found, level);
         }
     }
 
-    fn receive_one(&mut self, found: Found, level: u32) {
+    fn add(&mut self, found: Found, level: u32) {
         let Found {
-            sighting,
-            sender,
-            cargo,
-        } = found;
-        match cargo {
-            Cargo::Here(state) => self.add(state, sighting, level),
-            Cargo::Abroad(abroad) => {
-                let (packed, news) = *abroad;
-                let unpacker = self.unpackers.entry(sender).or_default();
-                let model = &self.common.model;
-                for part in &news {
-                    let learned = unpacker.learn(model, part);
-                    learned.unwrap_or_else(|cause| panic!("{cause}"));
-                }
-                let state = unpacker.unpack(model, packed);
-                let state = state.unwrap_or_else(|cause| panic!("{cause}"));
-                self.add(state, sighting, level);
-            }
-        }
-    }
-
-    fn add(&mut self, state: ModelState, sighting: Sighting, level: u32) {
-        let Sighting {
+            state,
             fingerprint,
             from,
-            class,
-        } = sighting;
+        } = found;
         if self.told.cut_off.is_some() || !self.table.insert(fingerprint, level, from) {
             return;
         }
+        let model = &self.common.model;
         self.told.states += 1;
-        self.told.of_classes += u64::from(class);
+        self.told.of_classes += model.class_size(&state) as u64;
         self.told.depth = self.told.depth.max(level);
-        for broken in self.common.model.broken_by(&state) {
+        for broken in model.broken_by(&state) {
             let judged = self.common.judged.iter().zip(&mut self.told.broken);
             for (_, first) in judged.filter(|(id, _)| **id == broken) {
                 let found = (level, fingerprint);
@@ -240,23 +150,24 @@ impl Explorer {
         self.waiting.contains_key(&level)
     }
 
-    /// Expands some of the states of a level. Their successors that others own are sent.
-    pub(crate) fn expand(&mut self, level: u32, send: &mut dyn FnMut(Found)) {
+    /// Expands some of the states of a level. Their successors that others own, by owner.
+    pub(crate) fn expand(&mut self, level: u32) -> Vec<Vec<Found>> {
+        let mut to_all: Vec<_> = (0..self.common.workers).map(|_| Vec::new()).collect();
         self.count(level);
         self.give_up_where_asked();
         let Some(mut waiting) = self.waiting.remove(&level) else {
-            return;
+            return to_all;
         };
-        let common = Arc::clone(&self.common);
         for _ in 0..BITE / TOGETHER {
             for (state, from) in (0..TOGETHER).map_while(|_| waiting.pop()) {
-                self.find_successors(&common.model, &state, from);
+                self.find_successors(&state, from);
             }
-            self.pass_on_successors(level + 1, send);
+            self.pass_on_successors(level + 1, &mut to_all);
         }
         if !waiting.is_empty() {
             self.waiting.insert(level, waiting);
         }
+        to_all
     }
 
     /// Counts what is new, for all threads to see. Not with each state: threads that count at the same place wait for
@@ -272,36 +183,40 @@ impl Explorer {
         counters.table_bytes.fetch_add(grown, Ordering::Relaxed);
     }
 
-    fn find_successors(&mut self, model: &Model, state: &ModelState, from: Hint) {
-        let mut actions = std::mem::take(&mut self.actions);
-        actions.clear();
-        model.actions_in(state, &mut actions);
+    fn find_successors(&mut self, state: &ModelState, from: Hint) {
+        let model = &self.common.model;
+        self.actions.clear();
+        model.actions_in(state, &mut self.actions);
         let begin = self.successors.len();
-        for &action in &actions {
-            if let Some(class) = self.fingerprints.successor(model, state, action) {
-                let sighting = Sighting::of(&class, from);
-                let mut found = self.successors[begin..].iter();
-                if found.all(|(_, known)| known.fingerprint != sighting.fingerprint) {
-                    self.successors.push((class.state, sighting));
-                }
+        for &action in &self.actions {
+            let Some((state, _)) = model.successor_up_to_symmetry(state, action) else {
+                continue;
+            };
+            let fingerprint = Fingerprint::of(&state);
+            let mut found = self.successors[begin..].iter();
+            if found.all(|known| known.fingerprint != fingerprint) {
+                self.successors.push(Found {
+                    state,
+                    fingerprint,
+                    from,
+                });
             }
         }
         self.told.transitions += (self.successors.len() - begin) as u64;
-        self.actions = actions;
     }
 
-    /// Adds the successors that were found, or sends them to their owners.
-    fn pass_on_successors(&mut self, level: u32, send: &mut dyn FnMut(Found)) {
+    /// Adds the successors that were found, or puts them among those of their owners.
+    fn pass_on_successors(&mut self, level: u32, to_all: &mut [Vec<Found>]) {
         let mut successors = std::mem::take(&mut self.successors);
-        let sightings = successors.iter().map(|(_, sighting)| *sighting);
-        let own = sightings.filter(|sighting| self.owner(*sighting) == self.index);
-        self.table.fetch(own.map(|sighting| sighting.fingerprint));
-        for (state, sighting) in successors.drain(..) {
-            let owner = self.owner(sighting);
+        let found = successors.iter().map(|found| found.fingerprint);
+        let own = found.filter(|fingerprint| self.owner(*fingerprint) == self.index);
+        self.table.fetch(own);
+        for found in successors.drain(..) {
+            let owner = self.owner(found.fingerprint);
             if owner == self.index {
-                self.add(state, sighting, level);
-            } else if !self.was_just_sent(sighting.fingerprint) {
-                send(self.on_its_way(state, sighting, owner));
+                self.add(found, level);
+            } else if !self.was_just_sent(found.fingerprint) {
+                to_all[owner].push(found);
             }
         }
         self.successors = successors;
@@ -325,16 +240,13 @@ impl Explorer {
         }
     }
 
-    pub(crate) fn told(&self) -> Told {
-        let judged = self.common.judged.iter();
-        Told {
-            premises: judged
-                .map(|property| self.common.model.premise_met(*property))
-                .zip(&self.told.premises)
-                .map(|(now, before)| now || *before)
-                .collect(),
-            table_bytes: self.table.bytes() as u64,
-            ..self.told.clone()
-        }
+    /// What there is to tell in the end, and the table.
+    pub(crate) fn ended(self) -> (Told, Table) {
+        let table_bytes = self.table.bytes() as u64;
+        let told = Told {
+            table_bytes,
+            ..self.told
+        };
+        (told, self.table)
     }
 }

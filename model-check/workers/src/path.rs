@@ -2,11 +2,10 @@
 
 use std::collections::HashSet;
 
-use crossguard_model_check::model::portable::Fingerprints;
 use crossguard_model_check::model::{Action, Model, ModelState};
 
-use crate::dataflow::Candidates;
 use crate::table::Fingerprint;
+use crate::threads::Candidates;
 
 /// A state on the way, and the ways out of it that were not tried yet.
 struct Stop {
@@ -20,8 +19,7 @@ pub(crate) fn run(
     model: &Model,
     candidates: &Candidates,
 ) -> Option<Vec<(ModelState, Option<Action>)>> {
-    let mut fingerprints = Fingerprints::default();
-    let mut out_of = |state: &ModelState, level: usize| {
+    let out_of = |state: &ModelState, level: usize| {
         let Some(next_ones) = candidates.get(level + 1) else {
             return Vec::new();
         };
@@ -30,7 +28,7 @@ pub(crate) fn run(
         actions
             .into_iter()
             .filter_map(|action| Some((action, model.successor_up_to_symmetry(state, action)?.0)))
-            .filter(|(_, next)| next_ones.contains(&Fingerprint::of(fingerprints.of(model, next))))
+            .filter(|(_, next)| next_ones.contains(&Fingerprint::of(next)))
             .collect()
     };
     let first = model.initial();

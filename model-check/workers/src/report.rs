@@ -3,28 +3,27 @@
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use crossguard_model_check::check::{assumptions, collision_probability};
-use crossguard_model_check::model::portable::charted;
+use crossguard_model_check::check::{assumptions, charted, collision_probability};
 use crossguard_model_check::report::{PropertyReport, ScenarioReport};
 use crossguard_model_check::scenario::Size;
 use crossguard_model_check::sequence::ChartStep;
 use serde::Serialize;
 
-use crate::dataflow::{Candidates, Outcome};
 use crate::explorer::Common;
 use crate::path;
 use crate::table::FINGERPRINT_BITS;
+use crate::threads::{Candidates, Outcome};
 
-/// How far the workers of this process are.
+/// How far the workers are.
 #[derive(Clone, Debug)]
 pub struct Progress {
     /// The level that is being expanded; 0 is the initial state's.
     pub level: u32,
-    /// Distinct states that this process owns.
+    /// Distinct states so far.
     pub states: u64,
-    /// Bytes of its tables.
+    /// Bytes of the tables.
     pub table_bytes: u64,
-    /// For how long it has worked.
+    /// For how long they have worked.
     pub elapsed: Duration,
 }
 
@@ -47,9 +46,7 @@ pub struct WorkersReport {
     /// As of every check, of what is judged. It is exhaustive up to a collision of fingerprints.
     #[serde(flatten)]
     pub scenario: ScenarioReport,
-    /// Processes that took part.
-    pub processes: usize,
-    /// Workers of each.
+    /// How many workers took part.
     pub workers: usize,
     /// Bits of a fingerprint, by which states are compared.
     pub fingerprint_bits: u32,
@@ -59,13 +56,13 @@ pub struct WorkersReport {
     /// The states that the explored ones stand for: where robots are symmetric, of all states that differ in which of
     /// them is which, one is explored.
     pub states_of_classes: u64,
-    /// Bytes of the tables of all processes.
+    /// Bytes of the tables of all workers.
     pub table_bytes: u64,
     /// Properties of the scenario that were not judged: they need the graph of all states.
     pub not_judged: Vec<String>,
 }
 
-pub(crate) fn of(common: &Common, outcome: &Outcome, processes: usize) -> WorkersReport {
+pub(crate) fn of(common: &Common, outcome: &Outcome) -> WorkersReport {
     let (model, told) = (&common.model, &outcome.told);
     let scenario = model.scenario();
     let states: u64 = told.iter().map(|told| told.states).sum();
@@ -84,9 +81,14 @@ pub(crate) fn of(common: &Common, outcome: &Outcome, processes: usize) -> Worker
     let judged = claimed.filter_map(|(i, &id)| {
         let run = outcome.ways[i].as_ref();
         let run = run.map(|way| counterexample(common, way));
-        let is_met = told.iter().any(|told| told.premises[i]);
         let claim = (id, id.untimed()?);
-        Some(PropertyReport::judged(claim, is_met, run, None, cut_off))
+        Some(PropertyReport::judged(
+            claim,
+            model.premise_met(id),
+            run,
+            None,
+            cut_off,
+        ))
     });
     let not_judged = scenario.properties.iter();
     let not_judged = not_judged.filter(|id| !common.judged.contains(id));
@@ -99,7 +101,6 @@ pub(crate) fn of(common: &Common, outcome: &Outcome, processes: usize) -> Worker
             assumptions: assumptions(scenario, compared),
             ..ScenarioReport::of_scenario(scenario, size, cut_off)
         },
-        processes,
         workers: common.workers,
         fingerprint_bits: FINGERPRINT_BITS,
         omission_probability,

@@ -10,7 +10,10 @@
 //! sixteenth once it is full to 61 parts of 64. So to grow takes hardly any memory beside that of the table itself.
 
 use std::collections::BTreeSet;
+use std::hash::Hash;
 use std::ops::{Index, IndexMut};
+
+use siphasher::sip128::{Hasher128, SipHasher13};
 
 /// How many bits of a fingerprint are kept and compared.
 pub const FINGERPRINT_BITS: u32 = 92;
@@ -46,13 +49,18 @@ const fn lowest(bits: u32) -> u128 {
 }
 
 /// The part of a fingerprint that is kept.
-#[derive(
-    Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, serde::Serialize, serde::Deserialize,
-)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) struct Fingerprint(u128);
 
 impl Fingerprint {
-    pub(crate) const fn of(hash: u128) -> Self {
+    /// Of a state, which is a few numbers of parts; they are the same for all workers.
+    pub(crate) fn of(state: &impl Hash) -> Self {
+        let mut hasher = SipHasher13::new();
+        state.hash(&mut hasher);
+        Self::of_hash(hasher.finish128().into())
+    }
+
+    pub(crate) const fn of_hash(hash: u128) -> Self {
         Self(hash >> (u128::BITS - FINGERPRINT_BITS))
     }
 
@@ -441,7 +449,7 @@ mod tests {
         let states = 8_000_000;
         for is_first in [true, false] {
             for n in 0..states {
-                let is_new = table.insert(Fingerprint::of(hash(n)), 0, Hint(1));
+                let is_new = table.insert(Fingerprint::of_hash(hash(n)), 0, Hint(1));
                 assert_eq!(is_new, is_first);
             }
         }
@@ -457,7 +465,9 @@ mod tests {
     #[test]
     fn a_state_comes_back_as_it_was_put_in() {
         let mut table = Table::new();
-        let states: BTreeSet<_> = (0..2_000_000).map(|n| Fingerprint::of(hash(n))).collect();
+        let states: BTreeSet<_> = (0..2_000_000)
+            .map(|n| Fingerprint::of_hash(hash(n)))
+            .collect();
         for state in &states {
             table.insert(*state, 300, state.hint());
         }
@@ -472,10 +482,10 @@ mod tests {
     #[test]
     fn hints_lead_from_a_state_to_where_it_was_found_from() {
         let mut table = Table::new();
-        let mut from = Fingerprint::of(hash(0));
+        let mut from = Fingerprint::of_hash(hash(0));
         table.insert(from, 0, from.hint());
         for n in 1..1_000 {
-            let next = Fingerprint::of(hash(n));
+            let next = Fingerprint::of_hash(hash(n));
             table.insert(next, u32::try_from(n).unwrap(), from.hint());
             from = next;
         }
@@ -485,7 +495,7 @@ mod tests {
             assert!(
                 meant
                     .iter()
-                    .any(|(found, _)| *found == Fingerprint::of(hash(n.into())))
+                    .any(|(found, _)| *found == Fingerprint::of_hash(hash(n.into())))
             );
             hint = meant[0].1;
         }
@@ -494,7 +504,7 @@ mod tests {
     #[test]
     fn a_fingerprint_of_zeros_is_one_as_well() {
         let mut table = Table::new();
-        assert!(table.insert(Fingerprint::of(0), 0, Fingerprint::of(0).hint()));
-        assert!(!table.insert(Fingerprint::of(0), 0, Hint(1)));
+        assert!(table.insert(Fingerprint::of_hash(0), 0, Fingerprint::of_hash(0).hint()));
+        assert!(!table.insert(Fingerprint::of_hash(0), 0, Hint(1)));
     }
 }

@@ -108,7 +108,7 @@ mod tests {
     fn what_is_pushed_is_popped_once() {
         let state = Model::new(Scenario::load("stable").unwrap()).initial();
         let count = u32::try_from(3 * OPEN + 5).unwrap();
-        let hint = |n: u32| Fingerprint::of(u128::from(n + 1) << 68).hint();
+        let hint = |n: u32| Fingerprint::of_hash(u128::from(n + 1) << 68).hint();
         let mut queue = Queue::default();
         for n in 0..count {
             queue.push((state.clone(), hint(n)));
@@ -128,7 +128,7 @@ mod tests {
             file: Some(File::open(readable.path()).unwrap()),
             ..Queue::default()
         };
-        let waiting = (state, Fingerprint::of(u128::MAX).hint());
+        let waiting = (state, Fingerprint::of_hash(u128::MAX).hint());
         for _ in 0..OPEN {
             queue.push(waiting.clone());
         }
@@ -143,7 +143,7 @@ mod tests {
         let mut queue = Queue::default();
         for _ in 0..5 {
             for _ in 0..2 * OPEN {
-                queue.push((state.clone(), Fingerprint::of(u128::MAX).hint()));
+                queue.push((state.clone(), Fingerprint::of_hash(u128::MAX).hint()));
             }
             while queue.pop().is_some() {}
         }

@@ -5,10 +5,10 @@ use crossguard_model_check::model::Model;
 use crossguard_model_check::replay::Replay;
 use crossguard_model_check::report::CheckVerdict;
 use crossguard_model_check::scenario::Scenario;
-use crossguard_testkit::rules::{NEVER_CLOSES_THE_CORRIDOR, NEVER_STOPS};
-use crossguard_workers::{WorkersReport, check as check_by_workers};
+use crossguard_testkit::rules::{Drops, NEVER_STOPS};
+use crossguard_workers::{WorkersError, WorkersReport, check as check_by_workers};
 
-use crate::processes::{by_processes, workers};
+use crate::workers;
 
 /// Asserts that a report shows each broken property by a run that breaks it, as short as the existing check's.
 fn assert_shown(model: &Model, report: &WorkersReport) {
@@ -63,32 +63,25 @@ fn one_and_three_workers_show_a_shortest_run() {
 }
 
 #[test]
-fn two_processes_rebuild_the_run_across_them() {
-    let make = || {
-        let mut pair = Scenario::load("pair").unwrap();
-        pair.expected = None;
-        pair.channel.delayed = 0;
-        Model::with_rules(pair, NEVER_CLOSES_THE_CORRIDOR)
-    };
-    let reports = by_processes(&make, 2, 1);
-    let reports: Vec<_> = reports.into_iter().map(Result::unwrap).collect();
-    let shown = |report: &WorkersReport| format!("{:?}", report.scenario.properties);
-    assert_eq!(shown(&reports[0]), shown(&reports[1]));
-    assert_shown(&make(), &reports[0]);
-}
-
-#[test]
 fn symmetric_robots_take_their_own_places_in_the_run() {
     let mut team = Scenario::load("team-symmetric").unwrap();
     team.expected = None;
     team.bounds.losses = Some(0);
-    let make = || Model::with_rules(team.clone(), NEVER_STOPS);
-    for report in by_processes(&make, 2, 1) {
-        let report = report.unwrap();
-        for property in &report.scenario.properties {
-            if let Some(replay) = Replay::of(&report.scenario, property) {
-                assert!(replay.is_broken_in(&make()), "{replay:#?}");
-            }
+    let model = Model::with_rules(team, NEVER_STOPS);
+    let report = check_by_workers(&model, &workers(2), &mut |_| ()).unwrap();
+    for property in &report.scenario.properties {
+        if let Some(replay) = Replay::of(&report.scenario, property) {
+            assert!(replay.is_broken_in(&model), "{replay:#?}");
         }
+    }
+}
+
+#[test]
+fn workers_do_not_wait_for_one_that_has_ended_early() {
+    for number in [1, 2, 4] {
+        let panics = Drops(|_| panic!("no step can be computed"));
+        let model = Model::with_rules(trio(), panics);
+        let lost = check_by_workers(&model, &workers(number), &mut |_| ());
+        assert!(matches!(lost, Err(WorkersError::Lost)), "{number}");
     }
 }

@@ -1,4 +1,4 @@
-//! Workers find what the existing exploration finds, however many they are and wherever they run.
+//! Workers find what the existing exploration finds, however many they are.
 
 use crossguard_model_check::check;
 use crossguard_model_check::model::Model;
@@ -6,7 +6,7 @@ use crossguard_model_check::report::ScenarioReport;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_workers::{WorkersReport, check as check_by_workers};
 
-use crate::processes::{by_processes, workers};
+use crate::workers;
 
 /// The scenarios that workers can explore, with at most so many states.
 fn untimed(states_max: usize) -> impl Iterator<Item = &'static str> {
@@ -74,19 +74,6 @@ fn assert_counts_of_workers(states_max: usize) {
     }
 }
 
-fn assert_counts_of_processes(states_max: usize) {
-    for name in untimed(states_max) {
-        for processes in [2, 4] {
-            let model = || Model::new(Scenario::load(name).unwrap());
-            for report in by_processes(&model, processes, 1) {
-                let report = report.unwrap();
-                assert_eq!(report.processes, processes);
-                assert_size_of_file(&report);
-            }
-        }
-    }
-}
-
 #[test]
 fn one_two_and_four_workers_count_what_a_scenario_has() {
     assert!(untimed(SMALL).count() > 5);
@@ -94,20 +81,9 @@ fn one_two_and_four_workers_count_what_a_scenario_has() {
 }
 
 #[test]
-fn two_and_four_processes_count_what_a_scenario_has() {
-    assert_counts_of_processes(SMALL);
-}
-
-#[test]
 #[ignore = "takes a quarter of an hour"]
 fn one_two_and_four_workers_count_what_each_scenario_has() {
     assert_counts_of_workers(usize::MAX);
-}
-
-#[test]
-#[ignore = "takes a quarter of an hour"]
-fn two_and_four_processes_count_what_each_scenario_has() {
-    assert_counts_of_processes(usize::MAX);
 }
 
 #[test]
@@ -134,7 +110,7 @@ fn transitions_and_verdicts_are_those_of_the_existing_exploration() {
 }
 
 #[test]
-fn symmetric_robots_count_once_in_two_processes_of_two_workers() {
+fn symmetric_robots_count_once_by_two_workers() {
     let text =
         include_str!("../../scenarios/team-of-four.toml").replace("losses = 1", "losses = 0");
     let (text, _) = text.split_once("[expected]").unwrap();
@@ -148,9 +124,8 @@ fn symmetric_robots_count_once_in_two_processes_of_two_workers() {
         ..check::Options::default()
     };
     let alone = check::check(&Model::new(scenario.clone()), &options, &mut |_| ());
-    for report in by_processes(&|| Model::new(scenario.clone()), 2, 2) {
-        assert_eq!(report.unwrap().scenario.unique_states, alone.unique_states);
-    }
+    let report = check_by_workers(&Model::new(scenario), &workers(2), &mut |_| ()).unwrap();
+    assert_eq!(report.scenario.unique_states, alone.unique_states);
 }
 
 #[test]

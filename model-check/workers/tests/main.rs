@@ -2,4 +2,15 @@
 
 mod broken;
 mod counts;
-mod processes;
+
+use std::num::NonZeroUsize;
+
+use crossguard_workers::Options;
+
+/// Options for this number of workers.
+fn workers(number: usize) -> Options {
+    Options {
+        workers: NonZeroUsize::new(number).unwrap(),
+        ..Options::default()
+    }
+}

@@ -1,30 +1,17 @@
-//! `crossguard check --workers` and `--hosts`.
+//! `crossguard check --workers`.
 
 use std::io::{Write, stderr};
 use std::num::NonZeroUsize;
-use std::time::Duration;
 
 use crossguard_model_check::model::Model;
 use crossguard_model_check::scenario::Scenario;
 use crossguard_model_check::subject::Subject;
-use crossguard_robot::files;
-use crossguard_workers::{Cluster, Options, Progress, WorkersError, WorkersReport, check};
+use crossguard_workers::{Options, Progress, WorkersError, WorkersReport, check};
 use indicatif::{HumanBytes, HumanCount, HumanFloatCount};
 
 use super::super::interrupts::stop_when_told;
 use super::super::{Failure, complain, destinations, print, print_json};
-use super::{Arguments, CheckReport, WorkersArguments};
-
-impl WorkersArguments {
-    fn cluster(&self) -> Result<Option<Cluster>, Failure> {
-        let (Some(hosts), Some(process)) = (&self.hosts, self.process) else {
-            return Ok(None);
-        };
-        let text = files::text(hosts, files::TEXT_MAX).map_err(Failure::at(hosts))?;
-        let cluster = Cluster::parse(&text, process);
-        cluster.map(Some).map_err(Failure::input)
-    }
-}
+use super::{Arguments, CheckReport};
 
 /// Checks each scenario with workers.
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -34,11 +21,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         arguments.scenarios.iter().map(String::as_str).collect()
     };
     if names.is_empty() {
-        return Err(Failure::input("--workers and --hosts want a scenario"));
-    }
-    let cluster = arguments.workers.cluster()?;
-    if cluster.is_some() && names.len() > 1 {
-        return Err(Failure::input("--hosts wants one scenario"));
+        return Err(Failure::input("--workers wants a scenario"));
     }
     let scenarios = names.into_iter().map(scenario);
     let scenarios = scenarios.collect::<Result<Vec<_>, _>>()?;
@@ -51,9 +34,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         NonZeroUsize::MIN
     };
     let options = Options {
-        workers: arguments.workers.workers.unwrap_or(by_default),
-        cluster,
-        patience: Duration::from_secs(arguments.workers.patience.into()),
+        workers: arguments.workers.unwrap_or(by_default),
         states_max: limits.states_max,
         time_max: limits.time_max,
         stop,
@@ -85,22 +66,23 @@ fn scenario(name: &str) -> Result<Scenario, Failure> {
     match super::subject(name)? {
         Subject::Scenario(scenario) => Ok(*scenario),
         Subject::PaperLiteral | Subject::Street(_) => Err(Failure::input(format!(
-            "'{name}' is no scenario, and small: leave --workers and --hosts out"
+            "'{name}' is no scenario, and small: leave --workers out"
         ))),
     }
 }
 
 /// Failure for an error: lost work is told as such; the rest is bad input.
 fn refused(error: WorkersError) -> Failure {
-    if error.is_incomplete() {
-        complain(error);
-        Failure::Incomplete
-    } else {
-        Failure::input(error)
+    match error {
+        WorkersError::Lost => {
+            complain(error);
+            Failure::Incomplete
+        }
+        WorkersError::NotForWorkers(_) => Failure::input(error),
     }
 }
 
-/// Tells on standard error how far this process is: each new level, and every ten seconds.
+/// Tells on standard error how far they are: each new level, and every ten seconds.
 fn show_progress(name: &str) -> impl FnMut(Progress) {
     let (mut level, mut seconds) = (None, 0);
     move |progress: Progress| {
@@ -114,7 +96,7 @@ fn show_progress(name: &str) -> impl FnMut(Progress) {
         // Standard error may be gone; the check goes on.
         let _ = writeln!(
             stderr(),
-            "{name}: {now} s, level {}, {} states in this process, {} per second, tables of {}",
+            "{name}: {now} s, level {}, {} states, {} per second, tables of {}",
             progress.level,
             HumanCount(progress.states),
             HumanFloatCount(rate.round()),
@@ -144,9 +126,8 @@ fn print_report(report: &WorkersReport, verbose: bool) -> Result<(), Failure> {
         "NOT exhaustive, and collisions of fingerprints"
     };
     print(format_args!(
-        "  {} workers in {} processes, tables of {}: {how} with a probability of at most {:.0e}",
-        report.workers * report.processes,
-        report.processes,
+        "  {} workers, tables of {}: {how} with a probability of at most {:.0e}",
+        report.workers,
         HumanBytes(report.table_bytes),
         report.omission_probability
     ))
