@@ -7,15 +7,12 @@ use crossguard_protocol::{
     SessionId, StationId, TaskType, Verdict,
 };
 
-use serde::{Deserialize, Serialize};
-
 use crate::canonical::Renamable;
 use crate::road::Pedestrian;
 use crate::serial::request_is_newer;
 
 /// The history of a run. Sorted, so that the order of unrelated events does not tell states apart.
-#[derive(Clone, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
 pub struct History {
     commands: Vec<CommandRecord>,
     confirmed: Vec<(SessionId, Confirmation)>,
@@ -26,8 +23,7 @@ pub struct History {
 
 /// Progress of one command.
 #[expect(clippy::struct_excessive_bools, reason = "each is an independent fact")]
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct CommandRecord {
     /// The follower that it was sent to.
     pub to: StationId,

@@ -23,7 +23,6 @@ use crossguard_protocol::{
     Coordination, Decimetres, Farewell, Input, Output, Ram, Renaming, Rmcm, Robot, StationId,
 };
 
-use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use crate::canonical::Renamable;
@@ -37,7 +36,7 @@ pub const MAX_DELAYED: usize = 4;
 const MAX_ON_AIR: usize = 30;
 
 /// A message.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[allow(
     clippy::large_enum_variant,
     reason = "each is interned once, and is copied as it is"

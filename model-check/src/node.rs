@@ -7,7 +7,6 @@ use crossguard_protocol::{
     Millis, Output, Outputs, Phase, Renaming, Robot, SessionId, StationId, Timer,
 };
 
-use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use crate::canonical::Renamable;
@@ -37,7 +36,7 @@ impl Rules for Protocol {
 }
 
 /// A robot in the model.
-#[derive(Clone, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub struct Node {
     /// The protocol state; `None` while the robot is down.
     pub robot: Option<Robot>,
@@ -49,7 +48,7 @@ pub struct Node {
 
 /// State that survives a crash: the boot counter by the protocol's own rule, the station id because the
 /// model's robots keep theirs.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Persisted {
     /// The station id.
     pub station: StationId,
@@ -58,8 +57,7 @@ pub struct Persisted {
 }
 
 /// State of a robot's body and application by its outputs alone. The properties compare it with the protocol state.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub struct Actuation {
     /// Whether the pedestrian is let across.
     pub corridor_open: bool,

@@ -18,12 +18,10 @@ use crossguard_protocol::{
     Place, Ram, Renaming, SessionId, Settings, StopReason,
 };
 
-use serde::{Deserialize, Serialize};
-
 use crate::serial::beat_is_newer;
 
 /// Activity of a robot's body.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub enum Body {
     /// Nothing.
     #[default]
@@ -41,7 +39,7 @@ pub enum Body {
 }
 
 /// How a body has come to do nothing, without having been stopped.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum End {
     /// It has finished.
     Done,
@@ -193,7 +191,7 @@ impl fmt::Display for Body {
 }
 
 /// Messages that a leader has received of leaders that go before it at its place, in this session.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub enum Heard {
     /// Nothing.
     #[default]
@@ -287,9 +285,7 @@ impl LeaderClaim {
 }
 
 /// The pedestrian at the place that the scenario is about.
-#[derive(
-    Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default, Serialize, Deserialize,
-)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 pub enum Pedestrian {
     /// Waits for a sign that shows go.
     #[default]

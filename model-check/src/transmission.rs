@@ -1,9 +1,7 @@
 //! One message on its way from one robot to another.
 
-use serde::{Deserialize, Serialize};
-
 /// One message on its way to one receiver.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Transmission {
     /// The sender's place in the scenario.
     pub from: u8,
