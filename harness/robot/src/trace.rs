@@ -8,7 +8,9 @@ mod file;
 mod reader;
 
 pub use file::{LogFile, LogLimits, open};
-pub use reader::{HELD_US, Log, LogError, Merged, Records, SAME_CLOCK_US, Timed, Unreadable};
+pub use reader::{
+    HELD_US, Lines, Log, LogError, Merged, Records, SAME_CLOCK_US, Timed, Unreadable,
+};
 
 use std::io::Write;
 

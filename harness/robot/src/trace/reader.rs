@@ -63,22 +63,15 @@ pub struct LogError {
 /// The records of a log, one after the other.
 pub struct Records<'a> {
     log: Log<'a>,
-    line: usize,
-    /// When the log's clock showed 0, in µs since 1970, as far as is known.
-    began_us: Option<i128>,
-    at_us: u64,
+    lines: Lines,
 }
 
 impl<'a> Records<'a> {
     /// The records of `log`.
     #[must_use]
-    pub const fn new(log: Log<'a>) -> Self {
-        Self {
-            log,
-            line: 0,
-            began_us: None,
-            at_us: 0,
-        }
+    pub fn new(log: Log<'a>) -> Self {
+        let lines = Lines::default();
+        Self { log, lines }
     }
 
     /// Name of the log.
@@ -90,7 +83,7 @@ impl<'a> Records<'a> {
     /// The line of the record that was taken last, counted from 1.
     #[must_use]
     pub const fn line(&self) -> usize {
-        self.line
+        self.lines.line
     }
 
     /// Takes the next record; `None` at the end. A last line without an end that is no record was cut
@@ -99,19 +92,50 @@ impl<'a> Records<'a> {
     /// # Errors
     /// When the file cannot be read, is empty, or a line is no record.
     pub fn take(&mut self) -> Result<Option<Record>, Unreadable> {
-        self.line += 1;
         let text = read_line(&mut self.log.lines)?;
+        self.lines.record(&text)
+    }
+
+    /// When a record was written, in microseconds since 1970 by the clock of the robot's machine.
+    #[must_use]
+    pub fn unix_us(&self, record: &Record) -> u64 {
+        self.lines.unix_us(record)
+    }
+}
+
+/// The lines of a log so far, and its clock.
+#[derive(Debug, Default)]
+pub struct Lines {
+    line: usize,
+    /// When the log's clock showed 0, in µs since 1970, as far as is known.
+    began_us: Option<i128>,
+    at_us: u64,
+}
+
+impl Lines {
+    /// How many lines there were.
+    #[must_use]
+    pub const fn line(&self) -> usize {
+        self.line
+    }
+
+    /// The record in the next line; `None` in an empty text, which is the end, and in a last line that was cut off.
+    ///
+    /// # Errors
+    /// The log is empty, or the line is no record.
+    pub fn record(&mut self, text: &[u8]) -> Result<Option<Record>, Unreadable> {
+        self.line += 1;
         if text.is_empty() {
             return match self.line {
                 1 => Err(Unreadable::Empty),
                 _ => Ok(None),
             };
         }
-        let record = match serde_json::from_slice::<Record>(&text) {
+        let record = match serde_json::from_slice::<Record>(text) {
             Ok(record) => record,
             Err(_) if !text.ends_with(b"\n") && self.line > 1 => return Ok(None),
             Err(_)
-                if self.line == 1 && perception::parse(&String::from_utf8_lossy(&text)).is_ok() =>
+                if self.line == 1 && perception::parse(&String::from_utf8_lossy(text)).is_ok() =>
             {
                 return Err(Unreadable::Frames);
             }

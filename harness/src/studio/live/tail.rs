@@ -1,14 +1,12 @@
 //! Logs that grow: whole lines are taken as they come, and a file that is cut short or replaced is read anew.
 
-use std::cell::RefCell;
 use std::fs::{File, Metadata};
-use std::io::{BufRead, Read, Seek, SeekFrom};
+use std::io::{Read, Seek, SeekFrom};
 use std::os::unix::fs::MetadataExt as _;
 use std::path::PathBuf;
-use std::rc::Rc;
 use std::time::{Duration, SystemTime};
 
-use crossguard_robot::trace::{Log, Records, Timed};
+use crossguard_robot::trace::{Lines, Timed};
 
 /// The most that is read of a log at once, in octets: a log of hours is read on while pages are served.
 const READ_MAX: u64 = 4 << 20;
@@ -24,8 +22,7 @@ pub(super) struct Tail {
     /// How far it has been read, and what of it is no whole line yet.
     read: u64,
     rest: Vec<u8>,
-    lines: Rc<RefCell<Vec<u8>>>,
-    records: Records<'static>,
+    lines: Lines,
     /// How it is with the log.
     pub(super) state: TailState,
     /// How often it began anew.
@@ -55,16 +52,13 @@ pub(super) struct Taken {
 impl Tail {
     /// Of the log in this file, which is the one at this place of all.
     pub(super) fn new(path: PathBuf, place: usize) -> Self {
-        let lines = Rc::default();
-        let records = records(&path, &lines);
         Self {
             path,
             place,
             file: None,
             read: 0,
             rest: Vec::new(),
-            lines,
-            records,
+            lines: Lines::default(),
             state: TailState::Missing("nobody has looked yet".to_owned()),
             restarts: 0,
         }
@@ -74,7 +68,7 @@ impl Tail {
     pub(super) fn take(&mut self) -> Taken {
         match self.grow() {
             Ok((whole_lines, age, has_more)) => Taken {
-                records: self.parse(whole_lines),
+                records: self.parse(&whole_lines),
                 age,
                 has_more,
             },
@@ -90,8 +84,8 @@ impl Tail {
         }
     }
 
-    /// Reads on. The number of whole lines that came, how long ago the file was written, and whether there is more.
-    fn grow(&mut self) -> std::io::Result<(usize, Duration, bool)> {
+    /// Reads on. The whole lines that came, how long ago the file was written, and whether there is more.
+    fn grow(&mut self) -> std::io::Result<(Vec<u8>, Duration, bool)> {
         let named = std::fs::metadata(&self.path)?;
         // To open a pipe would wait for somebody who writes.
         if !named.is_file() {
@@ -109,7 +103,7 @@ impl Tail {
             self.state = TailState::Followed;
         }
         let Some(file) = &mut self.file else {
-            return Ok((0, Duration::ZERO, false));
+            return Ok((Vec::new(), Duration::ZERO, false));
         };
         file.seek(SeekFrom::Start(self.read))?;
         let before = self.rest.len();
@@ -123,13 +117,11 @@ impl Tail {
         let whole = end.map_or(0, |end| before + end + 1);
         let rest = self.rest.split_off(whole);
         let lines = std::mem::replace(&mut self.rest, rest);
-        let count = lines.split(|octet| *octet == b'\n').count() - 1;
         if self.rest.len() > REST_MAX {
             self.state = TailState::Broken("a line of it has no end".to_owned());
             self.rest.clear();
         }
-        self.lines.borrow_mut().extend(lines);
-        Ok((count, age, read as u64 == READ_MAX))
+        Ok((lines, age, read as u64 == READ_MAX))
     }
 
     fn begin_anew(&mut self) {
@@ -137,26 +129,24 @@ impl Tail {
         self.file = None;
         self.read = 0;
         self.rest.clear();
-        self.lines.borrow_mut().clear();
-        self.records = records(&self.path, &self.lines);
+        self.lines = Lines::default();
         self.state = TailState::Followed;
     }
 
-    fn parse(&mut self, whole_lines: usize) -> Vec<Timed> {
+    fn parse(&mut self, whole_lines: &[u8]) -> Vec<Timed> {
         let mut taken = Vec::new();
-        for _ in 0..whole_lines {
+        for line in whole_lines.split_inclusive(|octet| *octet == b'\n') {
             if matches!(self.state, TailState::Broken(_)) {
                 break;
             }
-            match self.records.take() {
-                Ok(Some(record)) => taken.push(Timed {
+            match self.lines.record(line) {
+                Ok(record) => taken.extend(record.map(|record| Timed {
                     log: self.place,
-                    at_us: self.records.unix_us(&record),
+                    at_us: self.lines.unix_us(&record),
                     record,
-                }),
-                Ok(None) => break,
+                })),
                 Err(cause) => {
-                    let line = self.records.line();
+                    let line = self.lines.line();
                     self.state = TailState::Broken(format!("line {line}: {cause}"));
                 }
             }
@@ -165,48 +155,8 @@ impl Tail {
     }
 }
 
-fn records(path: &std::path::Path, lines: &Rc<RefCell<Vec<u8>>>) -> Records<'static> {
-    let lines = WholeLines {
-        source: Rc::clone(lines),
-        buffer: Vec::new(),
-        at: 0,
-    };
-    Records::new(Log::new(path.display().to_string(), lines))
-}
-
 fn is_same(one: &Metadata, other: &Metadata) -> bool {
     (one.dev(), one.ino()) == (other.dev(), other.ino())
-}
-
-/// Whole lines that have come; at an end of them more may come.
-struct WholeLines {
-    source: Rc<RefCell<Vec<u8>>>,
-    buffer: Vec<u8>,
-    at: usize,
-}
-
-impl BufRead for WholeLines {
-    fn fill_buf(&mut self) -> std::io::Result<&[u8]> {
-        if self.at >= self.buffer.len() {
-            self.buffer = self.source.take();
-            self.at = 0;
-        }
-        Ok(&self.buffer[self.at..])
-    }
-
-    fn consume(&mut self, amount: usize) {
-        self.at += amount;
-    }
-}
-
-impl Read for WholeLines {
-    fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
-        let available = self.fill_buf()?;
-        let amount = available.len().min(into.len());
-        into[..amount].copy_from_slice(&available[..amount]);
-        self.consume(amount);
-        Ok(amount)
-    }
 }
 
 #[cfg(test)]
