@@ -205,6 +205,7 @@ impl<const N: usize> Crossing<N> {
             Input::BodyIsFree(is_free) => self.is_falling_back = !is_free,
             Input::Started(maneuver, place) => {
                 self.start(setup, maneuver, place);
+                self.set_out(setup, place, &mut out);
                 self.watch_way(setup, &mut out);
             }
             Input::Stopped => self.begin(None, false),
@@ -558,9 +559,18 @@ impl<const N: usize> Crossing<N> {
     }
 
     /// The body goes somewhere without a maneuver.
-    fn walk_to(&mut self, to: Point, out: &mut Outputs) {
-        (self.walk, self.waits, self.is_held_at_kerb) = (Some(to), false, false);
+    fn walk_to(&mut self, setup: &Setup, to: Point, out: &mut Outputs) {
+        (self.walk, self.is_held_at_kerb) = (Some(to), false);
         out.put(Output::WalkTo(to));
+        self.set_out(setup, self.walk, out);
+    }
+
+    /// The body sets out. It waits until it is known where it is: it may be at the kerb, and a vehicle may come.
+    fn set_out(&mut self, setup: &Setup, to: Option<Point>, out: &mut Outputs) {
+        self.waits = to.and(setup.ground.road).is_some() && self.pose.is_none();
+        if self.waits {
+            out.put(Output::Wait);
+        }
     }
 
     /// A robot without a part in a session goes home from the carriageway and from the place of its plan, unless it sees
@@ -574,7 +584,7 @@ impl<const N: usize> Crossing<N> {
         }
         let is_out = setup.ground.is_road(pose.at) || self.walk.is_some();
         if is_out && self.walk != Some(home) && !self.may_be_people() {
-            self.walk_to(home, out);
+            self.walk_to(setup, home, out);
         }
         if pose.at.distance_cm(home) <= u32::from(setup.position.tolerance_cm) {
             self.walk = None;
@@ -769,7 +779,7 @@ impl<const N: usize> Crossing<N> {
         if let Notice::RolesEstablished(_) = notice {
             self.own = Presence::NOWHERE;
             if let Some(place) = plan.own_place {
-                self.walk_to(place, out);
+                self.walk_to(setup, place, out);
                 if let Some((pose, age)) = self.pose {
                     self.own.learn(setup.position, place, Some(pose), age);
                 }

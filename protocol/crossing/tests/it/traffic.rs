@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 
 use crossguard_crossing::*;
-use crossguard_protocol::{Millis, StationId, TaskType};
+use crossguard_protocol::{Millis, Notice, StationId, TaskType};
 
 use crate::scene::*;
+use crate::whole::plan;
 
 fn vehicle(east: i32, north: i32, east_cms: i32, north_cms: i32) -> Vehicle {
     let velocity = Way {
@@ -394,34 +395,33 @@ fn a_body_waits_at_the_kerb_and_not_before_it_or_along_it() {
     assert!(!out.contains(&Output::Wait));
 }
 
-/// Hazard: a body at the kerb that waits for a vehicle does not know any more where it is, and goes on in front of that vehicle.
+/// Hazard: nobody knows where a body is, which is at the kerb, and it steps in front of a vehicle.
 #[test]
-fn a_body_that_waits_does_not_go_on_before_it_is_known_where_it_is() {
-    let mut setup = street();
-    setup.watches = false;
-    let comes = |scene: &mut Scene| {
-        scene.tell(Input::Vehicle(vehicle(-1_900, 200, 1_389, 0), Millis(0)));
+fn a_body_sets_out_for_the_road_once_it_is_known_where_it_is() {
+    let (blocks, to) = (maneuver(TaskType::BLOCK, 0), Point::new(0, 200));
+    let mut plan = plan(&[]);
+    plan.own_place = Some(to);
+    let setup = Setup {
+        watches: false,
+        plan: Some(plan),
+        ..street()
     };
-    for is_told in [true, false] {
+    let follows = Input::Started(blocks, Some(to));
+    let leads = Input::Notice(Notice::RolesEstablished(blocks.id.session));
+    for starts in [follows, leads] {
         let mut scene = Scene::new(setup.clone());
-        comes(&mut scene);
-        scene.is_at(0, -100, 0);
-        let to = Some(Point::new(0, 200));
-        scene.tell(Input::Started(maneuver(TaskType::BLOCK, 0), to));
-        if is_told {
-            scene.tell(Input::Pose(None, Millis(0)));
+        let out = scene.tell(starts);
+        assert!(out.contains(&Output::Wait), "{starts:?}");
+        scene.pass(3_000);
+        scene.tell(Input::Vehicle(vehicle(-1_900, 200, 1_389, 0), Millis(0)));
+        for (ms, expected) in [(1, false), (5_000, true)] {
+            scene.is_at(0, -100, 0);
+            scene.pass(ms);
+            scene.is_at(0, -100, 0);
+            scene.pass(0);
+            let goes_on = scene.out.contains(&Output::GoOn);
+            assert_eq!(goes_on, expected, "{starts:?}");
         }
-        // Its position lasts for a second.
-        for _ in 0..3 {
-            scene.pass(500);
-            comes(&mut scene);
-        }
-        assert!(scene.out.contains(&Output::Wait));
-        assert!(!scene.out.contains(&Output::GoOn), "{is_told}");
-        scene.pass(5_001);
-        scene.is_at(0, -100, 0);
-        scene.pass(1);
-        assert!(scene.out.contains(&Output::GoOn), "{is_told}");
     }
 }
 
