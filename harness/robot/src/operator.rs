@@ -66,6 +66,32 @@ pub enum Misunderstood {
     Surplus(String),
 }
 
+/// After how long without a turn lines may have waited for too long: what a person saw of the road may not be so any more. A
+/// message of a station is fresh for as long.
+const HELD_US: u64 = 2_000_000;
+
+/// For how long after that a line that is heard may have waited, too.
+const WAITED_US: u64 = 100_000;
+
+/// Turns of a loop that hears lines.
+#[derive(Debug, Default)]
+pub struct Turns {
+    /// When the last turn was, and until when lines may be ones that waited.
+    last_us: u64,
+    waited_until_us: u64,
+}
+
+impl Turns {
+    /// A turn begins. Whether lines that are heard in it may have waited while the process was held: nobody knows how old they are.
+    pub fn begin(&mut self, now_us: u64) -> bool {
+        let held_us = now_us.saturating_sub(std::mem::replace(&mut self.last_us, now_us));
+        if held_us >= HELD_US {
+            self.waited_until_us = now_us + WAITED_US;
+        }
+        now_us < self.waited_until_us
+    }
+}
+
 /// Understands a line. Places in it are on `site`; `detect` alone is the request that is `planned`.
 ///
 /// # Errors

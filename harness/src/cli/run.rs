@@ -45,7 +45,7 @@ use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Faults, Halves, Link, Reopening, Transport, WithFaults};
 use drops::Drops;
 use output::Outputs;
-use typed::TYPED;
+use typed::{TYPED, Typed};
 
 use super::interrupts::interrupts;
 use super::ranges::{any, group, station};
@@ -229,7 +229,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     console.say(&longest_times(config, &file));
     console.say_ports(metrics);
     let interrupted = interrupts();
-    let outcome = console.attend(&running, &outputs.records, &typed::lines(), &interrupted);
+    let outcome = console.attend(&running, &outputs.records, typed::lines(), &interrupted);
     running.order(Order::Stop);
     let ended = running.wait();
     let served = operators.map_or(Ok(()), JoinHandle::join);
@@ -394,7 +394,7 @@ impl Console<'_> {
         &mut self,
         running: &Running,
         records: &Receiver<Arc<Record>>,
-        lines: &Receiver<String>,
+        mut lines: Typed,
         interrupted: &AtomicBool,
     ) -> Result<(), Failure> {
         let mut quits = false;
@@ -411,9 +411,9 @@ impl Console<'_> {
                 self.tally.with(|it| it.causes.set(&cause, inbox_full));
             }
             while self.pending.len() < TYPED
-                && let Ok(text) = lines.try_recv()
+                && let Some(text) = lines.next()
             {
-                match typed::understood(&text, self.file, typed::is_by_person())? {
+                match lines.understood(&text, self.file)? {
                     Ok(line) => self.pending.push_back(line),
                     Err(mistake) => self.say(&mistake),
                 }

@@ -25,7 +25,7 @@ use crossguard_protocol::{Availability, Event, HelpRequest, Input, Output, Outpu
 use serde_json::{Map, Value};
 
 use self::lines::{Fields, ToOperator, condition, said};
-use super::{Line, parse};
+use super::{Line, Turns, parse};
 use crate::perception::{self, Feed, OF_SOURCE, Observation, Taken, instant_of};
 use crate::port::{Heard, Listening, Stream};
 use crate::runtime::{Clock, Order, Orders};
@@ -49,13 +49,6 @@ const TICK: Duration = Duration::from_millis(10);
 
 /// How many lines are taken in at a time.
 const LINES_AT_A_TIME: usize = 16;
-
-/// After how long without a turn lines may have waited for too long: what a person saw of the road may not be so any more. A
-/// message of a station is fresh for as long.
-const HELD_US: u64 = 2_000_000;
-
-/// For how long after that somebody who connects may have waited, too.
-const WAITED_US: u64 = 100_000;
 
 /// How soon a person does not say again what only a person says.
 const AGAIN_US: u64 = 3_000_000;
@@ -94,7 +87,7 @@ impl Desk {
     ) -> JoinHandle<()> {
         std::thread::spawn(move || {
             let mut counter = Counter::new(self, orders);
-            counter.turned_us = clock.now_us();
+            counter.turns.last_us = clock.now_us();
             loop {
                 let record = records.recv_timeout(TICK);
                 let now_us = clock.now_us();
@@ -143,9 +136,7 @@ struct Counter<O> {
     told: Option<(Fields, u64)>,
     /// Until when the pedestrian may cross, by the leases that stand.
     go_ends_us: u64,
-    /// When the last turn was, and until when connections may be ones that waited.
-    turned_us: u64,
-    waited_until_us: u64,
+    turns: Turns,
     /// When a person said each of these last.
     said_us: [Option<u64>; 3],
     /// The connection that said the newest frame of each sensor source, and when.
@@ -161,23 +152,18 @@ impl<O: Obeys> Counter<O> {
             robot: None,
             told: None,
             go_ends_us: 0,
-            turned_us: 0,
-            waited_until_us: 0,
+            turns: Turns::default(),
             said_us: [None; 3],
             sources: BTreeMap::new(),
         }
     }
 
-    /// A turn begins. After a long pause nobody knows how old lines are that wait: the connections end, and with them the lines.
+    /// A turn begins. Where lines may have waited, the connections end, and with them the lines.
     fn wake(&mut self, now_us: u64) {
-        let held_us = now_us.saturating_sub(self.turned_us);
-        self.turned_us = now_us;
-        if held_us < HELD_US {
-            return;
-        }
-        self.waited_until_us = now_us + WAITED_US;
-        for client in std::mem::take(&mut self.clients).into_values() {
-            self.send_away(client.stream);
+        if self.turns.begin(now_us) {
+            for client in std::mem::take(&mut self.clients).into_values() {
+                self.send_away(client.stream);
+            }
         }
     }
 
@@ -270,7 +256,7 @@ impl<O: Obeys> Counter<O> {
                 stream.close();
                 self.count(Cause::OperatorsFull, "a program more than can be connected");
             }
-            Heard::Connected(_, stream) if now_us < self.waited_until_us => {
+            Heard::Connected(_, stream) if now_us < self.turns.waited_until_us => {
                 self.send_away(stream);
             }
             Heard::Connected(number, mut stream) => {

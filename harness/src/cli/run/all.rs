@@ -124,14 +124,14 @@ pub(super) fn run(folder: &Path) -> Result<(), Failure> {
         .iter()
         .map(|(path, file)| start(path, file, &named, people.as_deref()));
     let mut robots = started.collect::<Result<Vec<_>, _>>()?;
-    let (lines, mut is_ending, mut failed) = (typed::lines(), false, false);
+    let (mut lines, mut is_ending, mut failed) = (typed::lines(), false, false);
     let mut script = Ok(());
     while robots.iter().any(|robot| !robot.has_ended) {
-        if let Ok(line) = lines.try_recv() {
+        if let Some(line) = lines.next() {
             let robot_names = files.iter().map(|(_, file)| &*file.name);
             let (to, command) = typed::addressed(&line, robot_names);
             // A line with a meaning has one for all robots. A robot is told nothing else: it takes its pipe for a script.
-            match typed::understood(command, &files[to.unwrap_or(0)].1, typed::is_by_person()) {
+            match lines.understood(command, &files[to.unwrap_or(0)].1) {
                 Ok(Ok(_)) => {
                     let told = robots.iter_mut().enumerate();
                     let told = told.filter(|(nth, _)| to.is_none_or(|to| to == *nth));

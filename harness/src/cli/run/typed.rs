@@ -3,8 +3,11 @@
 use std::io::{IsTerminal, stdin};
 use std::sync::mpsc::{Receiver, sync_channel};
 
-use crossguard_robot::operator::{self, Line};
+use crossguard_endpoint::Stimulus;
+use crossguard_protocol::{Availability, Event};
+use crossguard_robot::operator::{self, Line, Turns};
 use crossguard_robot::robot_file::RobotFile;
+use crossguard_robot::runtime::{Clock, Order};
 use nix::unistd::{getpgrp, tcgetpgrp};
 
 use super::super::Failure;
@@ -12,8 +15,18 @@ use super::super::Failure;
 /// How many lines are kept until it is their turn; the others stay in the pipe.
 pub(super) const TYPED: usize = 64;
 
-/// Reads lines as they come, on a thread of its own that ends with the input. The robot goes on.
-pub(super) fn lines() -> Receiver<String> {
+/// Lines as they come, and their origin.
+pub(super) struct Typed {
+    lines: Receiver<String>,
+    /// Whether a person types, and no script.
+    by_person: bool,
+    clock: Clock,
+    turns: Turns,
+    may_have_waited: bool,
+}
+
+/// Reads lines on a thread of its own that ends with the input. The robot goes on.
+pub(super) fn lines() -> Typed {
     let (send, lines) = sync_channel(TYPED);
     if !is_in_background() {
         std::thread::spawn(move || {
@@ -26,32 +39,56 @@ pub(super) fn lines() -> Receiver<String> {
             }
         });
     }
-    lines
-}
-
-/// Whether a person types, and no script.
-pub(super) fn is_by_person() -> bool {
-    stdin().is_terminal()
-}
-
-/// Meaning of a line to this robot, or why it means nothing. A person is told why, and tries again. Lines that a person
-/// types are held back by nothing: an emergency stop must not wait. Fails where a script has it wrong: it is wrong from
-/// there on.
-pub(super) fn understood(
-    text: &str,
-    robot: &RobotFile,
-    by_person: bool,
-) -> Result<Result<Line, String>, Failure> {
-    let request = robot.plan().map(|plan| plan.request());
-    match operator::parse(text, &robot.site, request) {
-        Ok(Line::Wait(_) | Line::Until(..)) if by_person => Ok(Err(
-            "'wait' and 'until' are for scripts that are piped in; a line that is typed is carried out at once"
-                .to_owned(),
-        )),
-        Ok(line) => Ok(Ok(line)),
-        Err(error) if by_person => Ok(Err(error.to_string())),
-        Err(error) => Err(Failure::Input(format!("'{text}': {error}"))),
+    Typed {
+        lines,
+        by_person: stdin().is_terminal(),
+        clock: Clock::start(),
+        turns: Turns::default(),
+        may_have_waited: false,
     }
+}
+
+impl Typed {
+    /// The next line, if one has come.
+    pub(super) fn next(&mut self) -> Option<String> {
+        self.may_have_waited = self.turns.begin(self.clock.now_us());
+        self.lines.try_recv().ok()
+    }
+
+    /// Meaning of this line to this robot, or why it means nothing. A person is told why, and tries again. Lines that a person
+    /// types are held back by nothing: an emergency stop must not wait. Fails where a script has it wrong: it is wrong from
+    /// there on.
+    pub(super) fn understood(
+        &self,
+        text: &str,
+        robot: &RobotFile,
+    ) -> Result<Result<Line, String>, Failure> {
+        let request = robot.plan().map(|plan| plan.request());
+        match operator::parse(text, &robot.site, request) {
+            Ok(line) if self.by_person && self.may_have_waited && !stops(&line) => Ok(Err(format!(
+                "'{text}' is dropped: the robot was held. Look first, and say it again"
+            ))),
+            Ok(Line::Wait(_) | Line::Until(..)) if self.by_person => Ok(Err(
+                "'wait' and 'until' are for scripts that are piped in; a line that is typed is carried out at once"
+                    .to_owned(),
+            )),
+            Ok(line) => Ok(Ok(line)),
+            Err(error) if self.by_person => Ok(Err(error.to_string())),
+            Err(error) => Err(Failure::Input(format!("'{text}': {error}"))),
+        }
+    }
+}
+
+/// Whether a line stops the robot: one that comes late makes nothing less safe.
+fn stops(line: &Line) -> bool {
+    use Availability::Unavailable;
+    use Event::AvailabilityChanged;
+    matches!(
+        line,
+        Line::Order(Order::Tell(Stimulus::Event(AvailabilityChanged(
+            Unavailable(_)
+        ))))
+    )
 }
 
 /// The robot that a line is for, which is the one with the longest name that it begins with, in whatever case, and the rest
@@ -101,17 +138,54 @@ mod tests {
         ("until idle 5", "are for scripts that are piped in", ""),
     ];
 
+    fn robot() -> RobotFile {
+        RobotFile::parse(Path::new("r.toml"), ROBOT, Besides::default()).unwrap()
+    }
+
+    /// The next line, of a person or a script, after the process was held or not.
+    fn line(text: &str, by_person: bool, is_held: bool) -> Result<Result<Line, String>, Failure> {
+        let (send, lines) = sync_channel(TYPED);
+        let mut turns = Turns::default();
+        if is_held {
+            turns.begin(u64::from(u32::MAX));
+        }
+        let mut typed = Typed {
+            lines,
+            by_person,
+            turns,
+            clock: Clock::start(),
+            may_have_waited: false,
+        };
+        send.send(text.to_owned()).unwrap();
+        let text = typed.next().unwrap();
+        typed.understood(&text, &robot())
+    }
+
     /// Hazard: a typing mistake ends a guard, or an emergency stop waits behind a line that was typed before it.
     #[test]
     fn no_line_of_a_person_ends_the_robot_or_holds_the_next_one_back() {
-        let file = RobotFile::parse(Path::new("r.toml"), ROBOT, Besides::default()).unwrap();
-        for (line, to_person, to_script) in LINES {
-            let told = understood(line, &file, true).expect("a person types on");
+        for (text, to_person, to_script) in LINES {
+            let told = line(text, true, false).expect("a person types on");
             let told = told.err().unwrap_or_default();
             let is_told = told.contains(to_person) && told.is_empty() == to_person.is_empty();
-            assert!(is_told, "{line}: {told}");
-            let ends = understood(line, &file, false).is_err();
-            assert_eq!(ends, to_script == "ends", "{line}");
+            assert!(is_told, "{text}: {told}");
+            let ends = line(text, false, false).is_err();
+            assert_eq!(ends, to_script == "ends", "{text}");
+        }
+    }
+
+    /// Hazard: a person types that the road is clear, the process hangs, somebody steps on the road, and the process goes on.
+    #[test]
+    fn a_line_that_was_typed_while_the_process_was_held_is_dropped_unless_it_stops_the_robot() {
+        for (text, by_person, is_dropped) in [
+            ("clear", true, true),
+            ("available", true, true),
+            ("unavailable emergency-stop", true, false),
+            ("clear", false, false),
+        ] {
+            assert!(matches!(line(text, by_person, false), Ok(Ok(_))), "{text}");
+            let is_told = matches!(line(text, by_person, true), Ok(Err(_)));
+            assert_eq!(is_told, is_dropped, "{text}");
         }
     }
 

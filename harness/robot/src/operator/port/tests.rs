@@ -13,6 +13,7 @@ use crossguard_protocol::{
 
 use serde_json::json;
 
+use super::super::HELD_US;
 use super::*;
 use crate::port::prepare;
 use crate::table::rows;
