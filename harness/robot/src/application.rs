@@ -41,7 +41,7 @@ use crate::zone::{place, point};
 /// How far from a crossing a robot is that asks for help there, in metres at most: its sensors have the people who wait.
 const ASKS_WITHIN_M: f64 = 50.0;
 
-/// The longest list of wishes; more are dropped, and counted.
+/// The longest list of wishes; more are dropped and counted, unless nothing repeats them.
 const WISHES: usize = 64;
 
 /// The application of a robot: a body, a sign, and a crossing machine.
@@ -360,19 +360,23 @@ impl Application {
         self.next_availability().or_else(|| self.wishes.pop_front())
     }
 
-    /// Wants this of its endpoint. A wish that repeats the last one takes no place: each of many vehicles may close the corridor.
+    /// Wants this of its endpoint. A wish that repeats the last one takes no place: each of many vehicles may close the corridor. One
+    /// that nothing repeats always finds a place.
     fn wish(&mut self, wish: Stimulus<'static>) {
+        use Event::{LeaveRequested, ManeuverFailed, PedestrianDetected, TaskCompleted};
+        let is_once = matches!(
+            wish,
+            Stimulus::Event(
+                PedestrianDetected(_) | ManeuverFailed(_) | LeaveRequested | TaskCompleted
+            )
+        );
         if self.wishes.back() == Some(&wish) {
             return;
         }
-        if self.wishes.len() < WISHES {
+        if is_once || self.wishes.len() < WISHES {
             self.wishes.push_back(wish);
         } else {
             self.trouble(Cause::WishesFull, "an event or a command", 1);
-            // A person waits: it is called again.
-            if let Stimulus::Event(Event::PedestrianDetected(_)) = wish {
-                self.step(Input::CallIgnored);
-            }
         }
     }
 
