@@ -1,7 +1,9 @@
 //! People that other stations report: how far they may be from the place that a message says.
 #![expect(clippy::float_cmp, reason = "whole centimetres")]
 
-use crossguard_codec::asn1::cdd::{CardinalNumber1B, ConfidenceLevel, VruClusterInformation};
+use crossguard_codec::asn1::cdd::{
+    CardinalNumber1B, ConfidenceLevel, TrafficParticipantType, VruClusterInformation,
+};
 use crossguard_codec::asn1::cdd::{VruProfileAndSubprofile, VruSubProfilePedestrian};
 use crossguard_codec::asn1::cpm::{
     DeltaTimeMilliSecondSigned, ObjectClass, ObjectClassDescription, ObjectClassWithConfidence,
@@ -14,6 +16,7 @@ use crossguard_codec::{
     ram_from,
 };
 use crossguard_endpoint::Stimulus;
+use crossguard_endpoint::station::{LocalDynamicMap, Neighbour};
 use crossguard_protocol::{Availability, Robot, StationId};
 
 use crate::support::{endpoint, moment};
@@ -28,8 +31,8 @@ fn message(file: &'static str, name: &str) -> ItsMessage {
     decoded.unwrap().message
 }
 
-/// The people on the map of a robot that hears a message of the station.
-fn heard(service: Service, octets: &[u8]) -> Vec<RoadUser> {
+/// The map of a robot that hears a message of the station.
+fn map_of(service: Service, octets: &[u8]) -> LocalDynamicMap {
     let (now, state) = (moment(0), RobotState::default());
     let mut stack = Stack::of_robot(Identifiers::default(), HEAD);
     let ego = EgoPosition::of(&state, now.timestamp_its);
@@ -40,8 +43,13 @@ fn heard(service: Service, octets: &[u8]) -> Vec<RoadUser> {
         arrived_ms: now.now_ms,
     };
     endpoint.handle(now, &state, datagram);
-    let people = endpoint.map().of_kind(Kind::Vru);
-    people.map(|known| known.user).collect()
+    endpoint.map().clone()
+}
+
+/// The people on it.
+fn heard(service: Service, octets: &[u8]) -> Vec<RoadUser> {
+    let map = map_of(service, octets);
+    map.of_kind(Kind::Vru).map(|known| known.user).collect()
 }
 
 /// The only person or group of a message, and the error of its place in centimetres.
@@ -138,8 +146,8 @@ fn people_in_a_ram_reach_as_far_as_their_shape_and_its_sender_is_none_of_them() 
     assert!(of_size(0, None).is_empty());
 }
 
-/// The object of P2 as one of this class, measured so long before its message is made by a station whose clock is so far ahead.
-fn object(class: Option<ObjectClass>, age_ms: i16, ahead_ms: u64, tells: bool) -> ItsMessage {
+/// The object of P2 as one of these classes, measured so long before its message is made by a station whose clock is so far ahead.
+fn object(classes: &[(ObjectClass, u8)], age_ms: i16, ahead_ms: u64, tells: bool) -> ItsMessage {
     let ItsMessage::Cpm(mut cpm) = message(golden::ITS, "P2") else {
         panic!("not a CPM")
     };
@@ -150,10 +158,10 @@ fn object(class: Option<ObjectClass>, age_ms: i16, ahead_ms: u64, tells: bool) -
     });
     let object = &mut objects.unwrap()[0];
     object.measurement_delta_time = DeltaTimeMilliSecondSigned(-age_ms);
-    object.classification = class.map(|class| {
-        let class = ObjectClassWithConfidence::new(class, ConfidenceLevel(90));
-        ObjectClassDescription(vec![class])
+    let classes = classes.iter().map(|(class, confidence)| {
+        ObjectClassWithConfidence::new(class.clone(), ConfidenceLevel(*confidence))
     });
+    object.classification = Some(ObjectClassDescription(classes.collect()));
     object.velocity.take_if(|_| !tells);
     ItsMessage::Cpm(cpm)
 }
@@ -168,7 +176,7 @@ fn pedestrian() -> ObjectClass {
 fn what_a_cpm_tells_is_as_old_as_it_says_whatever_the_clock_of_its_station() {
     let now_its = moment(0).timestamp_its;
     for ahead_ms in [0, 500, 10_000] {
-        let (person, _) = one(&object(Some(pedestrian()), 1_500, ahead_ms, true));
+        let (person, _) = one(&object(&[(pedestrian(), 90)], 1_500, ahead_ms, true));
         assert_eq!(person.measured_its, now_its - 1_500, "{ahead_ms}");
     }
 }
@@ -176,7 +184,7 @@ fn what_a_cpm_tells_is_as_old_as_it_says_whatever_the_clock_of_its_station() {
 /// Hazard: somebody who was beside the road 1.5 s ago is on it, and counts as beside it.
 #[test]
 fn people_in_a_cpm_have_gone_on_since_they_were_seen() {
-    let error_cm = |age_ms, tells| one(&object(Some(pedestrian()), age_ms, 0, tells)).1;
+    let error_cm = |age_ms, tells| one(&object(&[(pedestrian(), 90)], age_ms, 0, tells)).1;
     let seen_now_cm = error_cm(0, true);
     assert_eq!(error_cm(0, false), seen_now_cm);
     // At the 2.236 m/s that they are said to walk, and at 4 m/s.
@@ -186,9 +194,31 @@ fn people_in_a_cpm_have_gone_on_since_they_were_seen() {
     }
 }
 
+/// Hazard: only the most probable class of an object counts, and a person is nobody by a hair.
+#[test]
+fn an_object_of_a_cpm_may_be_a_person_as_well_as_a_vehicle() {
+    let ids = Identifiers::default();
+    for (vehicle, person, expected) in [
+        (51, 49, true),
+        (49, 51, true),
+        (99, 1, true),
+        (33, 67, false),
+        // Not known.
+        (101, 101, true),
+    ] {
+        let car = ObjectClass::vehicleSubClass(TrafficParticipantType(5));
+        let cpm = object(&[(car, vehicle), (pedestrian(), person)], 0, 0, true);
+        let ItsMessage::Cpm(cpm) = cpm else { panic!() };
+        let map = map_of(Service::Cpm, &encode(&ids, &*cpm).unwrap());
+        let is_either = |known: &Neighbour| known.is_either;
+        let found: Vec<_> = map.iter().map(is_either).collect();
+        assert_eq!(found, [expected], "{vehicle} {person}");
+    }
+}
+
 #[test]
 fn a_group_in_a_cpm_reaches_5_m() {
-    let error_cm = |class| one(&object(Some(class), 0, 0, true)).1;
+    let error_cm = |class| one(&object(&[(class, 90)], 0, 0, true)).1;
     let group = VruClusterInformation::new(None, None, CardinalNumber1B(3), None);
     let alone_cm = error_cm(pedestrian());
     assert_eq!(

@@ -32,6 +32,8 @@ pub const fn lifetime_ms(kind: Kind) -> u64 {
 pub struct Neighbour {
     /// Its newest report.
     pub user: RoadUser,
+    /// Whether it may be a person as well as a vehicle, by the classes of a CPM.
+    pub is_either: bool,
     /// When, on the robot's clock.
     pub heard_ms: u64,
 }
@@ -46,8 +48,14 @@ impl LocalDynamicMap {
     /// Takes in what was told at `now_ms`, unless it is older than what is known, by 32.768 s at most. A robot whose RAM
     /// was heard is that robot, whatever else it sends: its CAM for other stations says less.
     pub fn observe(&mut self, user: RoadUser, now_ms: u64) {
+        self.observe_unsure(user, false, now_ms);
+    }
+
+    /// The same of somebody who may be either, a person or a vehicle.
+    pub fn observe_unsure(&mut self, user: RoadUser, is_either: bool, now_ms: u64) {
         let neighbour = Neighbour {
             user,
+            is_either,
             heard_ms: now_ms,
         };
         let robots = self.kinds.get(&Kind::Robot);

@@ -1,8 +1,12 @@
 //! Messages of other stations than robots: the road users that they put on the map.
 
+use std::iter;
+
+use crossguard_codec::asn1::cdd211::ObjectClass211;
+use crossguard_codec::asn1::cpm::ObjectClass;
 use crossguard_codec::core::cdd::Shape;
 use crossguard_codec::geonet::{EgoPosition, Indication, Signer};
-use crossguard_codec::its::ItsMessage;
+use crossguard_codec::its::{CpmContainer, ItsMessage};
 use crossguard_codec::{DecodeError, Identity, Kind, Received, RoadUser, Service};
 use crossguard_protocol::StationId;
 
@@ -89,9 +93,11 @@ impl Neighbours {
             let admitted = self.namesakes.admit(from, as_whom, now_ms);
             admitted.err().map(|why| (why, signer))
         });
-        for user in road_users(message, ego.timestamp_its) {
+        let users = road_users(message, ego.timestamp_its).into_iter();
+        let unsure = are_either(message).into_iter().chain(iter::repeat(false));
+        for (user, is_either) in users.zip(unsure) {
             let user = refused.map_or(user, |(_, signer)| apart(user, signer));
-            self.map.observe(user, now_ms);
+            self.map.observe_unsure(user, is_either, now_ms);
         }
         refused.map_or(Ok(received), |(why, _)| Err(why.into()))
     }
@@ -139,6 +145,45 @@ fn road_users(message: &ItsMessage, now_its: u64) -> Vec<RoadUser> {
         }
         _ => users(),
     }
+}
+
+/// Whether each object in a container may be a person as well as a vehicle.
+macro_rules! either {
+    ($container:expr, $class:ident) => {
+        $container.perceived_objects.0.iter().map(|object| {
+            let classes = object.classification.iter().flat_map(|it| &it.0);
+            let mut is = [None; 2];
+            for class in classes {
+                let kind = match class.object_class {
+                    $class::vehicleSubClass(_) => &mut is[0],
+                    $class::vruSubClass(_) | $class::groupSubClass(_) => &mut is[1],
+                    _ => continue,
+                };
+                // A confidence of 101 is not known.
+                *kind = (*kind).max(Some(class.confidence.0 % 101));
+            }
+            matches!(is, [Some(vehicle), Some(person)] if 2 * u16::from(vehicle) >= person.into())
+        })
+    };
+}
+
+/// Whether each object of a CPM may be a person as well as a vehicle. A vehicle may be a person, however improbable. One that is a
+/// person more than twice as probably as a vehicle is no vehicle: each person who walks on the crossing would end go.
+fn are_either(message: &ItsMessage) -> Vec<bool> {
+    let ItsMessage::Cpm(cpm) = message else {
+        return Vec::new();
+    };
+    let mut all = Vec::new();
+    for container in &cpm.cpm_containers {
+        match container {
+            CpmContainer::PerceivedObjectContainer(it) => all.extend(either!(it, ObjectClass)),
+            CpmContainer::PerceivedObjectContainer211(it) => {
+                all.extend(either!(it, ObjectClass211));
+            }
+            _ => {}
+        }
+    }
+    all
 }
 
 /// People of a CPM, who have gone on since they were measured.

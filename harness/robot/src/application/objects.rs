@@ -1,4 +1,4 @@
-//! Objects of CPM without a class: some are robots, and any other one may be a person.
+//! Objects of CPM without a class, and vehicles that may be people: some are robots, and any other one may be a person.
 //!
 //! Robots say where they are. Each explains one object of a station at most: the nearest, within reach. So a person beside a guard
 //! counts while the station has both. An inexact or an old place explains nothing. An object without a number is never explained: it
@@ -14,9 +14,11 @@ use super::Application;
 use super::senses::{age, reporter};
 
 impl Application {
-    /// Takes in the objects without a class, no faster than people walk, that were heard of now.
+    /// Takes in the objects without a class and the vehicles that may be people, no faster than people walk, that were heard of now.
     pub(super) fn hear_objects(&mut self, map: &LocalDynamicMap, now_ms: u64) {
-        let objects = map.of_kind(Kind::Object).filter(|it| !self.rides(it));
+        let unsure = map.of_kind(Kind::Vehicle).filter(|it| it.is_either);
+        let objects = map.of_kind(Kind::Object).chain(unsure);
+        let objects = objects.filter(|it| !self.is_fast(it));
         let placed = objects.filter_map(|it| Some((*it, self.pose(&it.user.position)?)));
         let objects: Vec<_> = placed.collect();
         let is_news = |(known, _): &&(Neighbour, Pose)| known.heard_ms == now_ms;

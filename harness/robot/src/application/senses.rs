@@ -274,17 +274,22 @@ impl Application {
         }
     }
 
-    /// Whether somebody comes like a vehicle: is one, a moped or a motorcycle, or is faster than people walk, whatever it is.
-    pub(super) fn rides(&self, known: &Neighbour) -> bool {
+    /// Whether somebody comes like a vehicle: may be one, a moped or a motorcycle, or is faster than people walk, whatever it is.
+    fn rides(&self, known: &Neighbour) -> bool {
         let user = &known.user;
-        let walks_mps = f64::from(self.setup.sensors.speed_max_cmps) / 100.0;
-        let is_fast = user.speed.is_some_and(|mps| mps > walks_mps);
+        let is_rider = matches!(user.station_type, Some(MOPED | MOTORCYCLE));
         match user.kind {
             Kind::Vehicle => true,
-            Kind::Vru => is_fast || matches!(user.station_type, Some(MOPED | MOTORCYCLE)),
-            Kind::Object | Kind::Robot => is_fast,
+            Kind::Vru if is_rider => true,
+            Kind::Vru | Kind::Object | Kind::Robot => known.is_either || self.is_fast(known),
             Kind::RoadSideUnit => false,
         }
+    }
+
+    /// Whether somebody is faster than people walk.
+    pub(super) fn is_fast(&self, known: &Neighbour) -> bool {
+        let walks_mps = f64::from(self.setup.sensors.speed_max_cmps) / 100.0;
+        known.user.speed.is_some_and(|mps| mps > walks_mps)
     }
 
     fn hear_vehicle(&mut self, known: &Neighbour, moment: Moment) {
