@@ -104,7 +104,7 @@ class Robot:
         self.log, config = folder / f"{name}.jsonl", folder / f"{name}.toml"
         config.write_text(
             f'{lines}\nname = "{name}"\nstation = {station}\nbuild = "{build}"\nboot_file = "{name}.boot"\n'
-            f'autopilot = true\n\n[link]\naddress = "127.0.0.1:{link[0]}"\npeers = ["127.0.0.1:{link[1]}"]\n\n'
+            f'plan_file = "crossing"\n\n[link]\naddress = "127.0.0.1:{link[0]}"\npeers = ["127.0.0.1:{link[1]}"]\n\n'
             + tables[0 if is_ported else tables.index("[operator]"):] + zone)
         self.corridor = Heard(street, Corridor, f"{space}/corridor")
         self.status = Heard(street, Status, f"{space}/status")

@@ -529,6 +529,7 @@ impl RobotTable {
         let plan = plan
             .map(|name| PlanFile::open_for(name, layout.at(site), config.settings()))
             .transpose()?;
+        let is_sited = self.site_file.is_some() || self.site.is_some();
         let traits = traits::check(self.job, self.dimensions_m.map(|it| it.0), &self.battery)?;
         Ok(RobotFile {
             name: self.name,
@@ -545,7 +546,7 @@ impl RobotTable {
             carriageway,
             kerbs,
             plan_file: plan,
-            body_port: self.body.map(|body| body.check(folder)).transpose()?,
+            body_port: (self.body.map(|body| body.check(folder, is_sited))).transpose()?,
             operator_port: self.operator.map(|it| it.check(folder)).transpose()?,
             link: self.link.check()?,
             config,

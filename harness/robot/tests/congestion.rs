@@ -30,7 +30,7 @@ fn shortest_gap_ms(busy_permyriad: u16, interval_ms: u64, count: usize) -> u16 {
     let path = folder.path().join("robot.toml");
     let text = format!(
         "name = \"R\"\nstation = 1\nbuild = \"wheeled\"\nboot_file = \"r.boot\"\n\
-         [body]\nlisten = \"unix:r.sock\"\nsilence_ms = 5000\n[link]\nunit = \"{address}\"\n"
+         [site]\nlatitude = 49.0\nlongitude = 8.4\n[body]\nlisten = \"unix:r.sock\"\nsilence_ms = 5000\n[link]\nunit = \"{address}\"\n"
     );
     std::fs::write(&path, text).unwrap();
     let file = RobotFile::read(&path).unwrap();

@@ -12,13 +12,17 @@ use serde_json::{Value, json};
 
 use crate::street::{ARI, GO2, Street, assert_valid, counted};
 
-/// Gives a robot a body port at a UNIX socket beside its file, with these lines more; where the socket is.
+/// Gives a robot a site, and a body port at a UNIX socket beside its file, with these lines more; where the socket is.
 fn listens(file: &str, lines: &str) -> PathBuf {
     let socket = Path::new(file).with_extension("sock");
     let name = socket.file_name().unwrap().display();
-    let body =
-        format!("[body]\n{lines}simulated_people = true\nlisten = \"unix:{name}\"\n\n[link]");
-    edit(file, &[("[link]", &body)]);
+    let body = format!(
+        "[site]\nlatitude = 49.0\nlongitude = 8.4\n\n\
+         [body]\n{lines}simulated_people = true\nlisten = \"unix:{name}\"\n\n[link]"
+    );
+    // On a site that is said a plan is wanted that is said.
+    let plan = ("autopilot = true", "plan_file = \"crossing\"");
+    edit(file, &[plan, ("[link]", &body)]);
     socket
 }
 

@@ -51,14 +51,24 @@ pub enum NoBody {
         "'simulated_people = true' beside [zone]: a robot with a zone goes by the people in frames of its sensors; leave one of the two out"
     )]
     TwoPeoples,
+    /// Its places would be metres from a corner of another town, and vehicles that it hears far away.
+    #[error(
+        "a real body wants a site: 'site_file', as 'crossguard new' writes one, or [site] with 'latitude' and 'longitude' of the \
+         origin of its places; without it, the vehicles and people that it hears would be far away"
+    )]
+    NoSite,
 }
 
 impl BodyTable {
-    pub(super) fn check(self, folder: &Path) -> Result<BodyPort, NoBody> {
+    pub(super) fn check(self, folder: &Path, is_sited: bool) -> Result<BodyPort, NoBody> {
         let silence_ms = f64::from(self.silence_ms);
         possible("silence_ms", silence_ms, 200.0..=5_000.0, "200 to 5000")?;
+        let address = PortAddress::parse(&self.listen, folder)?;
+        if !is_sited {
+            return Err(NoBody::NoSite);
+        }
         Ok(BodyPort {
-            address: PortAddress::parse(&self.listen, folder)?,
+            address,
             silence: Duration::from_millis(self.silence_ms.into()),
         })
     }

@@ -165,16 +165,36 @@ fn a_robot_escorts_people_over_its_own_road_and_in_time() {
     }
 }
 
+/// A site that is said.
+const SITED: &str = "[site]\nlatitude = 48.8\nlongitude = 9.2\n";
+
+/// A robot whose body is another process, with these lines before its tables and this table of its body.
+fn bodied(lines: &str, body: &str) -> Result<RobotFile, RobotFileError> {
+    let text = format!(
+        "name = \"ARI\"\nstation = 1\nbuild = \"humanoid\"\nboot_file = \"ari.boot\"\n{lines}\n\
+         [link]\naddress = \"127.0.0.1:1\"\n{body}\nlisten = \"unix:ari.sock\"\n"
+    );
+    RobotFile::parse(Path::new("ari.toml"), &text, Besides::default())
+}
+
+/// Hazard: vehicles that a robot hears are kilometres away from where it takes itself to be, and it sends a person on the
+/// road in front of them.
+#[test]
+fn a_real_body_is_on_a_site_that_is_said() {
+    assert!(bodied(SITED, "[body]").is_ok());
+    let refused = bodied("", "[body]").unwrap_err().to_string();
+    assert!(refused.contains("'site_file'"), "{refused}");
+}
+
 /// Hazard: guards with real bodies leave a person on the road, because the simulated people of their leader are across.
 #[test]
 fn a_real_body_leads_people_whom_it_sees_or_none() {
-    let leads = "autopilot = true";
-    let plan = "plan_file = \"crossing\"";
+    let leads = "plan_file = \"crossing\"";
     let zone = "[zone]\npavement_m = 2.5";
     let refused = Some("'simulated_people = true' under [body]");
     for (leads, body, expected) in [
+        ("autopilot = true", "[body]", refused),
         (leads, "[body]", refused),
-        (plan, "[body]", refused),
         (leads, "[body]\nsimulated_people = false", refused),
         (leads, "[body]\nsimulated_people = true", None),
         (leads, &format!("{zone}\n[body]"), None),
@@ -185,11 +205,7 @@ fn a_real_body_leads_people_whom_it_sees_or_none() {
         ),
         ("", "[body]", None),
     ] {
-        let text = format!(
-            "name = \"ARI\"\nstation = 1\nbuild = \"humanoid\"\nboot_file = \"ari.boot\"\n{leads}\n\
-             [link]\naddress = \"127.0.0.1:1\"\n{body}\nlisten = \"unix:ari.sock\"\n"
-        );
-        let file = RobotFile::parse(Path::new("ari.toml"), &text, Besides::default());
+        let file = bodied(&format!("{leads}\n{SITED}"), body);
         let error = file.err().map(|error| error.to_string());
         let is_it = error
             .as_ref()
