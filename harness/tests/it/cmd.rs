@@ -60,7 +60,7 @@ fn a_robot_that_knows_no_carriageway_says_so() {
 fn a_robot_that_does_not_count_the_people_of_its_sensors_says_so() {
     for (config, expected) in [
         ("ari", Some("those of a simulation")),
-        ("go2", Some("it does not stay for them")),
+        ("go2", Some("at its leader's word")),
         ("kerb", None),
     ] {
         let perceived = "--perceived examples/people.jsonl --check";

@@ -164,12 +164,28 @@ impl Application {
     }
 
     /// A sensor source delivered a frame that it made `age` before the time that was told last.
+    /// Without a zone its road users count as those that others report: they come, and it does not say that others are gone.
     pub fn look(&mut self, frame: &SensorFrame, age: Millis) {
+        // In a simulation there is nobody else.
+        if matches!(self.road, Road::Known(_)) {
+            return;
+        }
+        let seen: Vec<_> = frame.people.iter().map(Perceived::sighting).collect();
         let Road::Watched(zone) = &self.road else {
+            // Apart from the source that a simulated street is.
+            self.observe_frame(frame.source | 1 << 6, age, &seen);
+            self.trouble(Cause::FrameDropped("no zone"), "a frame", 1);
+            for (Perceived { vru, .. }, seen) in frame.people.iter().zip(&seen) {
+                if traffic::rides(&self.setup, seen) {
+                    let key = 1 << 60 | u64::from(frame.source) << 32 | u64::from(vru.id);
+                    let vehicle = traffic::seen(&self.setup, key, seen);
+                    self.step(Input::Vehicle(vehicle, age));
+                }
+                self.step(Input::Heard(StationId(0), *seen, age));
+            }
             return;
         };
         let covers = zone.covered(frame.covers.as_ref());
-        let seen: Vec<_> = frame.people.iter().map(Perceived::sighting).collect();
         self.observe_frame(frame.source, age, &seen);
         self.step(Input::Frame(Frame {
             source: frame.source,

@@ -279,6 +279,33 @@ fn a_late_frame_is_no_sight_of_now() {
     assert_eq!(application.next_sight().unwrap().vehicles.len(), 1);
 }
 
+/// Hazard: a guard without a zone announces the people of its own camera, and leaves them at its leader's word.
+#[test]
+fn road_users_in_frames_of_a_robot_without_a_zone_count_as_heard_ones() {
+    let application = Application::new(Box::new(Broken::default()), None);
+    let road = Street::default().zone().road.unwrap();
+    let mut application = application.on(Road::Heard(road));
+    let car = PerceivedVru {
+        class: VruClass::Vehicle,
+        velocity_mps: [8.0, 0.0],
+        ..PerceivedVru::pedestrian(2, [-12.0, 2.0])
+    };
+    let frame = SensorFrame::of(&[PerceivedVru::pedestrian(1, [1.0, 3.0]), car]);
+    application.look_at(10.0, &frame, 8_000);
+    let on_road = |it: &Application| it.crossing.tracks().is_on_road();
+    assert!(!on_road(&application), "it is too old");
+    application.look_at(10.1, &frame, 10_000);
+    assert!(on_road(&application));
+    let hindered = application.crossing.hindered(&application.setup);
+    assert!(
+        matches!(hindered, Some(Hindrance::Vehicle(_))),
+        "{hindered:?}"
+    );
+    assert_eq!(application.next_sight().unwrap().vehicles.len(), 1);
+    let no_zone = Cause::FrameDropped("no zone");
+    assert_eq!(application.next_trouble().unwrap().0, no_zone);
+}
+
 /// A vehicle so many metres to the east, with its speed in m/s and its heading in degrees, which knows its place to a metre.
 fn vehicle(east: f64, (speed, heading): (f64, f64)) -> RoadUser {
     let metre = ConfidenceEllipse {

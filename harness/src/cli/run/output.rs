@@ -112,8 +112,8 @@ pub(super) fn warn_of_no_road(file: &RobotFile, is_perceiving: bool) {
              have: its guards leave the road when these are across; say [zone] where people are real"
         )),
         Road::Heard(_) if is_perceiving => complain(format_args!(
-            "warning: {name} has no [zone], so the people that its sensors have are told to others alone: it does not stay for \
-             them; say [zone] with road_m"
+            "warning: {name} has no [zone], so the people that its sensors have count as people whom others report: it ends its task \
+             at its leader's word, and its sensors never clear the road; say [zone] with road_m"
         )),
         _ => {}
     }
