@@ -341,6 +341,17 @@ impl Application {
         self.step(Input::Said(event));
     }
 
+    /// A person says that everybody is across. Whether that counts: not while go is shown, nor while the robot's own sensors have
+    /// somebody on the road.
+    pub fn say_completed(&mut self) -> bool {
+        let shows_go = self.sign.shows_go(micros(self.at_s));
+        let counts = !shows_go && !self.crossing.occupancy().owes();
+        if !counts {
+            self.trouble(Cause::SaidTooEarly, "task-completed", 1);
+        }
+        counts
+    }
+
     /// Whether its body moves by no fallback.
     fn is_body_free(&self) -> bool {
         match self.body.fallback() {

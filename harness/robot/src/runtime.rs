@@ -354,6 +354,10 @@ impl Loop {
     fn obey(&mut self, order: Order) {
         let seen: Vec<PerceivedVru>;
         let stimulus = match order {
+            Order::Tell(Stimulus::Event(Event::TaskCompleted)) => {
+                let counts = self.machine.application.say_completed();
+                event(counts.then_some(Event::TaskCompleted))
+            }
             Order::Tell(stimulus) => stimulus,
             Order::InPosition => event(self.machine.executing().map(Event::InPosition)),
             Order::OutOfPosition => event(self.machine.executing().map(Event::OutOfPosition)),

@@ -9,14 +9,17 @@ use std::time::{Duration, Instant};
 use crossguard_codec::RobotState;
 use crossguard_endpoint::Stimulus;
 use crossguard_endpoint::cause::Cause;
+use crossguard_endpoint::ras::clustering::PerceivedVru;
 use crossguard_protocol::{
-    self as protocol, Event, HelpRequest, Phase, StationId, TaskSet, TaskType, Urgency,
+    self as protocol, Event, HelpRequest, Input, Phase, StationId, TaskSet, TaskType, Urgency,
 };
 use crossguard_robot::application::Application;
 use crossguard_robot::body::{Body, BodyAct, Build, Fallback, NotTaken, Report, Simulated};
 use crossguard_robot::journal::{RECORDS, WhenFull};
+use crossguard_robot::perception::SensorFrame;
 use crossguard_robot::runtime::{Order, Panicked, Running, Setup};
 use crossguard_robot::site::{Place, Site};
+use crossguard_robot::street::{Road, Street};
 use crossguard_robot::trace::{Entry, Record};
 use crossguard_robot::transport::{Link, Transport};
 
@@ -83,6 +86,37 @@ fn a_robot_that_panics_halts_its_body_and_says_so() {
     // No robot is there to obey, and nobody has to wait.
     robot.order(Order::Stop);
     assert_eq!(robot.wait(), Err(Panicked));
+}
+
+/// Hazard: an operator says that everybody is across while the robot's own sensors have somebody on the road, and guards leave.
+#[test]
+fn a_task_is_not_completed_while_the_robots_sensors_have_somebody_on_the_road() {
+    let body = Simulated::new(Build::Quadruped, Site::default(), Place::default(), 1.0, 1);
+    let application = Application::new(Box::new(body), None);
+    let application = application.on(Road::Watched(Street::default().zone()));
+    let link = Link::loopback(0, Vec::new()).open().unwrap();
+    let mut setup = Setup::new("R", StationId(1), application, link);
+    let records = setup
+        .journal
+        .reader(RECORDS, WhenFull::Skip, Cause::OutputFull);
+    let robot = setup.start();
+    let frame = SensorFrame::of(&[PerceivedVru::pedestrian(1, [1.0, 3.0])]);
+    // A source whose clock is ahead: its frame is young whenever the robot reads it.
+    let taken = Instant::now() + Duration::from_mins(10);
+    robot.order(Order::Looked(Arc::new(frame), taken));
+    let completed = Event::TaskCompleted;
+    robot.order(Order::Tell(Stimulus::Event(completed)));
+    robot.order(Order::Stop);
+    robot.wait().unwrap();
+    let mut is_refused = false;
+    for record in records {
+        match &record.entry {
+            Entry::Dropped { cause, .. } => is_refused |= *cause == Cause::SaidTooEarly.into(),
+            Entry::Step { input, .. } => assert_ne!(*input, Input::Local(completed)),
+            _ => {}
+        }
+    }
+    assert!(is_refused);
 }
 
 /// A robot at this port that hears the one at the other, and whether it offers its help.

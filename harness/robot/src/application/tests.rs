@@ -793,6 +793,22 @@ fn a_word_that_came_too_early_is_counted() {
     assert_eq!((cause, &*what), (Cause::SaidTooEarly, "clear"));
 }
 
+/// Hazard: an operator says that everybody is across while people step on the road at go, or while sensors have one there.
+#[test]
+fn a_person_completes_no_task_while_go_is_shown_or_somebody_is_seen_on_the_road() {
+    let mut application = watching();
+    assert!(application.say_completed());
+    application.sign.go(micros(10.0), Millis(100));
+    assert!(!application.say_completed());
+    let (cause, what, _) = application.next_trouble().unwrap();
+    assert_eq!((cause, &*what), (Cause::SaidTooEarly, "task-completed"));
+    application.advance(10.2);
+    assert!(application.say_completed());
+    let person = SensorFrame::of(&[PerceivedVru::pedestrian(1, [1.0, 3.0])]);
+    application.look(&person, Millis::ZERO);
+    assert!(!application.say_completed());
+}
+
 /// Hazard: a guard whose position is not known passes for one that is at its place.
 #[test]
 fn a_position_that_is_not_known_is_no_pose() {
