@@ -13,6 +13,11 @@
  * 3. ROAD_CLEAR is told when the fallback is finished and the road was seen to be clear: `finish_duty`.
  * 4. TASK_COMPLETED is told when nobody is on the road any more: `live`.
  *
+ * It is an example of the protocol alone, and no robot for a road. It leaves these rules of
+ * protocol/doc/integration.md to you: it asks OPEN_CORRIDOR without a look at vehicles (27) and at the
+ * places of its guards (28); its body has no sensors (24), waits for no vehicle (27) and as escort for
+ * nobody (29), and does not look before it leaves the road after a boot (30).
+ *
  * It ends with 0 when the crossing was completed, with 1 when it was not, with 2 on wrong usage.
  */
 #define _POSIX_C_SOURCE 200809L

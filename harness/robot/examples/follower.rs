@@ -10,6 +10,10 @@
 //! ```
 //!
 //! The body is a stand-in that takes three seconds for everything, and eight for an escort. Yours goes to the same places.
+//!
+//! It is an example of the protocol alone, and no robot for a road. It leaves these rules of `protocol/doc/integration.md` to you:
+//! its body has no sensors (24), waits for no vehicle (27) and as escort for nobody (29), and does not look before it leaves the road
+//! after a boot (30).
 
 use std::error::Error;
 use std::fs::File;
