@@ -257,6 +257,11 @@ impl<P: StateMachine> Exchange<P> {
             let detail = format_args!("station {} {does} at {place}", heard.from);
             return host.dropped(Cause::OtherCrossing, &detail, octets);
         }
+        let lacking = host.lacks(unoffered(me, &heard), &heard);
+        if !lacking.is_empty() {
+            let detail = format_args!("station {} cannot {lacking}", heard.from);
+            return host.dropped(Cause::Unfit, &detail, octets);
+        }
         host.heard(me, &heard, message, arrived_ms);
         for input in heard.inputs.iter() {
             let me = self.protocol.robot();
@@ -265,12 +270,6 @@ impl<P: StateMachine> Exchange<P> {
                 let detail =
                     "a command that differs from one that was accepted takes the next requestID";
                 host.dropped(cause, &detail, message);
-                continue;
-            }
-            let lacking = lacking(me, input, host.needs());
-            if !lacking.is_empty() {
-                let detail = format_args!("station {} cannot {lacking}", heard.from);
-                host.dropped(Cause::Unfit, &detail, message);
                 continue;
             }
             if let Some(promises) = self.answers_question(input) {
@@ -464,19 +463,22 @@ fn claimed(me: &Robot, heard: &Heard) -> Option<(Place, bool)> {
     heard.inputs.iter().find_map(claim)
 }
 
-/// The tasks that a robot lacks which offers to help this one, of the ones that every follower is to do and that were asked for.
-fn lacking(me: &Robot, input: &Input, needs: TaskSet) -> TaskSet {
-    if let Phase::Requesting(requesting) = me.phase()
-        && let Input::Ram { ram, .. } = input
-        && let Coordination::OfferHelp {
-            session,
-            capabilities,
-            ..
-        } = ram.coordination
-        && session == SessionId::of(me.station(), requesting.number)
-    {
-        let asked = requesting.request.tasks;
-        return needs.intersection(asked).without(capabilities);
-    }
-    TaskSet::EMPTY
+/// The tasks that this robot has asked for and that are not in an offer to it.
+fn unoffered(me: &Robot, heard: &Heard) -> TaskSet {
+    let Phase::Requesting(requesting) = me.phase() else {
+        return TaskSet::EMPTY;
+    };
+    let own = SessionId::of(me.station(), requesting.number);
+    let unoffered = heard.inputs.iter().find_map(|input| match input {
+        Input::Ram { ram, .. } => match ram.coordination {
+            Coordination::OfferHelp {
+                session,
+                capabilities,
+                ..
+            } if session == own => Some(requesting.request.tasks.without(capabilities)),
+            _ => None,
+        },
+        _ => None,
+    });
+    unoffered.unwrap_or(TaskSet::EMPTY)
 }

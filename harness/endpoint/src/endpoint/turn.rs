@@ -160,8 +160,12 @@ impl Host for Turn<'_> {
         is_here
     }
 
-    fn needs(&self) -> TaskSet {
-        self.around.needs
+    fn lacks(&mut self, unoffered: TaskSet, heard: &Heard) -> TaskSet {
+        let lacking = self.around.needs.intersection(unoffered);
+        if !lacking.is_empty() {
+            self.observe(heard);
+        }
+        lacking
     }
 
     fn heard(&mut self, me: &Robot, heard: &Heard, message: &[u8], arrived_ms: u64) {

@@ -81,8 +81,9 @@ pub trait Host {
         true
     }
 
-    /// The tasks that every follower is to do; an offer without one of them does not count.
-    fn needs(&self) -> TaskSet {
+    /// The tasks that every follower is to do, of these, which are not in the offer of a robot that was heard. Its offer does not count
+    /// if there are any. It is around in any case.
+    fn lacks(&mut self, _unoffered: TaskSet, _heard: &Heard) -> TaskSet {
         TaskSet::EMPTY
     }
 
