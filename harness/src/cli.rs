@@ -103,7 +103,7 @@ cargo run --release --features full -- --help";
 #[derive(Subcommand)]
 enum Command {
     /// Watch robots help a pedestrian across, over real sockets.
-    Demo(demo::Arguments),
+    Demo(Box<demo::Arguments>),
     /// Check scenarios exhaustively against the properties of the protocol.
     Check(check::Arguments),
     /// Print how long each response takes at most, with a robot's own settings.
