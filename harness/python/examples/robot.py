@@ -11,9 +11,9 @@ Four things in it keep people alive; when you copy it, keep them and put your ow
 4. `TaskCompleted` is told when nobody is on the road any more: `Leader.live`.
 
 It is an example of the protocol alone, and no robot for a road. It leaves these rules of
-protocol/doc/integration.md to you: it asks `OpenCorridor` without a look at vehicles (27) and at the places of
-its guards (28); its body has no sensors (24), waits for no vehicle (27) and as escort for nobody (29), and does
-not look before it leaves the road after a boot (30).
+protocol/doc/integration.md to you: it asks `OpenCorridor` without a look at vehicles (27) and at the places
+of its guards (28); its body has no sensors (24), waits for no vehicle (27) and as escort for nobody (29),
+and does not look before it leaves the road after a boot (30).
 
 It talks UDP on 127.0.0.1 with a peer that may be `crossguard run`. It ends with 0 when the crossing was
 completed, with 1 when it was not, with 2 on wrong usage.
