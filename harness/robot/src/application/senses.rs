@@ -164,7 +164,7 @@ impl Application {
     }
 
     /// A sensor source delivered a frame that it made `age` before the time that was told last.
-    /// Without a zone its road users count as those that others report: they come, and it does not say that others are gone.
+    /// A robot without a zone takes its road users as reports of another station: the frame adds people, and clears no road.
     pub fn look(&mut self, frame: &SensorFrame, age: Millis) {
         // In a simulation there is nobody else.
         if matches!(self.road, Road::Known(_)) {

@@ -232,15 +232,21 @@ fn nobody_who_steps_on_the_road_before_the_sensor_fails_is_across() {
     assert_eq!(team.alone, 0);
 }
 
-/// Hazard H: an escort waits for its person, and is not done before the person is off the road.
-#[test]
-fn an_escort_stays_with_its_person() {
+/// An escort, and its person, who stops on the road.
+fn stopping() -> Team {
     let mut team = escorting(OVER_THERE, true);
     team.robots[1].body.at = Point::new(0, -100);
     team.pass_until("go", Team::shows_go);
     team.people[0] = walking(team.people[0], 0, 40);
     team.pass(5_000);
     team.people[0] = walking(team.people[0], 0, 0);
+    team
+}
+
+/// Hazard H: an escort waits for its person, and is not done before the person is off the road.
+#[test]
+fn an_escort_stays_with_its_person() {
+    let mut team = stopping();
     team.pass(10_000);
     let ahead = team.robots[1].body.at.north_cm() - team.people[0].at.north_cm();
     assert!((0..=250).contains(&ahead), "{ahead} cm");
@@ -257,12 +263,7 @@ fn an_escort_stays_with_its_person() {
 /// Hazard: its driver does not know any more where the body is; it walks on, and the person stands on the road alone.
 #[test]
 fn an_escort_that_does_not_know_where_it_is_stays_with_its_person() {
-    let mut team = escorting(OVER_THERE, true);
-    team.robots[1].body.at = Point::new(0, -100);
-    team.pass_until("go", Team::shows_go);
-    team.people[0] = walking(team.people[0], 0, 40);
-    team.pass(5_000);
-    team.people[0] = walking(team.people[0], 0, 0);
+    let mut team = stopping();
     team.robots[1].body.is_lost = true;
     team.pass(10_000);
     let ahead = team.robots[1].body.at.north_cm() - team.people[0].at.north_cm();

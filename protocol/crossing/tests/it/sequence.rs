@@ -28,8 +28,8 @@ fn a_persons_word_that_somebody_is_on_the_road_stands_until_a_person_takes_it_ba
     assert!(!team.robots[1].body.holds);
 }
 
-/// Hazard: a person sees a child whom the sensors miss, beside somebody whom they have. The protocol knows of one already, the word is
-/// lost, and guard and leader go when the other one is across.
+/// Hazard: the sensors have an adult on the road and miss a child. An operator reports the child, the protocol knows of somebody
+/// already and ignores the report, and guard and leader go once the adult is across.
 #[test]
 fn the_word_stands_also_where_sensors_have_somebody_else() {
     for robot in [0, 1] {
